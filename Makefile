@@ -1,0 +1,63 @@
+# The short way in; CMake does the work.  `make help` lists the targets.
+
+PREFIX ?= /usr/local
+JOBS ?= $(shell nproc)
+PACKAGES = tools/install-packages.sh
+C_FILES = $(shell find src include tests bench docs examples tools -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp')
+
+.PHONY: build demo test test-long bench install docs format check-format clean help
+
+build: ## build build/festoon (optimised)
+	@$(PACKAGES) build
+	@cmake --preset release --log-level=WARNING
+	@cmake --build build -j $(JOBS)
+
+demo: ## simulate the paper's bead; table and figures in demo-results/
+	@$(PACKAGES) demo
+	@$(MAKE) --no-print-directory build
+	build/festoon paper -o demo-results
+	@echo
+	@echo "Look at demo-results/report.html: the table above and the figures, which are also files of their own there."
+
+test: ## build and run the tests, but the long ones
+	@$(PACKAGES) test
+	@cmake --preset release --log-level=WARNING -DFESTOON_TESTS=ON
+	@cmake --build build -j $(JOBS)
+	@ctest --preset release -j $(JOBS)
+
+test-long: ## run the long tests
+	@$(PACKAGES) test
+	@cmake --preset release --log-level=WARNING -DFESTOON_TESTS=ON
+	@cmake --build build -j $(JOBS)
+	@ctest --preset release-long -j $(JOBS)
+
+bench: ## time festoon against other integrators
+	@$(PACKAGES) bench
+	@cmake --preset release --log-level=WARNING -DFESTOON_BENCH=ON
+	@cmake --build build -j $(JOBS) --target bench
+
+install: ## install under $(DESTDIR)$(PREFIX), /usr/local unless told
+	@$(PACKAGES) build
+	@cmake --preset release --log-level=WARNING -DCMAKE_INSTALL_PREFIX=$(PREFIX)
+	@cmake --build build -j $(JOBS)
+	@DESTDIR=$(DESTDIR) cmake --install build
+
+docs: ## the API reference, in build/docs/html
+	@$(PACKAGES) docs
+	@cmake --preset release --log-level=WARNING
+	@cmake --build build -j $(JOBS) --target docs
+	@echo "Look at build/docs/html/index.html."
+
+format: ## lay the C sources out by .clang-format
+	@$(PACKAGES) format
+	@clang-format -i $(C_FILES)
+
+check-format: ## complain about sources not laid out so
+	@$(PACKAGES) format
+	@clang-format --dry-run -Werror $(C_FILES)
+
+clean: ## remove the build trees
+	@rm -rf build build-*
+
+help: ## this list
+	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1\t\2/p' Makefile | expand -t 20

@@ -1,0 +1,28 @@
+# What the tools need (the physics in libfestoon needs the C library alone).  POSIX threads, libyaml and jansson are
+# required; HDF5 and gnuplot are optional, and a program without them says so in `festoon --version`.
+
+set(FESTOON_HAVE_HDF5 OFF)
+if(NOT FESTOON_TOOLS)
+    return()
+endif()
+
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(YAML REQUIRED IMPORTED_TARGET yaml-0.1)
+pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
+
+# The serial flavour first: plain `hdf5` may be Debian's alternative that needs MPI.
+pkg_search_module(HDF5 QUIET IMPORTED_TARGET hdf5-serial hdf5)
+if(HDF5_FOUND)
+    set(FESTOON_HAVE_HDF5 ON)
+else()
+    message(STATUS "HDF5 not found (libhdf5-dev): festoon will read and write no .h5 files")
+endif()
+
+# gnuplot is run as a process when a figure is drawn; it need not be there now.
+find_program(GNUPLOT_PROGRAM gnuplot)
+mark_as_advanced(GNUPLOT_PROGRAM)
+if(NOT GNUPLOT_PROGRAM)
+    message(STATUS "gnuplot not found (gnuplot-nox): figures need it at run time")
+endif()

@@ -1,0 +1,357 @@
+/* festoon.h - a magnetic bead on a spinning magnet: model, integration, observables.
+ *
+ * The library follows Farago, Charitat, Bigot, Schotter and Kulic, "Counter-rotation of magnetic beads
+ * in spinning fields", Phys. Rev. E 102, 042201 (arXiv:2003.10782); "the paper" and equation names in
+ * these comments refer to it.
+ *
+ * Units.  Unless a name says otherwise, lengths are in l (half length of the magnet's lines), times in
+ * 1/gamma (gamma: friction rate), fields in B0, masses in the bead's mass.
+ *
+ * A state is ten doubles, FST_STATE_SIZE: X Y vX vY nX nY nZ WX WY WZ.  Position, velocity, direction n
+ * of the moment and angular velocity W of the bead; vectors measured in the laboratory (inertial), but
+ * written in components along the axes that turn with the magnet, X along its lines.
+ *
+ * The library never prints, exits, or keeps global variables.  A function that can fail returns an
+ * fst_status and, if the caller passes an fst_error, fills in a sentence: what, where, what to try.
+ * Models are immutable and may be shared by threads; an fst_flow belongs to one thread.
+ */
+#ifndef FESTOON_FESTOON_H
+#define FESTOON_FESTOON_H
+
+#include <math.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define FST_API __attribute__((visibility("default")))
+#else
+#define FST_API
+#endif
+
+/* ------------------------------------------------------------------ version, status, errors */
+
+#define FST_VERSION_MAJOR 0
+#define FST_VERSION_MINOR 1
+#define FST_VERSION_PATCH 0
+#define FST_VERSION_STRING "0.1.0"
+
+/* "0.1.0": the version of the library that is running. */
+FST_API const char *fst_version(void);
+
+/* What a function came back with.  The texts are fst_status_text(). */
+#define FST_STATUS_LIST(X)                                                                                     \
+    X(FST_OK, "done")                                                                                          \
+    X(FST_BAD_INPUT, "bad input")                                                                              \
+    X(FST_STEP_UNDERFLOW, "the step size underflowed")                                                         \
+    X(FST_NOT_FINITE, "a number stopped being finite")                                                         \
+    X(FST_NO_CONVERGENCE, "no convergence")                                                                    \
+    X(FST_IO, "input or output failed")                                                                        \
+    X(FST_NO_MEMORY, "out of memory")                                                                          \
+    X(FST_UNAVAILABLE, "this build lacks a component")                                                         \
+    X(FST_INTERRUPTED, "interrupted")
+typedef enum fst_status {
+#define FST_STATUS_ENUM(name, text) name,
+    FST_STATUS_LIST(FST_STATUS_ENUM)
+#undef FST_STATUS_ENUM
+} fst_status;
+
+/* The text of a status, for people; never NULL. */
+FST_API const char *fst_status_text(fst_status status);
+
+/* An error, owned by the caller; `where` names a function, a file and line, or a time. */
+typedef struct fst_error {
+    fst_status code;
+    char where[256];
+    char sentence[768];
+} fst_error;
+
+/* ------------------------------------------------------------------ parameters */
+
+typedef enum { FST_MATERIAL_HARD, FST_MATERIAL_PARAMAGNETIC, FST_MATERIAL_MIXED } fst_material;
+typedef enum { FST_MAGNET_LINES } fst_magnet_shape;
+typedef enum { FST_FRICTION_VISCOUS, FST_FRICTION_NONE } fst_friction_law;
+typedef enum { FST_DYNAMICS_RIGID, FST_DYNAMICS_FARAGO2020 } fst_dynamics;
+typedef enum { FST_SPIN_ROLLING, FST_SPIN_REST } fst_start_spin;
+
+/* Kinds of unit that a parameter may carry (params.def). */
+typedef enum {
+    FST_UNIT_NUMBER,       /* pure or scaled number: no unit allowed */
+    FST_UNIT_LENGTH,       /* m; um mm cm m */
+    FST_UNIT_MASS,         /* kg; mg g kg */
+    FST_UNIT_MOMENT,       /* A m^2; "A m2", "A.m2", "A*m^2", "mA m2" */
+    FST_UNIT_FIELD,        /* T; uT mT T G */
+    FST_UNIT_FREQUENCY,    /* Hz; Hz kHz rpm rad/s */
+    FST_UNIT_RATE,         /* 1/s; 1/s s-1 1/ms */
+    FST_UNIT_ACCELERATION, /* m/s^2; m/s2 m/s^2 */
+    FST_UNIT_ANGLE         /* deg; deg rad turn */
+} fst_unit;
+
+/* A setup in SI units: what a scene says.  Get one from fst_default_params(), change fields, and make a
+ * model of it.  A field that is NAN was not given and follows from others (params.def tells how). */
+typedef struct fst_params {
+    uint32_t cookie; /* set by fst_default_params(); catches a struct that was never initialised */
+#define FST_REAL(group, name, unit, initial, least, greatest, doc) double group##_##name;
+#define FST_INT(group, name, initial, least, greatest, doc) int group##_##name;
+#define FST_CHOICE(group, name, names, initial, doc) int group##_##name;
+#include <festoon/params.def>
+#undef FST_REAL
+#undef FST_INT
+#undef FST_CHOICE
+} fst_params;
+
+/* The paper's bead at 10.7 Hz with the dynamics `rigid`. */
+FST_API fst_params fst_default_params(void);
+
+typedef enum { FST_KIND_REAL, FST_KIND_INT, FST_KIND_CHOICE } fst_param_kind;
+
+/* One row of params.def. */
+typedef struct fst_param_info {
+    const char *key; /* "bead.radius" */
+    fst_param_kind kind;
+    fst_unit unit;
+    const char *names; /* of a choice: "rigid|farago2020"; else NULL */
+    double initial;    /* default, in SI; NAN: not given; of a choice: its index */
+    double least, greatest;
+    const char *doc;
+    size_t offset; /* of the field in fst_params */
+} fst_param_info;
+
+/* Number of rows, and the row `index` (NULL beyond the end). */
+FST_API int fst_param_count(void);
+FST_API const fst_param_info *fst_param_at(int index);
+
+/* Row index of a key, or -1. */
+FST_API int fst_param_find(const char *key);
+
+/* The SI unit's name of a kind of unit ("m", "Hz", "1" for a pure number) and the units accepted for it
+ * ("um mm cm m"). */
+FST_API const char *fst_unit_name(fst_unit unit);
+FST_API const char *fst_unit_accepted(fst_unit unit);
+
+/* Read a value with an optional unit, "2.5 mm"; FST_BAD_INPUT if it is no number, has a wrong unit, or
+ * something behind it. */
+FST_API fst_status fst_parse_value(const char *text, fst_unit unit, double *value, fst_error *error);
+
+/* Set one parameter from text, as `--set KEY=VALUE` does: checks key, unit and range, and clears the
+ * other form of the same quantity (drive.omega and drive.frequency, model.eps and bead.radius, model.h and
+ * magnet.depth, model.lambda and magnet.width, model.kappa and magnet.b0).
+ * FST_BAD_INPUT: the sentence names the nearest valid key, the units, or the range. */
+FST_API fst_status fst_params_set(fst_params *params, const char *key, const char *text, fst_error *error);
+
+/* The other forms of a quantity that fst_params_set() clears: the key that says the same, or NULL. */
+FST_API const char *fst_param_other_form(const char *key);
+
+/* The value of a parameter as text, as a scene would say it in SI ("0.0025", "rigid"); "" where it was not
+ * given. Returns the length, as snprintf does. */
+FST_API int fst_params_get(const fst_params *params, int index, char *text, size_t size);
+
+/* The name in a '|'-separated list nearest to `word`, by edit distance, copied to `nearest`; returns the
+ * distance, or -1 where the list is empty.  For "did you mean". */
+FST_API int fst_nearest_name(const char *word, const char *names, char *nearest, size_t size);
+
+/* ------------------------------------------------------------------ model */
+
+/* The scaled groups that the motion depends on. */
+typedef struct fst_groups {
+    double eps;     /* R/l */
+    double h;       /* height of the bead's centre over the lines */
+    double lambda;  /* spacing of the lines */
+    double kappa;   /* magnetic strength; 0 for a paramagnetic bead */
+    double a, b;    /* isotropic and uniaxial magnetisability (PHYSICS of the README: materials) */
+    double omega;   /* drive */
+    double gravity; /* g/(l gamma^2) */
+    double plate_radius;
+    int lines;
+    fst_material material;
+    fst_friction_law friction;
+    fst_dynamics dynamics;
+    double length_unit; /* l in m */
+    double time_unit;   /* 1/gamma in s */
+    double mass;        /* kg */
+    double field_unit;  /* B0 in T where it follows from what was given, else NAN */
+} fst_groups;
+
+typedef struct fst_model fst_model;
+
+/* Checks the parameters and makes a model; free it with fst_model_free().  FST_BAD_INPUT: a value out of its
+ * range, a struct that was never initialised, quantities that contradict each other. */
+FST_API fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error);
+FST_API void fst_model_free(fst_model *model);
+
+FST_API fst_groups fst_model_groups(const fst_model *model);
+
+#define FST_STATE_SIZE 10
+enum { FST_X, FST_Y, FST_VX, FST_VY, FST_NX, FST_NY, FST_NZ, FST_WX, FST_WY, FST_WZ };
+
+/* The start state of start.r, start.phi, start.spin (rolling: the contact at rest, W along e_r; n = B/|B|).
+ * FST_BAD_INPUT where it does not exist (rolling at r = eps, on the axis, or in a vanishing field). */
+FST_API fst_status fst_start_state(const fst_params *params, const fst_model *model,
+                                   double state[FST_STATE_SIZE], fst_error *error);
+
+/* The magnet's field at the height of the bead's centre, in the magnet's frame: b[3], grad[i][j] =
+ * dB_i/dx_j (symmetric, traceless).  PHYSICS: a bar of `lines` lines of dipoles, each two point charges. */
+FST_API void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
+
+/* d(state)/dt in the turning frame, at the drive omega of the model. */
+FST_API void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE],
+                     double derivative[FST_STATE_SIZE]);
+
+/* Its exact Jacobian, jacobian[i][j] = d(derivative_i)/d(state_j), and, if `by_omega` is not NULL, the
+ * derivative by omega. */
+FST_API void fst_jacobian(const fst_model *model, const double state[FST_STATE_SIZE],
+                          double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], double by_omega[FST_STATE_SIZE]);
+
+/* What can be read off a state (paper, section 3 and appendix; vectors in local components r, alpha, z). */
+typedef struct fst_observation {
+    double r, cos_phi, sin_phi; /* distance; cos and sin of Phi, the bead's angle against the magnet */
+    double n[3], b[3];          /* moment and field in (r, alpha, z) */
+    double b_norm;              /* |B| */
+    double angle;               /* between n and B, rad */
+    double slip[2], slip_norm;  /* V_r, V_alpha; |V| */
+    double spin;                /* psi' = W.n */
+    double load;                /* normal load per mass, l gamma^2 */
+    double energy;              /* kinetic and magnetic energy per mass, l^2 gamma^2 */
+    double friction_power;      /* f.V */
+    double drive_power;         /* dU/dt at fixed x, n, W */
+} fst_observation;
+FST_API fst_observation fst_observe(const fst_model *model, const double state[FST_STATE_SIZE]);
+
+/* The symmetry S2 (the magnet turned by half a turn): (X, U, n, W) -> (P X, P U, -P n, P W). */
+FST_API void fst_apply_s2(const double state[FST_STATE_SIZE], double image[FST_STATE_SIZE]);
+
+/* ------------------------------------------------------------------ flow: one trajectory */
+
+typedef struct fst_flow_options {
+    uint32_t cookie;
+    double rtol;                 /* relative tolerance of a step */
+    double atol[FST_STATE_SIZE]; /* absolute tolerance of each component */
+    double first_step;           /* 0: chosen from the start state */
+    double greatest_step;        /* 0: no bound */
+    double ramp;                 /* d(omega)/dt: a slow frequency ramp */
+} fst_flow_options;
+
+/* rtol = atol = 1e-10, no bound on the step, no ramp. */
+FST_API fst_flow_options fst_default_flow_options(void);
+
+typedef struct fst_flow fst_flow;
+
+/* A trajectory from `state` at t = 0 by Dormand and Prince's method of order 8(5,3) with its 7th-order dense
+ * output.  The bits of the trajectory depend on the model, the options and the state alone. */
+FST_API fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
+                                const double state[FST_STATE_SIZE], fst_flow **flow, fst_error *error);
+FST_API void fst_flow_free(fst_flow *flow);
+
+/* Why fst_flow_advance() returned. */
+typedef enum {
+    FST_STOP_TIME,    /* t_end was reached, exactly */
+    FST_STOP_SECTION, /* X = 0 was crossed: Phi = pi/2 or -pi/2 */
+    FST_STOP_EDGE,    /* r reached the plate's edge */
+    FST_STOP_LIFT_OFF /* the normal load reached 0 */
+} fst_stop;
+
+/* Go on until t_end or the first event in `events` (a sum of 1 << FST_STOP_*).  The state is then the one at
+ * the event, located on the dense output to rounding; the next call goes on from there.
+ * FST_STEP_UNDERFLOW, FST_NOT_FINITE: `error` says at which time and where the bead was. */
+FST_API fst_status fst_flow_advance(fst_flow *flow, double t_end, unsigned events, fst_stop *stop,
+                                    fst_error *error);
+
+typedef struct fst_flow_info {
+    double t, t_low; /* time, as the unevaluated sum of two doubles */
+    double state[FST_STATE_SIZE];
+    double omega;       /* drive at t */
+    double step;        /* step size proposed for the next step */
+    double phi;         /* Phi, unwrapped */
+    double alpha;       /* alpha = Phi + drive phase, unwrapped */
+    double drive_turns; /* turns of the magnet since t = 0 */
+    double norm_drift;  /* sum of | |n| - 1 | that renormalisation removed */
+    uint64_t rhs_calls, accepted, rejected;
+} fst_flow_info;
+FST_API fst_flow_info fst_flow_get(const fst_flow *flow);
+
+/* ------------------------------------------------------------------ run: what a person asks for */
+
+typedef enum {
+    FST_REGIME_UNDECIDED,
+    FST_REGIME_LOCKED,           /* at rest in the turning frame */
+    FST_REGIME_LIBRATING,        /* Phi bounded */
+    FST_REGIME_COUNTER_ROTATING, /* Phi turns regularly, <alpha'> < 0 */
+    FST_REGIME_COROTATING,       /* Phi turns regularly, <alpha'> > 0 */
+    FST_REGIME_CHAOTIC,          /* the exponent is positive beyond its error */
+    FST_REGIME_EJECTED,          /* passed the plate's edge */
+    FST_REGIME_LIFTED            /* the normal load vanished */
+} fst_regime;
+typedef enum { FST_SYMMETRY_NONE, FST_SYMMETRY_S1, FST_SYMMETRY_S2 } fst_symmetry;
+
+/* "counter-rotating", "S2"; fst_symmetry_name gives NULL for none. */
+FST_API const char *fst_regime_name(fst_regime regime);
+FST_API const char *fst_symmetry_name(fst_symmetry symmetry);
+
+/* The result of a run.  Numbers that are undefined are NAN. */
+typedef struct fst_run_result {
+#define FST_RESULT(name, unit, doc) double name;
+#include <festoon/run.def>
+#undef FST_RESULT
+    fst_regime regime;
+    fst_symmetry symmetry;
+    char reason[256]; /* why this regime: the criterion and its numbers */
+    uint64_t rhs_calls;
+    uint64_t accepted, rejected; /* steps */
+    int64_t returns;             /* half turns of Phi in the window of the means */
+    double final_state[FST_STATE_SIZE];
+} fst_run_result;
+
+/* One row of run.def. */
+typedef struct fst_result_info {
+    const char *name, *unit, *doc;
+    size_t offset; /* of the double in fst_run_result */
+} fst_result_info;
+FST_API int fst_result_count(void);
+FST_API const fst_result_info *fst_result_at(int index);
+
+/* One sample of a trajectory, or the means of one piece of a ramp. */
+typedef struct fst_sample {
+    double t;           /* 1/gamma */
+    double drive_turns; /* turns of the magnet since the start */
+    double omega;       /* drive at t */
+    double state[FST_STATE_SIZE];
+    double phi, alpha; /* unwrapped Phi and alpha */
+    double x, y;       /* position in the laboratory */
+    double n_lab[3], w_lab[3], v_lab[2];
+    fst_observation seen;
+} fst_sample;
+typedef struct fst_ramp_point {
+    double omega, frequency_hz, mean_r, std_r, mean_alpha_dot, mean_phi_dot, mean_nz;
+} fst_ramp_point;
+
+/* Where a run pushes what it finds.  Any callback may be NULL.  A callback that returns other than FST_OK ends
+ * the run with that status; it fills in `error` itself. */
+typedef struct fst_run_sink {
+    void *user;
+    fst_status (*sample)(void *user, const fst_sample *sample, fst_error *error);
+    fst_status (*ramp_point)(void *user, const fst_ramp_point *point, fst_error *error);
+    fst_status (*progress)(void *user, double fraction, fst_error *error);
+} fst_run_sink;
+
+typedef struct fst_run_options {
+    uint32_t cookie;
+    fst_run_sink sink;
+    double ramp_from, ramp_to; /* drive omega at the start and end of a ramp; NAN: no ramp */
+    int ramp_points;           /* pieces of the ramp over which means are taken */
+    double sample_from;        /* drive periods before which no sample is taken */
+} fst_run_options;
+FST_API fst_run_options fst_default_run_options(void);
+
+/* Simulate `params` and describe the motion.  How the regime is decided stands in docs/regimes.md.  Ejected,
+ * lifted, chaotic and undecided are results; FST_STEP_UNDERFLOW and FST_NOT_FINITE are failures; with
+ * FST_INTERRUPTED (from a callback) the result holds what was done until then. */
+FST_API fst_status fst_run(const fst_params *params, const fst_run_options *options, fst_run_result *result,
+                           fst_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

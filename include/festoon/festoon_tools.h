@@ -1,0 +1,135 @@
+/* festoon_tools.h - scenes, files, figures and reports around festoon.h.
+ *
+ * The library libfestoon-tools holds what needs files, other libraries or other programs; programs that embed
+ * the physics alone need festoon.h and libfestoon only.
+ */
+#ifndef FESTOON_FESTOON_TOOLS_H
+#define FESTOON_FESTOON_TOOLS_H
+
+#include <festoon/festoon.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ------------------------------------------------------------------ scenes */
+
+#define FST_SCENE_SIZE_LIMIT (1024 * 1024) /* bytes */
+
+/* Read a YAML scene over `params` (usually the defaults): groups of keys as in params.def, values with
+ * optional units.  FST_BAD_INPUT (error->where is "FILE:LINE"): unknown key (with the nearest valid one), wrong
+ * unit, out of range, a key or quantity given twice, an alias or anchor, more than one document, no text, over
+ * FST_SCENE_SIZE_LIMIT, a directory, a missing file.  `params` is unchanged on failure. */
+FST_API fst_status fst_scene_read(const char *path, fst_params *params, fst_error *error);
+
+/* The same from memory; `name` stands for the path in messages. */
+FST_API fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_params *params,
+                                   fst_error *error);
+
+/* The scene as YAML text, with the docs and units as comments where `commented`; free() it.  NULL: no memory.
+ * Reading it back gives the same parameters, bit by bit. */
+FST_API char *fst_scene_text(const fst_params *params, int commented);
+
+/* Write that text to a file.  FST_BAD_INPUT where the file is there already and `overwrite` is 0. */
+FST_API fst_status fst_scene_write(const char *path, const fst_params *params, int commented, int overwrite,
+                                   fst_error *error);
+
+/* ------------------------------------------------------------------ JSON */
+
+/* One JSON document each, 17 significant digits, undefined numbers null, a newline at the end; free() it.
+ * NULL: no memory.  The keys are those of CONTRACT (README, "JSON"). */
+FST_API char *fst_run_json(const fst_params *params, const fst_run_result *result, const fst_ramp_point *ramp,
+                           size_t ramp_count);
+FST_API char *fst_schema_json(void);
+
+/* The scene in SI and its scaled groups: `scene`, `groups`. */
+FST_API char *fst_scene_json(const fst_params *params);
+
+/* The field at (x, y): `x`, `y`, `b` (3), `grad` (3 x 3), in the magnet's frame, scaled. */
+FST_API char *fst_field_json(const fst_model *model, double x, double y);
+
+/* ------------------------------------------------------------------ trajectories */
+
+/* A file that a run streams into; `format` by the ending: .h5 (HDF5, with the scene and the result inside) or
+ * .csv (a commented head with the scene, then a line of column names with units).  It is written beside its
+ * place as a temporary file and renamed by fst_trajectory_close(). */
+typedef struct fst_trajectory fst_trajectory;
+FST_API fst_status fst_trajectory_create(const char *path, const fst_params *params,
+                                         fst_trajectory **trajectory, fst_error *error);
+FST_API fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *sample,
+                                         fst_error *error);
+/* Finish the file: `result` (may be NULL) is stored in it; `complete` is 0 for an interrupted run, whose
+ * file then says complete = false. */
+FST_API fst_status fst_trajectory_close(fst_trajectory *trajectory, const fst_run_result *result, int complete,
+                                        fst_error *error);
+/* Give up: removes the temporary file. */
+FST_API void fst_trajectory_discard(fst_trajectory *trajectory);
+
+/* The columns of a trajectory, in order: name, unit, doc. */
+typedef struct fst_column_info {
+    const char *name, *unit, *doc;
+} fst_column_info;
+FST_API int fst_column_count(void);
+FST_API const fst_column_info *fst_column_at(int index);
+
+/* A trajectory read back from .h5 or .csv: columns[i][row] in the order of fst_column_at(). */
+typedef struct fst_table {
+    size_t rows;
+    double **columns;
+    fst_params params; /* the scene it was made by */
+    int complete;
+} fst_table;
+FST_API fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *error);
+FST_API void fst_table_free(fst_table *table);
+
+/* ------------------------------------------------------------------ figures */
+
+/* What a figure of a trajectory shows. */
+typedef enum {
+    FST_FIGURE_PATH,        /* the lab path coloured by a quantity, arrows of the horizontal moment */
+    FST_FIGURE_LOCAL_N,     /* the path of n in the local frame (r, alpha, z) */
+    FST_FIGURE_RADIUS_FIELD /* r and |B| against Phi over half a revolution of the magnet */
+} fst_figure_kind;
+
+typedef struct fst_figure_options {
+    uint32_t cookie;
+    fst_figure_kind kind;
+    const char *colour; /* a column's name: "n_z", "slip", "angle", ... */
+    int arrows;         /* draw arrows of the horizontal moment */
+    double from, to;    /* drive periods shown; NAN: from the discard, as long as a good picture wants */
+    double zoom[4];     /* x0 x1 y0 y1 in mm; NAN: all */
+    const char *title;  /* NULL: made from the scene */
+} fst_figure_options;
+FST_API fst_figure_options fst_default_figure_options(void);
+
+/* Draw a trajectory to OUT.(svg|pdf|png) with gnuplot; the script OUT.gp and the data OUT.dat stay beside
+ * it, and running gnuplot on the script draws the figure again.  FST_UNAVAILABLE: no gnuplot (the sentence
+ * names the package). */
+FST_API fst_status fst_figure_trajectory(const fst_table *table, const char *out,
+                                         const fst_figure_options *options, fst_error *error);
+
+/* The map of the magnet's field on the plane of the bead's centre (the paper's Fig. portrait). */
+FST_API fst_status fst_figure_field(const fst_params *params, const char *out, fst_error *error);
+
+/* ------------------------------------------------------------------ the paper */
+
+typedef struct fst_paper_options {
+    uint32_t cookie;
+    int reduced;    /* fewer points and shorter runs, for tests */
+    char **summary; /* if not NULL: set to Table 1 and a count of the verdicts as text; free() it */
+    void *user;
+    fst_status (*progress)(void *user, double fraction, const char *what, fst_error *error);
+} fst_paper_options;
+FST_API fst_paper_options fst_default_paper_options(void);
+
+/* Compute what the paper shows, by both dynamics, and write paper.json, the figures and report.html into
+ * `directory` (made if missing). */
+FST_API fst_status fst_paper(const char *directory, const fst_paper_options *options, fst_error *error);
+
+/* "gnuplot yes, hdf5 yes, ...": the optional parts and whether this build and machine have them. */
+FST_API const char *fst_tools_components(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,327 @@
+#include "app/measures.h"
+
+#include "app/collect.h"
+
+#include <complex.h>
+#include <stdio.h>
+
+#define PI 3.14159265358979323846
+#define DEGREES (180.0 / PI)
+#define MEASURE(name)                                                                                          \
+    double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)
+#define NO_NOTE ((void)note, (void)size)
+
+static const fst_run_result *single(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
+{
+    return &fst_paper_single(paper, scan, dynamics)->result;
+}
+
+/* ------------------------------------------------------------------ the field */
+
+/* Where |B| is greatest on the magnet's axis: d(B^2)/dX = 2 B.(dB/dX) changes its sign there. */
+static double maximum_on_axis(const fst_params *params)
+{
+    fst_model *model = NULL;
+    if (fst_model_new(params, &model, NULL) != FST_OK)
+        return NAN;
+    double rising = 0.3, falling = 2.0;
+    for (int i = 0; i < 60; i++) {
+        double b[3], gradient[3][3], middle = 0.5 * (rising + falling);
+        fst_field(model, middle, 0.0, b, gradient);
+        double slope = b[0] * gradient[0][0] + b[1] * gradient[1][0] + b[2] * gradient[2][0];
+        *(slope > 0.0 ? &rising : &falling) = middle;
+    }
+    fst_model_free(model);
+    return rising;
+}
+
+MEASURE(maxima_distance)
+{
+    fst_params params = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->params;
+    double unit = 2e3 * params.magnet_half_length;
+    double at_centre = unit * maximum_on_axis(&params);
+    params.model_h = params.magnet_depth / params.magnet_half_length;
+    (void)snprintf(note, size, "at the height of the bead's centre; on the plate's surface %.1f mm",
+                   unit * maximum_on_axis(&params));
+    return at_centre;
+}
+
+/* ------------------------------------------------------------------ the two patterns */
+
+MEASURE(fold4_festoons)
+{
+    const fst_run_result *result = single(paper, FST_SCAN_FOLD4, dynamics);
+    (void)snprintf(note, size, "no whole number: the pattern drifts by %.0f degrees a revolution",
+                   360.0 * fabs(result->festoons - round(result->festoons)) / result->festoons);
+    return result->festoons;
+}
+
+MEASURE(fold4_angle)
+{
+    NO_NOTE;
+    return single(paper, FST_SCAN_FOLD4, dynamics)->max_angle_deg;
+}
+
+MEASURE(fold4_nz)
+{
+    double mean = single(paper, FST_SCAN_FOLD4, dynamics)->mean_nz;
+    (void)snprintf(note, size, "the conjugate motion, with all poles exchanged, has %+.3f", -mean);
+    return fabs(mean);
+}
+
+MEASURE(fold4_field)
+{
+    const fst_run_result *result = single(paper, FST_SCAN_FOLD4, dynamics);
+    (void)snprintf(note, size, "the extremes lie %.0f %% under and %.0f %% over the mean",
+                   100.0 * (1.0 - result->min_b / result->mean_b),
+                   100.0 * (result->max_b / result->mean_b - 1.0));
+    return 100.0 * result->std_b / result->mean_b;
+}
+
+MEASURE(fold15_festoons)
+{
+    NO_NOTE;
+    return single(paper, FST_SCAN_FOLD15, dynamics)->festoons;
+}
+
+MEASURE(fold15_angle)
+{
+    NO_NOTE;
+    return single(paper, FST_SCAN_FOLD15, dynamics)->max_angle_deg;
+}
+
+MEASURE(fold15_tilt)
+{
+    NO_NOTE;
+    return single(paper, FST_SCAN_FOLD15, dynamics)->tilt_deg;
+}
+
+MEASURE(fold15_symmetry)
+{
+    const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
+    (void)snprintf(note, size, "%s", result->reason);
+    return result->symmetry == FST_SYMMETRY_NONE ? NAN : result->symmetry == FST_SYMMETRY_S1 ? 1.0 : 2.0;
+}
+
+/* Eigenvalues of a symmetric matrix, least first (the trigonometric solution of the cubic). */
+static void eigenvalues(double a[3][3], double values[3])
+{
+    double mean = (a[0][0] + a[1][1] + a[2][2]) / 3.0;
+    double off = a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2], spread = 2.0 * off;
+    for (int i = 0; i < 3; i++)
+        spread += (a[i][i] - mean) * (a[i][i] - mean);
+    double p = sqrt(spread / 6.0);
+    if (!(p > 0.0)) {
+        values[0] = values[1] = values[2] = mean;
+        return;
+    }
+    double b[3][3];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            b[i][j] = (a[i][j] - (i == j ? mean : 0.0)) / p;
+    double half = 0.5 * (b[0][0] * (b[1][1] * b[2][2] - b[1][2] * b[2][1]) -
+                         b[0][1] * (b[1][0] * b[2][2] - b[1][2] * b[2][0]) +
+                         b[0][2] * (b[1][0] * b[2][1] - b[1][1] * b[2][0]));
+    double angle = acos(fmax(-1.0, fmin(1.0, half))) / 3.0;
+    values[2] = mean + 2.0 * p * cos(angle);
+    values[0] = mean + 2.0 * p * cos(angle + 2.0 * PI / 3.0);
+    values[1] = 3.0 * mean - values[0] - values[2];
+}
+
+MEASURE(fold15_roundness)
+{
+    NO_NOTE;
+    const fst_table *table = &fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory;
+    const double *n[3] = {fst_collected(table, "n_r"), fst_collected(table, "n_alpha"),
+                          fst_collected(table, "n_z")};
+    double mean[3] = {0}, covariance[3][3] = {{0}}, widths[3];
+    if (table->rows == 0)
+        return NAN;
+    for (size_t row = 0; row < table->rows; row++)
+        for (int i = 0; i < 3; i++)
+            mean[i] += n[i][row] / (double)table->rows;
+    for (size_t row = 0; row < table->rows; row++)
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                covariance[i][j] += (n[i][row] - mean[i]) * (n[j][row] - mean[j]) / (double)table->rows;
+    eigenvalues(covariance, widths);
+    return sqrt(widths[1] / widths[2]);
+}
+
+/* ------------------------------------------------------------------ r against Phi */
+
+/* Mean angle Phi, modulo pi, of the local extremes of r (sign +1: maxima, -1: minima), in degrees from -90 to
+ * 90; each is placed by a parabola through three samples. */
+static double extreme_phi(const fst_table *table, double sign)
+{
+    const double *r = fst_collected(table, "r"), *phi = fst_collected(table, "Phi");
+    double complex sum = 0.0;
+    for (size_t row = 1; row + 1 < table->rows; row++) {
+        double before = sign * (r[row] - r[row - 1]), after = sign * (r[row + 1] - r[row]);
+        if (!(before >= 0.0 && after < 0.0))
+            continue;
+        double shift = 0.5 * (before + after) / (before - after);
+        double place = phi[row] + shift * 0.5 * (phi[row + 1] - phi[row - 1]);
+        sum += cexp(2.0 * I * place);
+    }
+    return cabs(sum) > 0.0 ? 0.5 * carg(sum) * DEGREES : NAN;
+}
+
+MEASURE(least_radius)
+{
+    const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
+    (void)snprintf(note, size, "at the drive 0.4; greatest r is %.3f", result->max_r);
+    return result->min_r;
+}
+
+MEASURE(least_radius_phi)
+{
+    NO_NOTE;
+    return extreme_phi(&fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory, -1.0);
+}
+
+MEASURE(greatest_radius_phi)
+{
+    NO_NOTE;
+    double degrees = extreme_phi(&fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory, 1.0);
+    return degrees < 0.0 ? degrees + 180.0 : degrees;
+}
+
+/* ------------------------------------------------------------------ over the drive */
+
+MEASURE(halving)
+{
+    fst_paper_bracket bracket = paper->changes[FST_CHANGE_HALVING][dynamics];
+    (void)snprintf(note, size, "between %.5g and %.5g, where the asymmetry |⟨n_z⟩| falls under 0.001",
+                   bracket.low, bracket.high);
+    return 0.5 * (bracket.low + bracket.high);
+}
+
+MEASURE(corotation)
+{
+    const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_SLOW, dynamics);
+    fst_paper_bracket bracket = paper->changes[FST_CHANGE_COROTATION][dynamics];
+    double hertz = run->params.friction_gamma / (2.0 * PI), locked = 0.0;
+    for (int i = 0; i < paper->counts[FST_SCAN_SLOW]; i++) {
+        const fst_run_result *result = &paper->scans[FST_SCAN_SLOW][dynamics][i].result;
+        if (result->regime != FST_REGIME_LOCKED)
+            break;
+        locked = result->frequency_hz;
+    }
+    (void)snprintf(note, size,
+                   "released at rest; strictly locked up to %.1f Hz, above that also swinging about the "
+                   "magnet while it goes round with it",
+                   locked);
+    return 0.5 * (bracket.low + bracket.high) * hertz;
+}
+
+MEASURE(irregular)
+{
+    int all = 0, irregular = 0;
+    static const fst_scan both[] = {FST_SCAN_COMPARISON, FST_SCAN_SLOW};
+    for (int s = 0; s < 2; s++) {
+        for (int i = 0; i < paper->counts[both[s]]; i++) {
+            const fst_run_result *result = &paper->scans[both[s]][dynamics][i].result;
+            if (result->frequency_hz < 7.0 || result->frequency_hz > 10.0)
+                continue;
+            all++;
+            irregular += result->regime == FST_REGIME_CHAOTIC || result->regime == FST_REGIME_UNDECIDED ||
+                         result->regime == FST_REGIME_EJECTED || result->regime == FST_REGIME_LIFTED;
+        }
+    }
+    (void)snprintf(note, size,
+                   "%d of %d runs between 7 and 10 Hz are chaotic, undecided or end off the plate; the "
+                   "others are locked, swing about the magnet or counter-rotate",
+                   irregular, all);
+    return all > 0 ? 100.0 * irregular / all : NAN;
+}
+
+MEASURE(bell)
+{
+    int count = paper->counts[FST_SCAN_COMPARISON], best = -1;
+    const fst_paper_run *runs = paper->scans[FST_SCAN_COMPARISON][dynamics];
+    for (int i = 0; i < count; i++)
+        if (fst_paper_counter_rotates(&runs[i]) &&
+            (best < 0 || runs[i].result.mean_alpha_dot > runs[best].result.mean_alpha_dot))
+            best = i;
+    if (best < 0)
+        return NAN;
+    (void)snprintf(note, size, "⟨α′⟩ = %.4f γ there; the runs are about a quarter of a hertz apart",
+                   runs[best].result.mean_alpha_dot);
+    /* The slope of alpha' jumps at the period halving, close by: a parabola through three points would pretend
+     * to more than they say. */
+    return runs[best].result.frequency_hz;
+}
+
+MEASURE(slowness)
+{
+    double least = INFINITY, greatest = 0.0;
+    for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; i++) {
+        const fst_paper_run *run = &paper->scans[FST_SCAN_COMPARISON][dynamics][i];
+        if (!fst_paper_counter_rotates(run) || run->result.omega < 0.2 || run->result.omega > 0.41)
+            continue;
+        double ratio = run->result.omega / fabs(run->result.mean_alpha_dot);
+        least = fmin(least, ratio);
+        greatest = fmax(greatest, ratio);
+    }
+    (void)snprintf(note, size, "from %.1f to %.1f between the drives 0.2 and 0.41", least, greatest);
+    return greatest > 0.0 ? sqrt(least * greatest) : NAN;
+}
+
+/* ------------------------------------------------------------------ free rolling and balances */
+
+/* The greatest relative deviation of a mean from its free-rolling value over the fast scan, in %; the paper's
+ * formulas (predictions) with the <r> of the run. */
+static double rolling_deviation(const fst_paper_state *paper, fst_dynamics dynamics, int of_phi, char *note,
+                                size_t size)
+{
+    double greatest = 0.0, where = NAN;
+    for (int i = 0; i < paper->counts[FST_SCAN_FAST]; i++) {
+        const fst_paper_run *run = &paper->scans[FST_SCAN_FAST][dynamics][i];
+        const fst_run_result *result = &run->result;
+        double eps = run->params.bead_radius / run->params.magnet_half_length;
+        double rolling = (of_phi ? result->mean_r : -eps) * result->omega / (result->mean_r - eps);
+        double value = of_phi ? result->mean_phi_dot : result->mean_alpha_dot;
+        if (!fst_paper_counter_rotates(run) || !isfinite(value))
+            continue;
+        double deviation = 100.0 * fabs(value / rolling - 1.0);
+        if (deviation > greatest) {
+            greatest = deviation;
+            where = result->omega;
+        }
+    }
+    (void)snprintf(note, size, "greatest deviation for drives from 0.5 to 2, found at %.3g", where);
+    return greatest > 0.0 ? greatest : NAN;
+}
+
+MEASURE(rolling_alpha)
+{
+    return rolling_deviation(paper, dynamics, 0, note, size);
+}
+
+MEASURE(rolling_phi)
+{
+    return rolling_deviation(paper, dynamics, 1, note, size);
+}
+
+MEASURE(friction_share)
+{
+    const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
+    const fst_run_result *fast =
+        &paper->scans[FST_SCAN_FAST][dynamics][paper->counts[FST_SCAN_FAST] - 1].result;
+    (void)snprintf(note, size, "at the drive 0.4; %.0f %% at the drive %.3g",
+                   100.0 * fabs(fast->eq21_friction / fast->eq21_magnetic), fast->omega);
+    return 100.0 * fabs(result->eq21_friction / result->eq21_magnetic);
+}
+
+MEASURE(energy)
+{
+    double greatest = 0.0;
+    for (int i = 0; i < paper->counts[FST_SCAN_TABLE]; i++) {
+        const fst_run_result *result = &paper->scans[FST_SCAN_TABLE][dynamics][i].result;
+        double share = fabs(result->mean_drive_power / result->mean_friction_power - 1.0);
+        greatest = isfinite(share) ? fmax(greatest, share) : INFINITY;
+    }
+    (void)snprintf(note, size, "|⟨drive power⟩/⟨friction power⟩ − 1|, greatest of the five drives of Table 1");
+    return greatest;
+}

@@ -1,0 +1,238 @@
+/* paper_figures.c - the table of the paper's figures. */
+#include "app/paper.h"
+
+#include "base/error.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static fst_status draw_trajectory(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                  fst_error *error)
+{
+    const fst_paper_run *run = fst_paper_single(paper, figure->scan, figure->dynamics);
+    fst_figure_options options = fst_default_figure_options();
+    options.kind = figure->kind;
+    options.colour = figure->colour;
+    options.arrows = !figure->plain;
+    if (figure->zoomed) {
+        options.zoom[0] = options.zoom[2] = 0.0;
+        options.zoom[1] = options.zoom[3] = 1e3 * run->params.magnet_half_length;
+    }
+    return fst_figure_trajectory(&run->trajectory, out, &options, error);
+}
+
+static fst_status draw_field(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                             fst_error *error)
+{
+    return fst_figure_field(&fst_paper_single(paper, figure->scan, FST_DYNAMICS_RIGID)->params, out, error);
+}
+
+static const fst_paper_figure figures[] = {
+    {.name = "portrait",
+     .source = "Fig. portrait",
+     .title = "The magnet's field",
+     .caption =
+         "The field in which the bead moves: five lines of dipoles, two poles. Colour: strength; arrows: "
+         "direction of its part in the plane. At the maxima the field stands almost upright.",
+     .statements = "maxima",
+     .scan = FST_SCAN_FOLD15,
+     .draw = draw_field},
+    {.name = "comparison",
+     .source = "Figs. radius and comparison",
+     .title = "Radius, speed and fluctuation against the drive",
+     .caption =
+         "Mean radius, mean angular velocity of the bead about the axis (negative: against the magnet) and "
+         "standard deviation of the radius. Where the bead does not counter-rotate regularly the line ends, "
+         "and open circles give the means. The measured points are not in the paper's text; what the text "
+         "tells of them is marked.",
+     .statements = "bell|slowness|halving",
+     .scan = FST_SCAN_COMPARISON,
+     .draw = fst_paper_draw_comparison},
+    {.name = "dotal",
+     .source = "Fig. dotal",
+     .title = "How fast the bead circles",
+     .caption = "The bead goes round with the magnet at low drives, and against it, more slowly, at high ones. "
+                "Lines: counter-rotation from the rolling start; circles: beads released at rest.",
+     .statements = "corotation|chaos|bell",
+     .scan = FST_SCAN_SLOW,
+     .draw = fst_paper_draw_dotal},
+    {.name = "f4",
+     .source = "Fig. f4",
+     .title = "Four festoons at 10.7 Hz",
+     .caption =
+         "Two revolutions of the bead at the drive 0.215. Colour: vertical part of the moment; arrows: its "
+         "horizontal part.",
+     .each = 1,
+     .statements = "fold4-festoons|fold4-nz",
+     .scan = FST_SCAN_FOLD4,
+     .draw = draw_trajectory},
+    {.name = "f4detail-angle",
+     .source = "Fig. f4detail, top",
+     .title = "The moment follows the field",
+     .caption = "The upper right corner of the same path, coloured by the angle between moment and field.",
+     .each = 1,
+     .statements = "fold4-angle",
+     .scan = FST_SCAN_FOLD4,
+     .draw = draw_trajectory,
+     .colour = "angle",
+     .zoomed = 1},
+    {.name = "f4detail-slip",
+     .source = "Fig. f4detail, bottom",
+     .title = "Friction acts at the turning points",
+     .caption =
+         "The same corner, coloured by the speed of the contact point, which friction is proportional to.",
+     .each = 1,
+     .scan = FST_SCAN_FOLD4,
+     .draw = draw_trajectory,
+     .colour = "slip",
+     .zoomed = 1},
+    {.name = "om04",
+     .source = "Fig. om04",
+     .title = "Many festoons at 19.9 Hz",
+     .caption = "Two revolutions of the bead at the drive 0.4, coloured by the speed of the contact point.",
+     .plain = 1,
+     .each = 1,
+     .statements = "fold15-festoons|fold15-angle",
+     .scan = FST_SCAN_FOLD15,
+     .draw = draw_trajectory,
+     .colour = "slip"},
+    {.name = "om04-n",
+     .source = "Fig. om04, inset",
+     .title = "The closed path of the moment",
+     .caption = "The moment's direction in the local frame at the drive 0.4, seen along the radius and along "
+                "the circle; grey: the unit sphere's outline.",
+     .each = 1,
+     .statements = "fold15-closed|fold15-round|fold15-tilt",
+     .scan = FST_SCAN_FOLD15,
+     .draw = draw_trajectory,
+     .kind = FST_FIGURE_LOCAL_N},
+    {.name = "magint",
+     .source = "Fig. magint",
+     .title = "Where the festoons come from",
+     .caption = "Radius and field strength while the magnet turns by half a revolution under the bead, at "
+                "the drive 0.4: the pole draws the bead inwards, between the poles it swings out.",
+     .each = 1,
+     .statements = "magint-least|magint-aligned|magint-across",
+     .scan = FST_SCAN_FOLD15,
+     .draw = draw_trajectory,
+     .kind = FST_FIGURE_RADIUS_FIELD},
+    {.name = "test",
+     .source = "Fig. test",
+     .title = "Free rolling at high drives",
+     .caption =
+         "Solid: mean angular velocities of the bead about the axis and of its moment; dashed: the paper's "
+         "formulas for free rolling, with the mean radius of each run.",
+     .statements = "rolling-alpha|rolling-phi",
+     .scan = FST_SCAN_FAST,
+     .draw = fst_paper_draw_test},
+    {.name = "evolution",
+     .source = "Fig. evolution",
+     .title = "The radial balance of forces",
+     .caption = "The three terms of the averaged radial equation (eq21); their exact sum is zero. The paper "
+                "drops n_r from the magnetic term: dashed.",
+     .each = 1,
+     .statements = "friction",
+     .scan = FST_SCAN_COMPARISON,
+     .draw = fst_paper_draw_evolution},
+};
+
+enum { FIGURE_ROWS = sizeof figures / sizeof figures[0] };
+
+int fst_paper_figure_count(void)
+{
+    int count = 0;
+    for (int row = 0; row < FIGURE_ROWS; row++)
+        count += figures[row].each ? FST_PAPER_DYNAMICS : 1;
+    return count;
+}
+
+fst_paper_figure fst_paper_figure_at(int index)
+{
+    int row = 0;
+    for (; row < FIGURE_ROWS - 1; row++) {
+        int here = figures[row].each ? FST_PAPER_DYNAMICS : 1;
+        if (index < here)
+            break;
+        index -= here;
+    }
+    fst_paper_figure figure = figures[row];
+    figure.dynamics = index == 0 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID;
+    (void)snprintf(figure.file, sizeof figure.file, "%s%s", figure.name,
+                   !figure.each                            ? ""
+                   : figure.dynamics == FST_DYNAMICS_RIGID ? "-rigid"
+                                                           : "-farago2020");
+    return figure;
+}
+
+/* Does the list "one|two" have `id`? */
+static int lists(const char *ids, const char *id)
+{
+    size_t length = strlen(id);
+    for (const char *at = ids; at; at = strchr(at, '|') ? strchr(at, '|') + 1 : NULL)
+        if (!strncmp(at, id, length) && (at[length] == '|' || at[length] == '\0'))
+            return 1;
+    return 0;
+}
+
+int fst_paper_figure_verdict(const fst_paper_state *paper, const fst_paper_figure *figure,
+                             fst_dynamics dynamics, fst_verdict *verdict)
+{
+    *verdict = FST_VERDICT_REPRODUCED;
+    if (!figure->statements)
+        return 0;
+    for (int i = 0; i < fst_statement_count(); i++) {
+        if (!lists(figure->statements, fst_statement_at(i)->id))
+            continue;
+        fst_finding finding = fst_statement_check(fst_statement_at(i), paper);
+        if (finding.verdict[dynamics] > *verdict)
+            *verdict = finding.verdict[dynamics];
+    }
+    return 1;
+}
+
+/* The options of `festoon plot` that make the figure. */
+static void plot_options(const fst_paper_state *paper, const fst_paper_figure *figure, char *text, size_t size)
+{
+    static const char *const kinds[] = {[FST_FIGURE_PATH] = "",
+                                        [FST_FIGURE_LOCAL_N] = " --kind local-n",
+                                        [FST_FIGURE_RADIUS_FIELD] = " --kind radius-field"};
+    double corner = 1e3 * fst_paper_single(paper, figure->scan, figure->dynamics)->params.magnet_half_length;
+    char zoom[64] = "";
+    if (figure->zoomed)
+        (void)snprintf(zoom, sizeof zoom, " --zoom 0,%g,0,%g", corner, corner);
+    (void)snprintf(text, size, "%s%s%s%s%s", kinds[figure->kind], figure->colour ? " --colour " : "",
+                   figure->colour ? figure->colour : "", figure->plain ? " --no-arrows" : "", zoom);
+}
+
+void fst_paper_figure_command(const fst_paper_state *paper, const fst_paper_figure *figure, char *text,
+                              size_t size)
+{
+    char run[256], options[128];
+    fst_paper_scan_command(paper, figure->scan, figure->dynamics, run, sizeof run);
+    plot_options(paper, figure, options, sizeof options);
+    if (figure->draw == draw_field)
+        (void)snprintf(text, size, "festoon field -o %s.svg", figure->file);
+    else if (figure->draw == draw_trajectory)
+        (void)snprintf(text, size, "%s --set run.samples=128 -o %s.h5\nfestoon plot %s.h5 -o %s.svg%s", run,
+                       figure->file, figure->file, figure->file, options);
+    else
+        (void)snprintf(text, size, "%s\ngnuplot %s.gp", run, figure->file);
+}
+
+static fst_status draw_piece(fst_paper_state *paper, int index, fst_error *error)
+{
+    fst_paper_figure figure = fst_paper_figure_at(index);
+    char *out = fst_paper_path(paper, figure.file, "svg");
+    if (!out)
+        return fst_fail(error, FST_NO_MEMORY, figure.file, "no memory for a file name");
+    fst_status status = figure.draw(paper, &figure, out, error);
+    free(out);
+    return status;
+}
+
+fst_status fst_paper_draw_figures(fst_paper_state *paper, fst_error *error)
+{
+    fst_paper_stage stage = {"figures", 0.85, 1.0, fst_paper_figure_count(), draw_piece};
+    return fst_paper_do(paper, &stage, error);
+}

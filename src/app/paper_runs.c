@@ -1,0 +1,233 @@
+/* paper_runs.c - the runs that the comparison with the paper rests on. */
+#include "app/paper.h"
+
+#include "app/collect.h"
+#include "base/error.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The scans.  `low` and `high` are drives omega, `count` points with both ends; in a reduced paper
+ * `reduced_count`.  Without a range the drives are those of Table 1. */
+static const struct {
+    double low, high;
+    int count, reduced_count;
+    const char *spin;    /* start.spin */
+    const char *samples; /* run.samples, where the trajectory is kept */
+} scans[FST_SCAN_COUNT] = {
+    [FST_SCAN_COMPARISON] = {0.15, 0.50, 71, 8, "rolling", NULL},
+    [FST_SCAN_FAST] = {0.5, 2.0, 16, 4, "rolling", NULL},
+    [FST_SCAN_SLOW] = {0.02, 0.24, 12, 5, "rest", NULL},
+    [FST_SCAN_TABLE] = {0.0, 0.0, FST_TABLE1_ROWS, FST_TABLE1_ROWS, "rolling", NULL},
+    [FST_SCAN_FOLD4] = {0.215, 0.215, 1, 1, "rolling", "128"},
+    [FST_SCAN_FOLD15] = {0.4, 0.4, 1, 1, "rolling", "128"},
+};
+
+/* Where a change of the motion is looked for: in which scan, and how many halvings refine it. */
+static const struct {
+    fst_scan scan;
+    int halvings, reduced_halvings;
+    const char *periods, *discard; /* NULL: as usual */
+} changes[FST_CHANGE_COUNT] = {
+    /* Close to the threshold the motion settles ever more slowly, so these runs are long. */
+    [FST_CHANGE_HALVING] = {FST_SCAN_COMPARISON, 7, 6, "1200", "1100"},
+    [FST_CHANGE_COROTATION] = {FST_SCAN_SLOW, 5, 5, NULL, NULL},
+};
+
+/* |<n_z>| above which a motion is taken to lack the symmetry S2: far above what is left of a transient. */
+#define ASYMMETRIC 1e-3
+
+/* A reduced paper's runs are shorter; the fingerprints of the motion are there all the same. */
+static const char *const reduced_periods = "160", *const reduced_discard = "100";
+
+static double scan_omega(const fst_paper_state *paper, fst_scan scan, int index)
+{
+    if (scan == FST_SCAN_TABLE)
+        return fst_table1[index].omega;
+    int count = paper->counts[scan];
+    return count < 2 ? scans[scan].low
+                     : scans[scan].low + (scans[scan].high - scans[scan].low) * index / (count - 1);
+}
+
+/* ------------------------------------------------------------------ one run */
+
+static fst_status set(fst_params *params, const char *key, const char *value, fst_status before,
+                      fst_error *error)
+{
+    return before == FST_OK ? fst_params_set(params, key, value, error) : before;
+}
+
+/* The drive is passed on as short text, so that the command in the report repeats exactly this run. */
+static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, double omega,
+                              fst_params *params, fst_error *error)
+{
+    char text[32];
+    (void)snprintf(text, sizeof text, "%.10g", omega);
+    *params = fst_default_params();
+    fst_status status = fst_params_set(params, "drive.omega", text, error);
+    params->model_dynamics = (int)dynamics;
+    status = set(params, "start.spin", scans[scan].spin, status, error);
+    if (scans[scan].samples)
+        status = set(params, "run.samples", scans[scan].samples, status, error);
+    if (paper->options->reduced) {
+        status = set(params, "run.discard", reduced_discard, status, error);
+        status = set(params, "run.periods", reduced_periods, status, error);
+    }
+    return status;
+}
+
+static fst_status make_run(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, double omega,
+                           fst_paper_run *run, fst_error *error)
+{
+    fst_status status = scan_params(paper, scan, dynamics, omega, &run->params, error);
+    if (status != FST_OK)
+        return status;
+    if (scans[scan].samples)
+        return fst_collect_run(&run->params, &run->result, &run->trajectory, error);
+    fst_run_options options = fst_default_run_options();
+    return fst_run(&run->params, &options, &run->result, error);
+}
+
+void fst_paper_scan_command(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, char *text,
+                            size_t size)
+{
+    char omega[32] = "OMEGA";
+    if (paper->counts[scan] == 1)
+        (void)snprintf(omega, sizeof omega, "%g", scans[scan].low);
+    char lengths[64] = "";
+    if (paper->options->reduced)
+        (void)snprintf(lengths, sizeof lengths, " --set run.discard=%s --set run.periods=%s", reduced_discard,
+                       reduced_periods);
+    char values[64] = "";
+    if (paper->counts[scan] > 1 && scan != FST_SCAN_TABLE)
+        (void)snprintf(values, sizeof values, "   # OMEGA: %d values from %g to %g", paper->counts[scan],
+                       scans[scan].low, scans[scan].high);
+    (void)snprintf(text, size, "festoon run --set drive.omega=%s --set model.dynamics=%s%s%s%s", omega,
+                   dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020",
+                   strcmp(scans[scan].spin, "rest") ? "" : " --set start.spin=rest", lengths, values);
+}
+
+/* ------------------------------------------------------------------ all scans */
+
+static int piece_count(const fst_paper_state *paper)
+{
+    int count = 0;
+    for (int scan = 0; scan < FST_SCAN_COUNT; scan++)
+        count += FST_PAPER_DYNAMICS * paper->counts[scan];
+    return count;
+}
+
+static fst_status scan_piece(fst_paper_state *paper, int index, fst_error *error)
+{
+    /* The scans from rest take longest (a libration near its threshold dies out slowly): they begin. */
+    for (int scan = FST_SCAN_COUNT - 1; scan >= 0; scan--) {
+        int here = FST_PAPER_DYNAMICS * paper->counts[scan];
+        if (index < here) {
+            int point = index / FST_PAPER_DYNAMICS;
+            fst_dynamics dynamics = index % FST_PAPER_DYNAMICS ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID;
+            return make_run(paper, (fst_scan)scan, dynamics, scan_omega(paper, (fst_scan)scan, point),
+                            &paper->scans[scan][dynamics][point], error);
+        }
+        index -= here;
+    }
+    return FST_OK;
+}
+
+/* ------------------------------------------------------------------ changes */
+
+/* Is the motion still the one below the change? */
+static int is_below(fst_change change, const fst_run_result *result)
+{
+    if (change == FST_CHANGE_HALVING)
+        return fabs(result->mean_nz) > ASYMMETRIC;
+    return result->regime == FST_REGIME_LOCKED || result->regime == FST_REGIME_LIBRATING;
+}
+
+/* Is a run at `omega` below the change? */
+static fst_status probe(const fst_paper_state *paper, fst_change change, fst_dynamics dynamics, double omega,
+                        int *below, fst_error *error)
+{
+    fst_params params;
+    fst_run_result result;
+    fst_run_options options = fst_default_run_options();
+    fst_status status = scan_params(paper, changes[change].scan, dynamics, omega, &params, error);
+    if (changes[change].periods && !paper->options->reduced) {
+        status = set(&params, "run.periods", changes[change].periods, status, error);
+        status = set(&params, "run.discard", changes[change].discard, status, error);
+    }
+    if (status == FST_OK)
+        status = fst_run(&params, &options, &result, error);
+    if (status == FST_OK)
+        *below = is_below(change, &result);
+    return status;
+}
+
+/* The last change of a scan, refined by bisection; NAN where the scan has none. */
+static fst_status find_change(fst_paper_state *paper, int index, fst_error *error)
+{
+    fst_change change = (fst_change)(index / FST_PAPER_DYNAMICS);
+    fst_dynamics dynamics = index % FST_PAPER_DYNAMICS ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID;
+    fst_scan scan = changes[change].scan;
+    const fst_paper_run *runs = paper->scans[scan][dynamics];
+    fst_paper_bracket *bracket = &paper->changes[change][dynamics];
+    *bracket = (fst_paper_bracket){NAN, NAN};
+    int last = paper->counts[scan] - 2;
+    while (last > 0 && !is_below(change, &runs[last].result))
+        last--;
+    if (last < 1 || is_below(change, &runs[last + 1].result))
+        return FST_OK;
+    /* The scan's runs are shorter, and next to the change one may not have settled: one point further out. */
+    bracket->low = scan_omega(paper, scan, last - 1);
+    bracket->high = scan_omega(paper, scan, last + 1);
+    int halvings = paper->options->reduced ? changes[change].reduced_halvings : changes[change].halvings;
+    fst_status status = FST_OK;
+    for (int i = 0; i < halvings && status == FST_OK; i++) {
+        double middle = 0.5 * (bracket->low + bracket->high);
+        int below = 0;
+        status = probe(paper, change, dynamics, middle, &below, error);
+        *(below ? &bracket->low : &bracket->high) = middle;
+    }
+    return status;
+}
+
+/* ------------------------------------------------------------------ together */
+
+fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error)
+{
+    for (int scan = 0; scan < FST_SCAN_COUNT; scan++) {
+        paper->counts[scan] = paper->options->reduced ? scans[scan].reduced_count : scans[scan].count;
+        for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
+            paper->scans[scan][dynamics] =
+                calloc((size_t)paper->counts[scan], sizeof *paper->scans[scan][dynamics]);
+            if (!paper->scans[scan][dynamics])
+                return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d runs", paper->counts[scan]);
+        }
+    }
+    fst_paper_stage runs = {"runs", 0.0, 0.7, piece_count(paper), scan_piece};
+    fst_paper_stage thresholds = {"thresholds", 0.7, 0.85, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, find_change};
+    fst_status status = fst_paper_do(paper, &runs, error);
+    return status == FST_OK ? fst_paper_do(paper, &thresholds, error) : status;
+}
+
+void fst_paper_free_runs(fst_paper_state *paper)
+{
+    for (int scan = 0; scan < FST_SCAN_COUNT; scan++) {
+        for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
+            for (int i = 0; paper->scans[scan][dynamics] && i < paper->counts[scan]; i++)
+                fst_table_free(&paper->scans[scan][dynamics][i].trajectory);
+            free(paper->scans[scan][dynamics]);
+            paper->scans[scan][dynamics] = NULL;
+        }
+    }
+}
+
+const fst_paper_run *fst_paper_single(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
+{
+    return &paper->scans[scan][dynamics][0];
+}
+
+int fst_paper_counter_rotates(const fst_paper_run *run)
+{
+    return run->result.regime == FST_REGIME_COUNTER_ROTATING;
+}

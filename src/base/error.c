@@ -1,0 +1,40 @@
+#include "base/error.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+fst_status fst_fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
+{
+    if (!error)
+        return code;
+    char sentence[sizeof error->sentence];
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(sentence, sizeof sentence, format, arguments);
+    va_end(arguments);
+    /* The format may quote the old error's text, so both fields are replaced only now. */
+    char place[sizeof error->where];
+    (void)snprintf(place, sizeof place, "%s", where ? where : "");
+    error->code = code;
+    memcpy(error->where, place, sizeof place);
+    memcpy(error->sentence, sentence, sizeof sentence);
+    return code;
+}
+
+const char *fst_status_text(fst_status status)
+{
+    switch (status) {
+#define TEXT_CASE(name, text)                                                                                  \
+    case name:                                                                                                 \
+        return text;
+        FST_STATUS_LIST(TEXT_CASE)
+#undef TEXT_CASE
+    }
+    return "unknown status";
+}
+
+const char *fst_version(void)
+{
+    return FST_VERSION_STRING;
+}

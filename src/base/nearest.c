@@ -1,0 +1,76 @@
+#include <festoon/festoon.h>
+
+#include <stdio.h>
+#include <string.h>
+
+/* Longer words are compared by their beginnings: no name comes near this. */
+#define LONGEST 63
+
+/* Costs are counted in halves: a wrong letter 2, a letter in the wrong case 1. */
+#define EDIT_COST 2U
+#define CASE_COST 1U
+
+static unsigned char lower(unsigned char letter)
+{
+    return letter >= 'A' && letter <= 'Z' ? (unsigned char)(letter - 'A' + 'a') : letter;
+}
+
+static unsigned least(unsigned a, unsigned b)
+{
+    return a < b ? a : b;
+}
+
+static unsigned replacing(char a, char b)
+{
+    if (a == b)
+        return 0;
+    return lower((unsigned char)a) == lower((unsigned char)b) ? CASE_COST : EDIT_COST;
+}
+
+/* Edit distance in halves, by the usual table kept as three rows: letters left out, put in, replaced, and two
+ * neighbours exchanged each cost one edit. */
+static unsigned distance(const char *a, size_t a_length, const char *b, size_t b_length)
+{
+    unsigned rows[3][LONGEST + 1];
+    unsigned *two_up = rows[0], *up = rows[1], *row = rows[2];
+    for (size_t j = 0; j <= b_length; j++)
+        up[j] = (unsigned)j * EDIT_COST;
+    for (size_t i = 1; i <= a_length; i++) {
+        row[0] = (unsigned)i * EDIT_COST;
+        for (size_t j = 1; j <= b_length; j++) {
+            unsigned cost = up[j - 1] + replacing(a[i - 1], b[j - 1]);
+            cost = least(cost, least(up[j], row[j - 1]) + EDIT_COST);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                cost = least(cost, two_up[j - 2] + EDIT_COST);
+            row[j] = cost;
+        }
+        unsigned *recycled = two_up;
+        two_up = up;
+        up = row;
+        row = recycled;
+    }
+    return up[b_length];
+}
+
+int fst_nearest_name(const char *word, const char *names, char *nearest, size_t size)
+{
+    size_t word_length = strlen(word);
+    if (word_length > LONGEST)
+        word_length = LONGEST;
+    unsigned best = 0;
+    const char *best_name = NULL;
+    size_t best_length = 0;
+    for (const char *name = names; *name; name += strspn(name, "|")) {
+        size_t length = strcspn(name, "|");
+        unsigned cost = distance(word, word_length, name, length < LONGEST ? length : LONGEST);
+        if (!best_name || cost < best) {
+            best = cost;
+            best_name = name;
+            best_length = length;
+        }
+        name += length;
+    }
+    if (size)
+        (void)snprintf(nearest, size, "%.*s", (int)best_length, best_name ? best_name : "");
+    return best_name ? (int)((best + 1) / 2) : -1;
+}

@@ -1,0 +1,45 @@
+/* real_double.h - bodies (*.inl) compiled over double.
+ *
+ * A body is written once over REAL, FN() and R() and includes no header of its own: the including file says
+ * which kind of number it is compiled for.  This is the portable form: + - * / sqrt alone, nothing fused, so
+ * that its bits are the same on every machine.  Lanes of an instruction set get a header like this one.
+ */
+#ifndef FST_BASE_REAL_DOUBLE_H
+#define FST_BASE_REAL_DOUBLE_H
+
+#include <math.h>
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+/* The two ends of a line of dipoles side by side, where a processor's basic registers hold two doubles. */
+typedef double fst_two_doubles __attribute__((vector_size(16)));
+
+static inline fst_two_doubles fst_sqrt_two_doubles(fst_two_doubles x)
+{
+#ifdef __SSE2__
+    return (fst_two_doubles)_mm_sqrt_pd((__m128d)x);
+#else
+    return (fst_two_doubles){sqrt(x[0]), sqrt(x[1])};
+#endif
+}
+
+#define ENDS fst_two_doubles /* both ends in one ... */
+#define ENDS_GROUPS 1
+#define ENDS_OF(plus, minus)                                                                                   \
+    {                                                                                                          \
+        {                                                                                                      \
+            plus, minus                                                                                        \
+        }                                                                                                      \
+    }
+#define ENDS_SQRT(x) fst_sqrt_two_doubles(x)
+#define END(sums, member, end) (sums)[0].member[end]
+
+#define REAL double
+#define R(literal) literal
+#define FN(name) fst_##name##_double
+#define REAL_SQRT(x) sqrt(x)
+#define REAL_ABS(x) fabs(x)
+#define REAL_MAX(a, b) ((a) > (b) ? (a) : (b))
+
+#endif

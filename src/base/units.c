@@ -1,0 +1,193 @@
+#include "base/units.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/number.h"
+#include "base/text.h"
+
+/* One unit: value in SI = number * 10^shift * times / over.  Powers of ten go into the decimal text, so that
+ * "2.5 mm" is the double nearest to 0.0025. */
+typedef struct unit_row {
+    fst_unit kind;
+    const char *name; /* in the plain spelling that plain_unit() makes */
+    int shift;
+    double times, over;
+} unit_row;
+
+#define PI 3.14159265358979323846
+
+static const unit_row unit_rows[] = {
+    {FST_UNIT_LENGTH, "m", 0, 1, 1},
+    {FST_UNIT_LENGTH, "cm", -2, 1, 1},
+    {FST_UNIT_LENGTH, "mm", -3, 1, 1},
+    {FST_UNIT_LENGTH, "um", -6, 1, 1},
+    {FST_UNIT_MASS, "kg", 0, 1, 1},
+    {FST_UNIT_MASS, "g", -3, 1, 1},
+    {FST_UNIT_MASS, "mg", -6, 1, 1},
+    {FST_UNIT_MOMENT, "A m2", 0, 1, 1},
+    {FST_UNIT_MOMENT, "mA m2", -3, 1, 1},
+    {FST_UNIT_FIELD, "T", 0, 1, 1},
+    {FST_UNIT_FIELD, "mT", -3, 1, 1},
+    {FST_UNIT_FIELD, "uT", -6, 1, 1},
+    {FST_UNIT_FIELD, "G", -4, 1, 1},
+    {FST_UNIT_FREQUENCY, "Hz", 0, 1, 1},
+    {FST_UNIT_FREQUENCY, "kHz", 3, 1, 1},
+    {FST_UNIT_FREQUENCY, "rpm", 0, 1, 60},
+    {FST_UNIT_FREQUENCY, "rad/s", 0, 1, 2 * PI},
+    {FST_UNIT_RATE, "1/s", 0, 1, 1},
+    {FST_UNIT_RATE, "s-1", 0, 1, 1},
+    {FST_UNIT_RATE, "1/ms", 3, 1, 1},
+    {FST_UNIT_ACCELERATION, "m/s2", 0, 1, 1},
+    {FST_UNIT_ANGLE, "deg", 0, 1, 1},
+    {FST_UNIT_ANGLE, "rad", 0, 180, PI},
+    {FST_UNIT_ANGLE, "turn", 0, 360, 1},
+};
+static const size_t unit_row_count = sizeof unit_rows / sizeof unit_rows[0];
+
+/* Per kind: the SI unit, the list for messages, and the row in which people like to read values. */
+static const struct {
+    const char *name, *accepted, *customary;
+} kinds[] = {
+    [FST_UNIT_NUMBER] = {"1", "", NULL},
+    [FST_UNIT_LENGTH] = {"m", "um mm cm m", "mm"},
+    [FST_UNIT_MASS] = {"kg", "mg g kg", "g"},
+    [FST_UNIT_MOMENT] = {"A m^2", "\"A m^2\" \"mA m^2\"", "A m2"},
+    [FST_UNIT_FIELD] = {"T", "uT mT T G", "mT"},
+    [FST_UNIT_FREQUENCY] = {"Hz", "Hz kHz rpm rad/s", "Hz"},
+    [FST_UNIT_RATE] = {"1/s", "1/s s-1 1/ms", "1/s"},
+    [FST_UNIT_ACCELERATION] = {"m/s^2", "m/s^2", "m/s2"},
+    [FST_UNIT_ANGLE] = {"deg", "deg rad turn", "deg"},
+};
+
+const char *fst_unit_name(fst_unit unit)
+{
+    return kinds[unit].name;
+}
+
+const char *fst_unit_accepted(fst_unit unit)
+{
+    return kinds[unit].accepted;
+}
+
+/* Spellings of the same character or sign, longest first. */
+static const struct {
+    const char *found, *plain;
+} spellings[] = {
+    {"^2", "2"},         {"^-1", "-1"},     {"\xC2\xB2", "2"}, /* superscript two */
+    {"\xC2\xB5", "u"},   {"\xCE\xBC", "u"},                    /* micro sign, Greek mu */
+    {"\xC2\xB0", "deg"},                                       /* degree sign */
+    {"\xC2\xB7", " "},   {"*", " "},        {".", " "},        /* products */
+};
+
+/* Bring a unit to the spelling of the table: "µm" to "um", "A.m^2" and "A*m²" to "A m2", runs of white space
+ * to one space.  Too long a unit is cut: it is unknown anyway. */
+static void plain_unit(const char *text, size_t length, char *plain, size_t size)
+{
+    size_t out = 0;
+    for (size_t at = 0; at < length && out + 4 < size;) {
+        const char *piece = NULL;
+        size_t taken = 1;
+        for (size_t i = 0; i < sizeof spellings / sizeof spellings[0] && !piece; i++) {
+            size_t found = strlen(spellings[i].found);
+            if (found <= length - at && memcmp(text + at, spellings[i].found, found) == 0) {
+                piece = spellings[i].plain;
+                taken = found;
+            }
+        }
+        char letter = piece ? piece[0] : text[at];
+        if (strchr(" \t\r\n", letter)) {
+            if (out && plain[out - 1] != ' ')
+                plain[out++] = ' ';
+        } else if (piece) {
+            memcpy(plain + out, piece, strlen(piece));
+            out += strlen(piece);
+        } else {
+            plain[out++] = letter;
+        }
+        at += taken;
+    }
+    plain[out] = '\0';
+}
+
+static const unit_row *find_unit(fst_unit kind, const char *plain)
+{
+    for (size_t i = 0; i < unit_row_count; i++)
+        if (unit_rows[i].kind == kind && strcmp(unit_rows[i].name, plain) == 0)
+            return &unit_rows[i];
+    return NULL;
+}
+
+static fst_status wrong_unit(const char *text, fst_unit kind, const char *written, const char *plain,
+                             fst_error *error)
+{
+    char quoted_text[FST_QUOTE_SIZE], quoted[FST_QUOTE_SIZE];
+    fst_quote(text, quoted_text);
+    fst_quote(written, quoted);
+    if (kind == FST_UNIT_NUMBER)
+        return fst_fail(error, FST_BAD_INPUT, "value", "%s has the unit %s where a number without unit belongs",
+                        quoted_text, quoted);
+    char names[256] = "", nearest[16];
+    for (size_t i = 0; i < unit_row_count; i++)
+        if (unit_rows[i].kind == kind) {
+            size_t used = strlen(names);
+            (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", unit_rows[i].name);
+        }
+    fst_nearest_name(plain, names, nearest, sizeof nearest);
+    return fst_fail(error, FST_BAD_INPUT, "value",
+                    "%s has the unknown unit %s; the nearest is %s (units here: %s)", quoted_text, quoted,
+                    nearest, kinds[kind].accepted);
+}
+
+fst_status fst_parse_value(const char *text, fst_unit unit, double *value, fst_error *error)
+{
+    char quoted[FST_QUOTE_SIZE];
+    size_t length;
+    const char *trimmed = fst_trim(text, &length);
+    if (length == 0)
+        return fst_fail(error, FST_BAD_INPUT, "value", "the value is missing");
+    size_t number = fst_number_length(trimmed);
+    if (number == 0)
+        return fst_fail(error, FST_BAD_INPUT, "value", "%s is no decimal number", fst_quote(text, quoted));
+
+    size_t gap = number + strspn(trimmed + number, " \t\r\n");
+    char written[64] = "", plain[32];
+    if (gap < length)
+        (void)snprintf(written, sizeof written, "%.*s", (int)(length - gap), trimmed + gap);
+    plain_unit(written, strlen(written), plain, sizeof plain);
+    static const unit_row bare = {FST_UNIT_NUMBER, "", 0, 1, 1};
+    const unit_row *row = written[0] ? find_unit(unit, plain) : &bare;
+    /* "0x10" begins with a number, the zero; say what is really wrong. */
+    if (!row && (written[0] == 'x' || written[0] == 'X'))
+        return fst_fail(error, FST_BAD_INPUT, "value", "%s is no decimal number", fst_quote(text, quoted));
+    if (!row)
+        return wrong_unit(text, unit, written, plain, error);
+
+    double result = fst_number_read(trimmed, number, row->shift) * row->times / row->over;
+    if (!isfinite(result))
+        return fst_fail(error, FST_BAD_INPUT, "value", "%s is too large for a number", fst_quote(text, quoted));
+    *value = result;
+    return FST_OK;
+}
+
+int fst_value_write(char *text, size_t size, double value, fst_unit unit)
+{
+    char number[40], candidate[64];
+    const char *customary = kinds[unit].customary;
+    if (!customary) {
+        (void)fst_number_write(number, sizeof number, value);
+        return snprintf(text, size, "%s", number);
+    }
+    /* The customary units are powers of ten of the SI unit: shift the digits, not the value. */
+    const unit_row *row = find_unit(unit, customary);
+    (void)fst_number_write(number, sizeof number, value);
+    double shifted = fst_number_read(number, fst_number_length(number), -row->shift);
+    double back;
+    (void)fst_number_write(number, sizeof number, shifted);
+    (void)snprintf(candidate, sizeof candidate, "%s %s", number, customary);
+    if (fst_parse_value(candidate, unit, &back, NULL) == FST_OK && memcmp(&back, &value, sizeof value) == 0)
+        return snprintf(text, size, "%s", candidate);
+    (void)fst_number_write(number, sizeof number, value);
+    return snprintf(text, size, "%s %s", number, kinds[unit].name);
+}

@@ -1,0 +1,54 @@
+/* check.c - festoon check: read a scene, and tell what it means without running it. */
+#include <stdlib.h>
+
+#include "cli/command.h"
+#include "cli/groups.h"
+
+static const option options[] = {SCENE_OPTIONS, JSON_OPTION, {NULL, '\0', NULL, NULL}};
+
+static void print_text(FILE *out, const char *path, const fst_model *model, const double *state,
+                       const char *scene)
+{
+    const fst_groups groups = fst_model_groups(model);
+    (void)fprintf(out, "%s is a good scene.\n\nIn SI:\n%s\nScaled:\n", path ? path : "The default scene",
+                  scene);
+    print_groups(out, &groups);
+    (void)fprintf(out, "\nStart state (X Y vX vY nX nY nZ WX WY WZ):\n ");
+    for (int i = 0; i < FST_STATE_SIZE; i++)
+        (void)fprintf(out, " %.6g", state[i]);
+    (void)fprintf(out, "\n");
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_params params;
+    fst_model *model = NULL;
+    double state[FST_STATE_SIZE];
+    fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK)
+        status = fst_model_new(&params, &model, error);
+    if (status == FST_OK)
+        status = fst_start_state(&params, model, state, error);
+    if (status == FST_OK && option_value(given, "json")) {
+        status = print_and_free(fst_scene_json(&params), out, error);
+    } else if (status == FST_OK) {
+        char *scene = fst_scene_text(&params, 0);
+        if (scene)
+            print_text(out, operand(given), model, state, scene);
+        else
+            status = fail(error, FST_NO_MEMORY, "", "out of memory");
+        free(scene);
+    }
+    fst_model_free(model);
+    return status;
+}
+
+const command check_command = {
+    .name = "check",
+    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json]",
+    .summary = "Read a scene and print what it means, in SI and scaled, without running it",
+    .details = "",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

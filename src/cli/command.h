@@ -1,0 +1,53 @@
+/* command.h - what a subcommand is, and what the subcommands share. */
+#ifndef FST_CLI_COMMAND_H
+#define FST_CLI_COMMAND_H
+
+#include <stdio.h>
+
+#include <festoon/festoon.h>
+#include <festoon/festoon_tools.h>
+
+#include "cli/options.h"
+
+/* One row of the table of commands. */
+typedef struct command {
+    const char *name;
+    const char *synopsis; /* what stands behind the name: "[SCENE.yaml] [options]" */
+    const char *summary;  /* one line */
+    const char *details;  /* further help, whole lines, or "" */
+    const option *options;
+    int most_operands; /* arguments that are no options */
+    /* Do it.  What is written to `out` reaches standard output only if FST_OK is returned. */
+    fst_status (*perform)(const arguments *given, FILE *out, fst_error *error);
+} command;
+
+/* Every subcommand, one file each. */
+extern const command run_command, field_command, plot_command, paper_command, init_command, check_command,
+    schema_command;
+
+/* The options of every command that reads a scene; the first rows of its table. */
+#define SCENE_OPTIONS                                                                                          \
+    {                                                                                                          \
+        "set", '\0', "KEY=VALUE",                                                                              \
+            "override one key of the scene (again for more keys); festoon schema lists them"                   \
+    }
+#define JSON_OPTION                                                                                            \
+    {                                                                                                          \
+        "json", '\0', NULL, "one JSON document on standard output instead of text"                             \
+    }
+
+/* Fill in `error` and return `code`. */
+fst_status fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+
+/* The parameters of the scene operand `path` (NULL: the defaults) and all --set. */
+fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error);
+
+/* Print a text made by the library, and free it; NULL is FST_NO_MEMORY. */
+fst_status print_and_free(char *text, FILE *out, fst_error *error);
+
+/* Read exactly `count` numbers separated by commas. */
+fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,
+                        fst_error *error);
+
+#endif

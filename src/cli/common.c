@@ -1,0 +1,79 @@
+/* common.c - what several subcommands need. */
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+
+fst_status fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
+{
+    va_list values;
+    va_start(values, format);
+    (void)vsnprintf(error->sentence, sizeof error->sentence, format, values);
+    va_end(values);
+    (void)snprintf(error->where, sizeof error->where, "%s", where);
+    error->code = code;
+    return code;
+}
+
+/* KEY=VALUE, the key without its spaces. */
+static fst_status apply_set(const char *text, fst_params *params, fst_error *error)
+{
+    char key[96];
+    size_t length = strcspn(text, "=");
+    if (text[length] != '=')
+        return fail(error, FST_BAD_INPUT, "--set", "\"%.60s\" must be KEY=VALUE, as in drive.frequency=10.7Hz",
+                    text);
+    size_t start = strspn(text, " \t");
+    while (length > start && (text[length - 1] == ' ' || text[length - 1] == '\t'))
+        length--;
+    (void)snprintf(key, sizeof key, "%.*s", start < length ? (int)(length - start) : 0, text + start);
+    fst_status status = fst_params_set(params, key, strchr(text, '=') + 1, error);
+    if (status != FST_OK)
+        (void)snprintf(error->where, sizeof error->where, "--set");
+    return status;
+}
+
+fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error)
+{
+    *params = fst_default_params();
+    if (path) {
+        fst_status status = fst_scene_read(path, params, error);
+        if (status != FST_OK)
+            return status;
+    }
+    for (int i = 0; i < given->option_count; i++) {
+        if (strcmp(given->options[i].row->name, "set") != 0)
+            continue;
+        fst_status status = apply_set(given->options[i].value, params, error);
+        if (status != FST_OK)
+            return status;
+    }
+    return FST_OK;
+}
+
+fst_status print_and_free(char *text, FILE *out, fst_error *error)
+{
+    if (!text)
+        return fail(error, FST_NO_MEMORY, "", "out of memory");
+    (void)fputs(text, out);
+    free(text);
+    return FST_OK;
+}
+
+fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count, fst_error *error)
+{
+    const char *at = text;
+    for (int i = 0; i < count; i++) {
+        char word[64];
+        size_t length = strcspn(at, ",");
+        int last = i + 1 == count;
+        (void)snprintf(word, sizeof word, "%.*s", (int)(length < 63 ? length : 63), at);
+        if (at[length] != (last ? '\0' : ',') ||
+            fst_parse_value(word, FST_UNIT_NUMBER, &numbers[i], error) != FST_OK)
+            return fail(error, FST_BAD_INPUT, option_name, "\"%.60s\" must be %d number%s%s", text, count,
+                        count > 1 ? "s separated by commas" : "", count > 1 ? ", without spaces or units" : "");
+        at += length + !last;
+    }
+    return FST_OK;
+}

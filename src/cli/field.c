@@ -1,0 +1,73 @@
+/* field.c - festoon field: the magnet's field at a point, or drawn as a map. */
+#include "cli/command.h"
+
+static const option options[] = {
+    SCENE_OPTIONS,
+    JSON_OPTION,
+    {"at", '\0', "X,Y", "the field and its gradient at this point of the bead's centre, in l"},
+    {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
+    {NULL, '\0', NULL, NULL},
+};
+
+static void print_text(FILE *out, const fst_model *model, double x, double y)
+{
+    double b[3], grad[3][3];
+    static const char *const axes[] = {"X", "Y", "Z"};
+    fst_field(model, x, y, b, grad);
+    (void)fprintf(out, "at X = %g, Y = %g (l), magnet's frame, the bead's centre on the plate\n", x, y);
+    (void)fprintf(out, "   %16s   %s\n", "B (B0)", "dB/dX, dB/dY, dB/dZ (B0/l)");
+    for (int i = 0; i < 3; i++)
+        (void)fprintf(out, "%s  %16.9g   %16.9g %16.9g %16.9g\n", axes[i], b[i], grad[i][0], grad[i][1],
+                      grad[i][2]);
+    (void)fprintf(out, "|B| = %.9g B0\n", sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
+    const fst_groups groups = fst_model_groups(model);
+    if (!isnan(groups.field_unit))
+        (void)fprintf(out, "B0 = %.6g mT\n", 1e3 * groups.field_unit);
+}
+
+static fst_status print_point(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
+{
+    double at[2];
+    fst_model *model = NULL;
+    fst_status status = read_numbers("--at", option_value(given, "at"), at, 2, error);
+    if (status == FST_OK)
+        status = fst_model_new(params, &model, error);
+    if (status != FST_OK)
+        return status;
+    if (option_value(given, "json"))
+        status = print_and_free(fst_field_json(model, at[0], at[1]), out, error);
+    else
+        print_text(out, model, at[0], at[1]);
+    fst_model_free(model);
+    return status;
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_params params;
+    const char *at = option_value(given, "at"), *figure = option_value(given, "output");
+    if (!at && !figure)
+        return fail(error, FST_BAD_INPUT, "", "tell where with --at X,Y, or draw a map with -o FIG.svg");
+    if (option_value(given, "json") && !at)
+        return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
+    fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK && at)
+        status = print_point(given, &params, out, error);
+    if (status == FST_OK && figure)
+        status = fst_figure_field(&params, figure, error);
+    if (status == FST_OK && figure)
+        (void)fprintf(stderr, "wrote %s\n", figure);
+    return status;
+}
+
+const command field_command = {
+    .name = "field",
+    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... --at X,Y [--json] | -o FIG.(svg|pdf|png)",
+    .summary = "The magnet's field and its gradient at a point, or drawn as a map",
+    .details =
+        "Positions are in l (half length of the magnet's lines), in the magnet's frame, at the height of the\n"
+        "bead's centre; fields in B0.\n",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

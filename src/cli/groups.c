@@ -1,0 +1,18 @@
+#include "cli/groups.h"
+
+static const double TWO_PI = 6.283185307179586;
+
+void print_groups(FILE *out, const fst_groups *groups)
+{
+    (void)fprintf(out, "  eps = %.6g  h = %.6g  lambda = %.6g (%d line%s)  kappa = %.6g  omega = %.6g\n",
+                  groups->eps, groups->h, groups->lambda, groups->lines, groups->lines == 1 ? "" : "s",
+                  groups->kappa, groups->omega);
+    if (groups->a != 0.0 || groups->b != 0.0)
+        (void)fprintf(out, "  a = %.6g  b = %.6g\n", groups->a, groups->b);
+    (void)fprintf(out, "  units: l = %.6g mm  1/gamma = %.6g ms  mass %.6g g", 1e3 * groups->length_unit,
+                  1e3 * groups->time_unit, 1e3 * groups->mass);
+    if (!isnan(groups->field_unit))
+        (void)fprintf(out, "  B0 = %.6g mT", 1e3 * groups->field_unit);
+    (void)fprintf(out, "\n  drive %.6g Hz  weight g = %.6g l gamma^2  plate %.6g l\n",
+                  groups->omega / (TWO_PI * groups->time_unit), groups->gravity, groups->plate_radius);
+}

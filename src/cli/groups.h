@@ -1,0 +1,12 @@
+/* groups.h - the scaled groups of a model, for people. */
+#ifndef FST_CLI_GROUPS_H
+#define FST_CLI_GROUPS_H
+
+#include <stdio.h>
+
+#include <festoon/festoon.h>
+
+/* A few lines: the groups, and the units in which everything else is scaled. */
+void print_groups(FILE *out, const fst_groups *groups);
+
+#endif

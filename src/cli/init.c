@@ -1,0 +1,40 @@
+/* init.c - festoon init: a commented scene to begin with. */
+#include <string.h>
+
+#include "cli/command.h"
+
+#define DEFAULT_FILE "festoon.yaml"
+
+static const option options[] = {
+    SCENE_OPTIONS,
+    {"force", 'f', NULL, "overwrite FILE if it is there"},
+    {NULL, '\0', NULL, NULL},
+};
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_params params;
+    const char *path = operand(given) ? operand(given) : DEFAULT_FILE;
+    fst_status status = read_scene(given, NULL, &params, error);
+    if (status != FST_OK)
+        return status;
+    if (strcmp(path, "-") == 0)
+        return print_and_free(fst_scene_text(&params, 1), out, error);
+    int force = option_value(given, "force") != NULL;
+    status = fst_scene_write(path, &params, 1, force, error);
+    if (status == FST_BAD_INPUT && !force && strstr(error->sentence, "already"))
+        return fail(error, FST_BAD_INPUT, path, "this file is there already; --force overwrites it");
+    if (status == FST_OK)
+        (void)fprintf(stderr, "wrote %s; run it with: festoon run %s\n", path, path);
+    return status;
+}
+
+const command init_command = {
+    .name = "init",
+    .synopsis = "[FILE] [--set KEY=VALUE]... [--force]",
+    .summary = "Write a scene with every parameter and a comment on each",
+    .details = "FILE is " DEFAULT_FILE " unless given; - writes to standard output.\n",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

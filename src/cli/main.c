@@ -1,0 +1,160 @@
+/* main.c - the program: finds the subcommand, reads its options, and turns a status into an exit status. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+
+static const command *const commands[] = {
+    &run_command, &field_command, &plot_command, &paper_command, &init_command, &check_command, &schema_command,
+};
+enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
+
+static const command *find_command(const char *name)
+{
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        if (strcmp(commands[i]->name, name) == 0)
+            return commands[i];
+    return NULL;
+}
+
+/* ---------------------------------------------------------------- help */
+
+static void print_help(FILE *out)
+{
+    (void)fprintf(out,
+                  "festoon %s - a magnetic bead on a magnetic stirrer\n\n"
+                  "usage: festoon COMMAND [SCENE.yaml] [--set KEY=VALUE]... [options]\n\n",
+                  fst_version());
+    for (int i = 0; i < COMMAND_COUNT; i++)
+        (void)fprintf(out, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
+    (void)fprintf(
+        out, "\nWithout a scene: the bead of Farago et al. (2020) at 10.7 Hz.  festoon COMMAND --help tells\n"
+             "more; festoon --version lists the optional parts of this build.\n\n"
+             "Status: 0 done; 1 the computation failed; 2 bad usage, scene or input file; 130 interrupted.\n");
+}
+
+static void print_command_help(FILE *out, const command *shown)
+{
+    (void)fprintf(out, "usage: festoon %s %s\n\n%s.\n", shown->name, shown->synopsis, shown->summary);
+    if (shown->details[0])
+        (void)fprintf(out, "\n%s", shown->details);
+    (void)fprintf(out, "\noptions:\n");
+    for (const option *row = shown->options; row->name; row++) {
+        char words[64];
+        (void)snprintf(words, sizeof words, "%s%c%s--%s %s", row->letter ? "-" : "",
+                       row->letter ? row->letter : ' ', row->letter ? ", " : "", row->name,
+                       row->value ? row->value : "");
+        (void)fprintf(out, "  %-28s %s\n", words, row->help);
+    }
+    (void)fprintf(out, "  %-28s %s\n", " --help", "this text");
+}
+
+static fst_status unknown_command(const char *name, fst_error *error)
+{
+    char names[256] = "help|--help|--version", nearest[32];
+    for (int i = 0; i < COMMAND_COUNT; i++) {
+        size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "|%s", commands[i]->name);
+    }
+    fst_nearest_name(name, names, nearest, sizeof nearest);
+    return fail(error, FST_BAD_INPUT, "", "unknown command \"%.60s\"; the nearest is %s", name, nearest);
+}
+
+static fst_status help(int count, char **words, FILE *out, fst_error *error)
+{
+    if (count == 0) {
+        print_help(out);
+        return FST_OK;
+    }
+    const command *shown = find_command(words[0]);
+    if (!shown)
+        return unknown_command(words[0], error);
+    print_command_help(out, shown);
+    return FST_OK;
+}
+
+/* ---------------------------------------------------------------- doing it */
+
+static int asks_for_help(int count, char **words)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0)
+            return 1;
+    return 0;
+}
+
+/* words[0] is the first word behind the program's name. */
+static fst_status perform(int count, char **words, FILE *out, fst_error *error)
+{
+    if (count == 0)
+        return fail(error, FST_BAD_INPUT, "", "a command is missing; festoon --help lists them");
+    if (strcmp(words[0], "--version") == 0) {
+        (void)fprintf(out, "festoon %s\n%s\n", fst_version(), fst_tools_components());
+        return FST_OK;
+    }
+    if (strcmp(words[0], "--help") == 0 || strcmp(words[0], "-h") == 0)
+        return help(0, words, out, error);
+    if (strcmp(words[0], "help") == 0)
+        return help(count - 1, words + 1, out, error);
+    const command *wanted = find_command(words[0]);
+    if (!wanted)
+        return unknown_command(words[0], error);
+    if (asks_for_help(count - 1, words + 1)) {
+        print_command_help(out, wanted);
+        return FST_OK;
+    }
+    arguments given;
+    fst_status status =
+        read_arguments(wanted->options, wanted->most_operands, count - 1, words + 1, &given, error);
+    return status == FST_OK ? wanted->perform(&given, out, error) : status;
+}
+
+static int exit_status(fst_status status)
+{
+    switch (status) {
+    case FST_OK:
+        return 0;
+    case FST_BAD_INPUT:
+        return 2;
+    case FST_INTERRUPTED:
+        return 130;
+    default:
+        return 1;
+    }
+}
+
+static void print_error(const fst_error *error)
+{
+    (void)fprintf(stderr, "festoon: %s%s%s\n", error->where, error->where[0] ? ": " : "", error->sentence);
+}
+
+int main(int argc, char **argv)
+{
+    terminal_prepare();
+    fst_error error = {FST_OK, "", ""};
+    char *text = NULL;
+    size_t size = 0;
+    /* Standard output is written only when all is well. */
+    FILE *out = open_memstream(&text, &size);
+    fst_status status = FST_NO_MEMORY;
+    if (out) {
+        status = perform(argc > 0 ? argc - 1 : 0, argv + 1, out, &error);
+        if (fclose(out) != 0 && status == FST_OK)
+            status = fail(&error, FST_NO_MEMORY, "", "out of memory");
+    } else {
+        (void)fail(&error, FST_NO_MEMORY, "", "out of memory");
+    }
+    if (status == FST_OK) {
+        int reason = write_standard_output(text, size);
+        if (reason)
+            status = fail(&error, FST_IO, "standard output", "writing failed: %s", strerror(reason));
+    } else if (interrupted() && status != FST_INTERRUPTED) {
+        /* Also where the signal reached a helper process such as gnuplot first. */
+        status = fail(&error, FST_INTERRUPTED, "", "interrupted");
+    }
+    if (status != FST_OK)
+        print_error(&error);
+    free(text);
+    return exit_status(status);
+}

@@ -1,0 +1,41 @@
+/* options.h - reading a command line by a table. */
+#ifndef FST_CLI_OPTIONS_H
+#define FST_CLI_OPTIONS_H
+
+#include <festoon/festoon.h>
+
+/* One row; a table ends with a row without name. */
+typedef struct option {
+    const char *name;  /* "json" for --json */
+    char letter;       /* 'o' for -o; '\0': none */
+    const char *value; /* what its value is called in help; NULL: it takes none */
+    const char *help;
+} option;
+
+#define OPTION_LIMIT 256 /* given options; more are refused */
+#define OPERAND_LIMIT 2
+
+typedef struct given_option {
+    const option *row;
+    const char *value; /* "" for an option without value */
+} given_option;
+
+typedef struct arguments {
+    given_option options[OPTION_LIMIT];
+    int option_count;
+    const char *operands[OPERAND_LIMIT];
+    int operand_count;
+} arguments;
+
+/* Read words[0..count) by `table`.  Values may begin with a minus.  Only --set may be repeated.  FST_BAD_INPUT:
+ * unknown option (with the nearest valid one), missing or superfluous value, too many operands. */
+fst_status read_arguments(const option *table, int most_operands, int count, char **words, arguments *given,
+                          fst_error *error);
+
+/* The value of --name, "" for an option without value; NULL where it was not given. */
+const char *option_value(const arguments *given, const char *name);
+
+/* The first operand, or NULL. */
+const char *operand(const arguments *given);
+
+#endif

@@ -1,0 +1,48 @@
+/* paper.c - festoon paper: the published results beside those of this program. */
+#include "cli/command.h"
+#include "cli/terminal.h"
+
+#include <stdlib.h>
+
+static const option options[] = {
+    {"output", 'o', "DIR", "the directory for paper.json, the figures and report.html; made if missing"},
+    {"reduced", '\0', NULL, "fewer points and shorter runs, for a quick look"},
+    {NULL, '\0', NULL, NULL},
+};
+
+static fst_status show(void *user, double fraction, const char *what, fst_error *error)
+{
+    return progress_show(user, fraction, what, error);
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    const char *directory = option_value(given, "output");
+    if (!directory)
+        return fail(error, FST_BAD_INPUT, "", "tell where the results go: -o DIR");
+    progress_line line;
+    progress_begin(&line);
+    fst_paper_options paper = fst_default_paper_options();
+    paper.reduced = option_value(given, "reduced") != NULL;
+    paper.user = &line;
+    paper.progress = show;
+    char *summary = NULL;
+    paper.summary = &summary;
+    fst_status status = fst_paper(directory, &paper, error);
+    progress_end(&line);
+    if (status == FST_OK && summary)
+        (void)fputs(summary, out);
+    free(summary);
+    if (status == FST_OK)
+        (void)fprintf(stderr, "wrote %s/report.html\n", directory);
+    return status;
+}
+
+const command paper_command = {
+    .name = "paper",
+    .synopsis = "-o DIR [--reduced]",
+    .summary = "Compute what the paper shows, and report it beside the published numbers",
+    .details = "",
+    .options = options,
+    .perform = perform,
+};

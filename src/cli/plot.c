@@ -1,0 +1,117 @@
+/* plot.c - festoon plot: figures of a trajectory. */
+#include <string.h>
+
+#include "cli/command.h"
+
+static const struct {
+    const char *name;
+    fst_figure_kind kind;
+} kinds[] = {
+    {"path", FST_FIGURE_PATH},
+    {"local-n", FST_FIGURE_LOCAL_N},
+    {"radius-field", FST_FIGURE_RADIUS_FIELD},
+};
+#define KIND_NAMES "path|local-n|radius-field"
+
+static const option options[] = {
+    {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
+    {"kind", '\0', "KIND",
+     "path: in the laboratory; local-n: of the moment in the local frame; radius-field: r and "
+     "|B| against Phi"},
+    {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
+    {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
+    {"no-arrows", '\0', NULL, "draw none"},
+    {"from", '\0', "P", "first drive period shown"},
+    {"to", '\0', "P", "last drive period shown"},
+    {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
+    {NULL, '\0', NULL, NULL},
+};
+
+static fst_status read_kind(const char *word, fst_figure_kind *kind, fst_error *error)
+{
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (strcmp(kinds[i].name, word) == 0) {
+            *kind = kinds[i].kind;
+            return FST_OK;
+        }
+    char nearest[32];
+    fst_nearest_name(word, KIND_NAMES, nearest, sizeof nearest);
+    return fail(error, FST_BAD_INPUT, "--kind", "unknown kind \"%.60s\"; the nearest is %s (kinds: %s)", word,
+                nearest, KIND_NAMES);
+}
+
+static fst_status read_colour(const char *word, const char **colour, fst_error *error)
+{
+    char names[1024] = "", nearest[32];
+    for (int i = 0; i < fst_column_count(); i++) {
+        const char *name = fst_column_at(i)->name;
+        if (strcmp(name, word) == 0) {
+            *colour = name;
+            return FST_OK;
+        }
+        size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name);
+    }
+    fst_nearest_name(word, names, nearest, sizeof nearest);
+    return fail(error, FST_BAD_INPUT, "--colour", "unknown column \"%.60s\"; the nearest is %s (columns: %s)",
+                word, nearest, names);
+}
+
+static fst_status read_figure(const arguments *given, fst_figure_options *figure, fst_error *error)
+{
+    *figure = fst_default_figure_options();
+    const char *kind = option_value(given, "kind"), *colour = option_value(given, "colour");
+    const char *from = option_value(given, "from"), *to = option_value(given, "to");
+    const char *zoom = option_value(given, "zoom");
+    int with = option_value(given, "arrows") != NULL, without = option_value(given, "no-arrows") != NULL;
+    if (with && without)
+        return fail(error, FST_BAD_INPUT, "", "--arrows and --no-arrows contradict each other");
+    if (with || without)
+        figure->arrows = with;
+    fst_status status = kind ? read_kind(kind, &figure->kind, error) : FST_OK;
+    if (status == FST_OK && colour)
+        status = read_colour(colour, &figure->colour, error);
+    if (status == FST_OK && from)
+        status = read_numbers("--from", from, &figure->from, 1, error);
+    if (status == FST_OK && to)
+        status = read_numbers("--to", to, &figure->to, 1, error);
+    if (status == FST_OK && from && to && !(figure->from < figure->to))
+        status = fail(error, FST_BAD_INPUT, "--to", "it must be greater than --from");
+    if (status == FST_OK && zoom)
+        status = read_numbers("--zoom", zoom, figure->zoom, 4, error);
+    if (status == FST_OK && zoom && !(figure->zoom[0] < figure->zoom[1] && figure->zoom[2] < figure->zoom[3]))
+        status = fail(error, FST_BAD_INPUT, "--zoom", "X0 must be less than X1, and Y0 less than Y1");
+    return status;
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    (void)out;
+    fst_figure_options figure;
+    fst_table table;
+    const char *path = operand(given), *to = option_value(given, "output");
+    if (!path)
+        return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
+    if (!to)
+        return fail(error, FST_BAD_INPUT, "", "tell where the figure goes: -o FIG.svg");
+    fst_status status = read_figure(given, &figure, error);
+    if (status == FST_OK)
+        status = fst_trajectory_read(path, &table, error);
+    if (status != FST_OK)
+        return status;
+    status = fst_figure_trajectory(&table, to, &figure, error);
+    if (status == FST_OK)
+        (void)fprintf(stderr, "wrote %s%s\n", to, table.complete ? "" : " (of an interrupted run)");
+    fst_table_free(&table);
+    return status;
+}
+
+const command plot_command = {
+    .name = "plot",
+    .synopsis = "FILE.(h5|csv) -o FIG.(svg|pdf|png) [options]",
+    .summary = "Draw a trajectory that run -o or run --csv wrote",
+    .details = "",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

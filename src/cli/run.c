@@ -1,0 +1,210 @@
+/* run.c - festoon run: simulate a scene and describe the motion. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/run_report.h"
+#include "cli/terminal.h"
+
+static const option options[] = {
+    SCENE_OPTIONS,
+    JSON_OPTION,
+    {"output", 'o', "FILE", "write the trajectory to FILE.h5 (HDF5) or FILE.csv"},
+    {"csv", '\0', "FILE", "write the trajectory to FILE.csv too"},
+    {"ramp", '\0', "FROM:TO",
+     "slow ramp of the drive after the discard: 7:20 or 420rpm:1200rpm, or omega=0.2:0.4"},
+    {"ramp-points", '\0', "N", "pieces of the ramp over which means are taken (64)"},
+    {NULL, '\0', NULL, NULL},
+};
+
+/* What a run pushes its findings into. */
+typedef struct run_outputs {
+    fst_trajectory *files[2];
+    const char *paths[2];
+    progress_line progress;
+    fst_ramp_point *ramp;
+    size_t ramp_count, ramp_room;
+} run_outputs;
+
+/* ---------------------------------------------------------------- callbacks */
+
+static fst_status take_sample(void *user, const fst_sample *sample, fst_error *error)
+{
+    run_outputs *outputs = user;
+    fst_status status = FST_OK;
+    for (int i = 0; i < 2 && status == FST_OK; i++)
+        if (outputs->files[i])
+            status = fst_trajectory_append(outputs->files[i], sample, error);
+    return status;
+}
+
+static fst_status take_ramp_point(void *user, const fst_ramp_point *point, fst_error *error)
+{
+    run_outputs *outputs = user;
+    if (outputs->ramp_count == outputs->ramp_room) {
+        size_t room = outputs->ramp_room ? 2 * outputs->ramp_room : 64;
+        fst_ramp_point *longer = realloc(outputs->ramp, room * sizeof *longer);
+        if (!longer)
+            return fail(error, FST_NO_MEMORY, "--ramp", "out of memory");
+        outputs->ramp = longer;
+        outputs->ramp_room = room;
+    }
+    outputs->ramp[outputs->ramp_count++] = *point;
+    return FST_OK;
+}
+
+static fst_status take_progress(void *user, double fraction, fst_error *error)
+{
+    run_outputs *outputs = user;
+    return progress_show(&outputs->progress, fraction, NULL, error);
+}
+
+/* ---------------------------------------------------------------- options */
+
+/* One end of a ramp as omega. */
+static fst_status read_ramp_end(const char *text, int scaled, double gamma, double *omega, fst_error *error)
+{
+    fst_status status = fst_parse_value(text, scaled ? FST_UNIT_NUMBER : FST_UNIT_FREQUENCY, omega, error);
+    if (status != FST_OK) {
+        (void)snprintf(error->where, sizeof error->where, "--ramp");
+        return status;
+    }
+    if (!scaled)
+        *omega *= 6.283185307179586 / gamma;
+    const fst_param_info *range = fst_param_at(fst_param_find("drive.omega"));
+    if (!(*omega >= range->least && *omega <= range->greatest))
+        return fail(error, FST_BAD_INPUT, "--ramp", "\"%.40s\" is out of range: omega must be %g to %g", text,
+                    range->least, range->greatest);
+    return FST_OK;
+}
+
+static fst_status read_ramp(const arguments *given, double gamma, fst_run_options *run, fst_error *error)
+{
+    const char *text = option_value(given, "ramp"), *points = option_value(given, "ramp-points");
+    if (!text)
+        return points ? fail(error, FST_BAD_INPUT, "", "--ramp-points needs --ramp FROM:TO") : FST_OK;
+    int scaled = strncmp(text, "omega=", 6) == 0;
+    const char *from = scaled ? text + 6 : text, *colon = strchr(from, ':');
+    char first[64];
+    if (!colon || colon - from >= (int)sizeof first)
+        return fail(error, FST_BAD_INPUT, "--ramp",
+                    "\"%.60s\" must be FROM:TO, as in 7:20 (Hz) or omega=0.2:0.4", text);
+    (void)snprintf(first, sizeof first, "%.*s", (int)(colon - from), from);
+    fst_status status = read_ramp_end(first, scaled, gamma, &run->ramp_from, error);
+    if (status == FST_OK)
+        status = read_ramp_end(colon + 1, scaled, gamma, &run->ramp_to, error);
+    if (status != FST_OK || !points)
+        return status;
+    double count;
+    status = read_numbers("--ramp-points", points, &count, 1, error);
+    if (status == FST_OK && !(count >= 1 && count <= 100000 && count == floor(count)))
+        status = fail(error, FST_BAD_INPUT, "--ramp-points", "\"%.40s\" must be an integer from 1 to 100000",
+                      points);
+    if (status == FST_OK)
+        run->ramp_points = (int)count;
+    return status;
+}
+
+/* ---------------------------------------------------------------- files */
+
+static fst_status open_files(const arguments *given, const fst_params *params, run_outputs *outputs,
+                             fst_error *error)
+{
+    const char *csv = option_value(given, "csv");
+    outputs->paths[0] = option_value(given, "output");
+    outputs->paths[1] = csv;
+    if (csv && (strlen(csv) < 5 || strcmp(csv + strlen(csv) - 4, ".csv") != 0))
+        return fail(error, FST_BAD_INPUT, "--csv", "the name \"%.200s\" must end in .csv", csv);
+    if (csv && outputs->paths[0] && strcmp(csv, outputs->paths[0]) == 0)
+        return fail(error, FST_BAD_INPUT, "--csv", "-o and --csv name the same file");
+    fst_status status = FST_OK;
+    for (int i = 0; i < 2 && status == FST_OK; i++)
+        if (outputs->paths[i])
+            status = fst_trajectory_create(outputs->paths[i], params, &outputs->files[i], error);
+    return status;
+}
+
+/* A finished or interrupted run is kept, a failed one is not. */
+static fst_status close_files(run_outputs *outputs, fst_status status, const fst_run_result *result,
+                              fst_error *error)
+{
+    for (int i = 0; i < 2; i++) {
+        if (!outputs->files[i])
+            continue;
+        if (status != FST_OK && status != FST_INTERRUPTED) {
+            fst_trajectory_discard(outputs->files[i]);
+            continue;
+        }
+        fst_status closed = fst_trajectory_close(outputs->files[i], result, status == FST_OK, error);
+        if (closed != FST_OK)
+            status = closed;
+        else
+            (void)fprintf(stderr, "wrote %s%s\n", outputs->paths[i], status == FST_OK ? "" : " (incomplete)");
+    }
+    return status;
+}
+
+/* ---------------------------------------------------------------- the command */
+
+static fst_status print_result(const arguments *given, const fst_params *params, const fst_run_result *result,
+                               const run_outputs *outputs, FILE *out, fst_error *error)
+{
+    if (option_value(given, "json"))
+        return print_and_free(fst_run_json(params, result, outputs->ramp, outputs->ramp_count), out, error);
+    fst_model *model;
+    fst_status status = fst_model_new(params, &model, error);
+    if (status != FST_OK)
+        return status;
+    const fst_groups groups = fst_model_groups(model);
+    fst_model_free(model);
+    if (option_value(given, "ramp"))
+        print_ramp(out, &groups, result, outputs->ramp, outputs->ramp_count);
+    else
+        print_run(out, &groups, result);
+    return FST_OK;
+}
+
+static fst_status run_into(const arguments *given, const fst_params *params, run_outputs *outputs, FILE *out,
+                           fst_error *error)
+{
+    fst_run_result result;
+    fst_run_options run = fst_default_run_options();
+    fst_status status = read_ramp(given, params->friction_gamma, &run, error);
+    if (status == FST_OK)
+        status = open_files(given, params, outputs, error);
+    if (status == FST_OK) {
+        run.sink.user = outputs;
+        run.sink.progress = take_progress;
+        run.sink.ramp_point = take_ramp_point;
+        if (outputs->files[0] || outputs->files[1])
+            run.sink.sample = take_sample;
+        progress_begin(&outputs->progress);
+        status = fst_run(params, &run, &result, error);
+        progress_end(&outputs->progress);
+    }
+    status = close_files(outputs, status, &result, error);
+    return status == FST_OK ? print_result(given, params, &result, outputs, out, error) : status;
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_params params;
+    run_outputs outputs = {.ramp = NULL};
+    fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK)
+        status = run_into(given, &params, &outputs, out, error);
+    free(outputs.ramp);
+    return status;
+}
+
+const command run_command = {
+    .name = "run",
+    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json] [-o FILE.h5] [--csv FILE.csv] [--ramp FROM:TO]",
+    .summary = "Simulate the bead and describe its motion",
+    .details =
+        "The means are over whole returns of the motion after run.discard drive periods.  A trajectory has\n"
+        "run.samples rows in each drive period; festoon plot draws it.\n",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

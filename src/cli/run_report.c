@@ -1,0 +1,168 @@
+#include "cli/run_report.h"
+
+#include "cli/groups.h"
+
+static const double TWO_PI = 6.283185307179586;
+
+/* ---------------------------------------------------------------- the sentence */
+
+static double millimetres(const fst_groups *groups, double length)
+{
+    return 1e3 * groups->length_unit * length;
+}
+
+/* Angle of the bead against the magnet at the end, in degrees. */
+static double final_phi_degrees(const fst_run_result *result)
+{
+    return atan2(result->final_state[FST_Y], result->final_state[FST_X]) * 360.0 / TWO_PI;
+}
+
+static double final_r(const fst_run_result *result)
+{
+    return hypot(result->final_state[FST_X], result->final_state[FST_Y]);
+}
+
+static void print_rotation(FILE *out, const fst_groups *groups, const fst_run_result *result, const char *verb,
+                           const char *way)
+{
+    (void)fprintf(out, "%s: the bead circles %s once every %.3g turns of the magnet", verb, way,
+                  result->omega / fabs(result->mean_alpha_dot));
+    if (isfinite(result->festoons))
+        (void)fprintf(out, ", %.3g festoons", result->festoons);
+    (void)fprintf(out, ", radius %.3g mm\n", millimetres(groups, result->mean_r));
+}
+
+/* Where and when a bead left the plate. */
+static void print_end(FILE *out, const fst_groups *groups, const fst_run_result *result, const char *what)
+{
+    (void)fprintf(out,
+                  "%s after %.4g turns of the magnet (%.4g s), %.4g mm from the axis, at Phi = %.4g degrees\n",
+                  what, result->periods, result->end_time * groups->time_unit,
+                  millimetres(groups, final_r(result)), final_phi_degrees(result));
+}
+
+static void print_sentence(FILE *out, const fst_groups *groups, const fst_run_result *result)
+{
+    switch (result->regime) {
+    case FST_REGIME_COUNTER_ROTATING:
+        print_rotation(out, groups, result, "counter-rotates", "backwards");
+        break;
+    case FST_REGIME_COROTATING:
+        print_rotation(out, groups, result, "corotates", "forwards");
+        break;
+    case FST_REGIME_LOCKED:
+        (void)fprintf(out,
+                      "locked: the bead turns with the magnet, %.4g mm from the axis, at Phi = %.4g degrees\n",
+                      millimetres(groups, final_r(result)), final_phi_degrees(result));
+        break;
+    case FST_REGIME_LIBRATING:
+        (void)fprintf(out, "librates: the bead turns with the magnet, swinging about it, mean radius %.4g mm\n",
+                      millimetres(groups, result->mean_r));
+        break;
+    case FST_REGIME_CHAOTIC:
+        (void)fprintf(out,
+                      "chaotic: two beads started side by side part e-fold in %.3g s; mean radius %.4g mm\n",
+                      groups->time_unit / result->largest_exponent, millimetres(groups, result->mean_r));
+        break;
+    case FST_REGIME_EJECTED:
+        print_end(out, groups, result, "ejected: the bead passed the plate's edge");
+        break;
+    case FST_REGIME_LIFTED:
+        print_end(out, groups, result, "lifted: the bead lost contact with the plate, where this model ends,");
+        break;
+    case FST_REGIME_UNDECIDED:
+        (void)fprintf(out, "undecided: the run does not show what the motion is\n");
+        break;
+    }
+    (void)fprintf(out, "  %s\n", result->reason);
+}
+
+/* ---------------------------------------------------------------- the numbers */
+
+/* A line with a scaled number, its error bar (NAN: none), and the number in another unit: value * factor. */
+static void print_line(FILE *out, const char *name, double value, double bar, const char *scaled_unit,
+                       double factor, const char *unit)
+{
+    char scaled[96];
+    if (!isfinite(value))
+        return;
+    if (isfinite(bar))
+        (void)snprintf(scaled, sizeof scaled, "%.8g +- %.1g %s", value, bar, scaled_unit);
+    else
+        (void)snprintf(scaled, sizeof scaled, "%.8g %s", value, scaled_unit);
+    if (unit)
+        (void)fprintf(out, "  %-32s %-36s %.6g %s\n", name, scaled, value * factor, unit);
+    else
+        (void)fprintf(out, "  %-32s %s\n", name, scaled);
+}
+
+static void print_motion(FILE *out, const fst_groups *g, const fst_run_result *s)
+{
+    const double mm = 1e3 * g->length_unit, hertz = 1.0 / (TWO_PI * g->time_unit);
+    print_line(out, "drive omega", s->omega, NAN, "gamma", hertz, "Hz");
+    print_line(out, "distance from the axis <r>", s->mean_r, s->mean_r_error, "l", mm, "mm");
+    print_line(out, "  its variation delta r", s->std_r, NAN, "l", mm, "mm");
+    print_line(out, "  least", s->min_r, NAN, "l", mm, "mm");
+    print_line(out, "  greatest", s->max_r, NAN, "l", mm, "mm");
+    print_line(out, "bead's circling <alpha'>", s->mean_alpha_dot, s->mean_alpha_dot_error, "gamma", hertz,
+               "Hz");
+    print_line(out, "moment's turning <phi'>", s->mean_phi_dot, NAN, "gamma", hertz, "Hz");
+    print_line(out, "mean n_z", s->mean_nz, s->mean_nz_error, "", 1, NULL);
+    print_line(out, "festoons", s->festoons, NAN, "", 1, NULL);
+    print_line(out, "one whole turn of Phi", s->period, NAN, "1/gamma", 1e3 * g->time_unit, "ms");
+    print_line(out, "angle(n, B), greatest", s->max_angle_deg, NAN, "degrees", 1, NULL);
+    print_line(out, "tilt of the plane of n", s->tilt_deg, NAN, "degrees", 1, NULL);
+    print_line(out, "largest Lyapunov exponent", s->largest_exponent, s->largest_exponent_error, "gamma",
+               1.0 / g->time_unit, "1/s");
+}
+
+static void print_forces(FILE *out, const fst_groups *g, const fst_run_result *s)
+{
+    const int tesla = isfinite(g->field_unit);
+    const double mt = tesla ? 1e3 * g->field_unit : 1.0;
+    const double speed = 1e3 * g->length_unit / g->time_unit;
+    const double power = 1e3 * g->mass * g->length_unit * g->length_unit / pow(g->time_unit, 3);
+    print_line(out, "field <|B|>", s->mean_b, NAN, "B0", mt, tesla ? "mT" : NULL);
+    print_line(out, "  its variation", s->std_b, NAN, "B0", mt, tesla ? "mT" : NULL);
+    print_line(out, "  least", s->min_b, NAN, "B0", mt, tesla ? "mT" : NULL);
+    print_line(out, "  greatest", s->max_b, NAN, "B0", mt, tesla ? "mT" : NULL);
+    print_line(out, "slip of the contact, rms", s->rms_slip, NAN, "l gamma", speed, "mm/s");
+    print_line(out, "load on the plate", s->mean_load_weights, NAN, "weights", 1, NULL);
+    print_line(out, "  least", s->min_load_weights, NAN, "weights", 1, NULL);
+    print_line(out, "  greatest", s->max_load_weights, NAN, "weights", 1, NULL);
+    print_line(out, "friction rate if it were dry", s->dry_friction_rate, NAN, "1/s", 1, NULL);
+    print_line(out, "power lost to friction", s->mean_friction_power, NAN, "l^2 gamma^3", power, "mW");
+    print_line(out, "power of the drive", s->mean_drive_power, NAN, "l^2 gamma^3", power, "mW");
+    print_line(out, "energy residual", s->energy_residual, NAN, "", 1, NULL);
+}
+
+void print_run(FILE *out, const fst_groups *groups, const fst_run_result *result)
+{
+    const char *dynamics = groups->dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020";
+    print_sentence(out, groups, result);
+    (void)fprintf(out, "\n  dynamics %s, symmetry %s, %.6g turns of the magnet", dynamics,
+                  fst_symmetry_name(result->symmetry) ? fst_symmetry_name(result->symmetry) : "none",
+                  result->periods);
+    if (isfinite(result->window_periods))
+        (void)fprintf(out, ", means over the last %.6g", result->window_periods);
+    (void)fprintf(out, "\n");
+    print_motion(out, groups, result);
+    print_forces(out, groups, result);
+    (void)fprintf(out, "\nScaled groups:\n");
+    print_groups(out, groups);
+}
+
+void print_ramp(FILE *out, const fst_groups *groups, const fst_run_result *result, const fst_ramp_point *points,
+                size_t count)
+{
+    if (result->regime == FST_REGIME_EJECTED || result->regime == FST_REGIME_LIFTED)
+        print_sentence(out, groups, result);
+    const double mm = 1e3 * groups->length_unit, hertz = 1.0 / (TWO_PI * groups->time_unit);
+    (void)fprintf(
+        out, "A ramp of the drive to %.6g Hz, means over its pieces:\n  %10s %10s %10s %12s %14s %14s %10s\n",
+        result->frequency_hz, "drive Hz", "omega", "<r> mm", "delta r mm", "<alpha'> Hz", "<phi'> Hz", "<n_z>");
+    for (size_t i = 0; i < count; i++)
+        (void)fprintf(out, "  %10.5g %10.6g %10.5g %12.4g %14.6g %14.6g %10.3g\n", points[i].frequency_hz,
+                      points[i].omega, mm * points[i].mean_r, mm * points[i].std_r,
+                      hertz * points[i].mean_alpha_dot, hertz * points[i].mean_phi_dot, points[i].mean_nz);
+}

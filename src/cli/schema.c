@@ -1,0 +1,51 @@
+/* schema.c - festoon schema: the table of all parameters. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+
+static const option options[] = {JSON_OPTION, {NULL, '\0', NULL, NULL}};
+
+/* "1e-07 to 1 m", or the choices. */
+static void print_limits(FILE *out, const fst_param_info *info)
+{
+    const char *accepted = fst_unit_accepted(info->unit);
+    if (info->kind == FST_KIND_CHOICE)
+        (void)fprintf(out, "      one of %s\n", info->names);
+    else
+        (void)fprintf(out, "      %s%g to %g%s%s%s%s\n", info->kind == FST_KIND_INT ? "integer, " : "",
+                      info->least, info->greatest, accepted[0] ? " " : "",
+                      accepted[0] ? fst_unit_name(info->unit) : "", accepted[0] ? "; units: " : "", accepted);
+}
+
+static void print_table(FILE *out)
+{
+    const fst_params defaults = fst_default_params();
+    for (int i = 0; i < fst_param_count(); i++) {
+        const fst_param_info *info = fst_param_at(i);
+        char value[64];
+        (void)fst_params_get(&defaults, i, value, sizeof value);
+        int with_unit = value[0] && fst_unit_accepted(info->unit)[0];
+        (void)fprintf(out, "%-20s %s%s%s\n", info->key, value[0] ? value : "(not given)", with_unit ? " " : "",
+                      with_unit ? fst_unit_name(info->unit) : "");
+        print_limits(out, info);
+        (void)fprintf(out, "      %s\n", info->doc);
+    }
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    if (option_value(given, "json"))
+        return print_and_free(fst_schema_json(), out, error);
+    print_table(out);
+    return FST_OK;
+}
+
+const command schema_command = {
+    .name = "schema",
+    .synopsis = "[--json]",
+    .summary = "List all parameters: key, default, range, units, what it is",
+    .details = "",
+    .options = options,
+    .perform = perform,
+};

@@ -1,0 +1,104 @@
+#include "cli/terminal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <stdio.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "cli/command.h"
+
+/* The one thing that a signal handler may touch. */
+static volatile sig_atomic_t signal_came = 0;
+
+static void note_signal(int number)
+{
+    (void)number;
+    signal_came = 1;
+}
+
+/* A stream that the caller closed would be taken by the next file that is opened, and messages would end up in
+ * it.  Opened for the wrong direction, the place is kept and writing still fails. */
+static void keep_descriptor(int descriptor, int flags)
+{
+    if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF)
+        (void)open("/dev/null", flags);
+}
+
+void terminal_prepare(void)
+{
+    keep_descriptor(STDIN_FILENO, O_WRONLY);
+    keep_descriptor(STDOUT_FILENO, O_RDONLY);
+    keep_descriptor(STDERR_FILENO, O_RDONLY);
+    /* The first signal is noted, the second ends the program at once. */
+    struct sigaction action = {.sa_handler = note_signal};
+    action.sa_flags = (int)SA_RESETHAND;
+    (void)sigemptyset(&action.sa_mask);
+    (void)sigaction(SIGINT, &action, NULL);
+    (void)sigaction(SIGTERM, &action, NULL);
+    /* A closed pipe is a failed write, with a message and status 1. */
+    struct sigaction ignore = {.sa_handler = SIG_IGN};
+    (void)sigemptyset(&ignore.sa_mask);
+    (void)sigaction(SIGPIPE, &ignore, NULL);
+}
+
+int interrupted(void)
+{
+    return signal_came != 0;
+}
+
+static double now(void)
+{
+    struct timespec time = {0, 0};
+    (void)clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+void progress_begin(progress_line *line)
+{
+    line->visible = isatty(STDERR_FILENO);
+    line->started = now();
+    line->shown = line->started;
+}
+
+fst_status progress_show(progress_line *line, double fraction, const char *what, fst_error *error)
+{
+    if (interrupted())
+        return fail(error, FST_INTERRUPTED, "", "interrupted after %.3g %% of the way", 100.0 * fraction);
+    if (!line->visible)
+        return FST_OK;
+    double time = now();
+    if (time - line->shown < 0.2)
+        return FST_OK;
+    line->shown = time;
+    double passed = time - line->started;
+    (void)fprintf(stderr, "\r\033[K%5.1f %%", 100.0 * fraction);
+    if (fraction > 0.0)
+        (void)fprintf(stderr, "  %.0f s left", passed * (1.0 - fraction) / fraction);
+    if (what)
+        (void)fprintf(stderr, "  %.50s", what);
+    (void)fflush(stderr);
+    return FST_OK;
+}
+
+void progress_end(progress_line *line)
+{
+    if (line->visible && line->shown > line->started)
+        (void)fputs("\r\033[K", stderr);
+}
+
+int write_standard_output(const char *text, size_t size)
+{
+    while (size > 0) {
+        ssize_t written = write(STDOUT_FILENO, text, size);
+        if (written < 0 && errno == EINTR)
+            continue;
+        if (written < 0)
+            return errno;
+        text += written;
+        size -= (size_t)written;
+    }
+    /* Some file systems tell only now that the disk is full. */
+    return close(STDOUT_FILENO) != 0 ? errno : 0;
+}

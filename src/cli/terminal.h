@@ -1,0 +1,31 @@
+/* terminal.h - the program's side towards the terminal and the shell: signals, progress, standard output. */
+#ifndef FST_CLI_TERMINAL_H
+#define FST_CLI_TERMINAL_H
+
+#include <festoon/festoon.h>
+
+/* Prepare standard streams and signals, before anything is opened. */
+void terminal_prepare(void);
+
+/* Whether SIGINT or SIGTERM came. */
+int interrupted(void);
+
+/* A progress line on standard error, if that is a terminal. */
+typedef struct progress_line {
+    double started, shown; /* s */
+    int visible;
+} progress_line;
+
+void progress_begin(progress_line *line);
+
+/* Show `fraction` with the time left and `what` (may be NULL).  Returns FST_INTERRUPTED, with `error` filled
+ * in, once a signal came; that is how a computation learns of it. */
+fst_status progress_show(progress_line *line, double fraction, const char *what, fst_error *error);
+
+/* Wipe the line. */
+void progress_end(progress_line *line);
+
+/* Write all of `text` to standard output; 0, or the reason (errno). */
+int write_standard_output(const char *text, size_t size);
+
+#endif

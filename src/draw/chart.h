@@ -1,0 +1,48 @@
+/* chart.h - figures of curves: panels over one common abscissa, each with up to two ordinates. */
+#ifndef FST_DRAW_CHART_H
+#define FST_DRAW_CHART_H
+
+#include "draw/style.h"
+
+typedef enum { FST_CURVE_LINE, FST_CURVE_DASHED, FST_CURVE_POINTS, FST_CURVE_OPEN_POINTS } fst_curve_style;
+
+typedef struct fst_chart_curve {
+    const char *title;   /* in the key; NULL: not there */
+    const double *x, *y; /* a NAN breaks the line */
+    size_t count;
+    fst_colour colour;
+    fst_curve_style style;
+    int right; /* belongs to the right-hand ordinate */
+} fst_chart_curve;
+
+typedef struct fst_chart_panel {
+    const char *left_label, *right_label; /* right: NULL for none */
+    fst_colour left_colour, right_colour; /* of the labels, where they tell the curves apart */
+    double low, high;                     /* of the left ordinate; NAN: from the data */
+    const char *key;                      /* gnuplot's place of the key, "top right"; NULL: no key */
+    const fst_chart_curve *curves;
+    int curve_count;
+} fst_chart_panel;
+
+/* A vertical line through all panels, with its text in the top one. */
+typedef struct fst_chart_mark {
+    double x;
+    const char *text;
+} fst_chart_mark;
+
+typedef struct fst_chart {
+    const char *title, *x_label;
+    double x_low, x_high;
+    const char *x_tics;   /* gnuplot's tics, "('0' 0, 'π' 3.14159)"; NULL: automatic */
+    const char *x2_label; /* a second abscissa on top, x2 = x2_factor x; NULL: none */
+    double x2_factor;
+    int width, height; /* pixels; 0: as usual */
+    const fst_chart_panel *panels;
+    int panel_count;
+    const fst_chart_mark *marks;
+    int mark_count;
+} fst_chart;
+
+fst_status fst_figure_chart(const char *out, const fst_chart *chart, fst_error *error);
+
+#endif

@@ -1,0 +1,249 @@
+#include "draw/figure_file.h"
+
+#include "base/error.h"
+#include "base/whole_file.h"
+#include "draw/gnuplot.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ------------------------------------------------------------------ names */
+
+static char *copy_of(const char *text, size_t size)
+{
+    char *copy = malloc(size + 1);
+    if (copy) {
+        memcpy(copy, text, size);
+        copy[size] = '\0';
+    }
+    return copy;
+}
+
+/* Take OUT apart into directory, stem and ending. */
+static fst_status take_apart(fst_figure_file *figure, const char *out, fst_error *error)
+{
+    for (const char *c = out; *c; c++)
+        if ((unsigned char)*c < ' ')
+            return fst_fail(error, FST_BAD_INPUT, "figure", "a figure's name may not hold control characters");
+    const char *slash = strrchr(out, '/');
+    const char *name = slash ? slash + 1 : out;
+    const char *point = strrchr(name, '.');
+    int known = point && (!strcmp(point, ".svg") || !strcmp(point, ".pdf") || !strcmp(point, ".png"));
+    if (!known || point == name)
+        return fst_fail(error, FST_BAD_INPUT, out,
+                        "a figure's name must end in .svg, .pdf or .png: the ending decides the format");
+    memcpy(figure->ending, point + 1, 4);
+    figure->out = copy_of(out, strlen(out));
+    figure->directory = slash == out ? copy_of("/", 1)
+                        : slash      ? copy_of(out, (size_t)(slash - out))
+                                     : copy_of(".", 1);
+    figure->stem = copy_of(name, (size_t)(point - name));
+    if (!figure->out || !figure->directory || !figure->stem)
+        return fst_fail(error, FST_NO_MEMORY, out, "no memory for a figure");
+    return FST_OK;
+}
+
+/* DIRECTORY/STEM.ENDING; free() it. */
+static char *beside(const fst_figure_file *figure, const char *ending)
+{
+    size_t room = strlen(figure->directory) + strlen(figure->stem) + strlen(ending) + 3;
+    char *path = malloc(room);
+    if (path)
+        (void)snprintf(path, room, "%s/%s.%s", figure->directory, figure->stem, ending);
+    return path;
+}
+
+/* ------------------------------------------------------------------ the script's head */
+
+void fst_figure_quote(fst_figure_file *figure, const char *text)
+{
+    (void)fputc('\'', figure->script);
+    for (const char *c = text; *c; c++) {
+        if (*c == '\'')
+            (void)fputc('\'', figure->script);
+        (void)fputc(*c, figure->script);
+    }
+    (void)fputc('\'', figure->script);
+}
+
+static void quote_name(fst_figure_file *figure, const char *ending)
+{
+    fst_figure_quote(figure, figure->stem);
+    (void)fprintf(figure->script, ".'.%s'", ending);
+}
+
+/* Font sizes differ because SVG counts them in pixels, Cairo in points; a PNG is drawn at twice the size, for
+ * fine screens. */
+static void write_terminal(fst_figure_file *figure, int width, int height)
+{
+    FILE *script = figure->script;
+    if (!strcmp(figure->ending, "svg"))
+        (void)fprintf(script, "set terminal svg size %d,%d enhanced background 'white' font 'sans-serif,14'\n",
+                      width, height);
+    else if (!strcmp(figure->ending, "pdf"))
+        (void)fprintf(script, "set terminal pdfcairo size %.4fin,%.4fin enhanced font 'sans,10'\n",
+                      width / 96.0, height / 96.0);
+    else
+        (void)fprintf(script,
+                      "set terminal pngcairo size %d,%d enhanced fontscale 2 linewidth 2 pointscale 2 "
+                      "background 'white' font 'sans,10.5'\n",
+                      2 * width, 2 * height);
+}
+
+static void write_head(fst_figure_file *figure, int width, int height)
+{
+    FILE *script = figure->script;
+    (void)fprintf(script,
+                  "# Made by festoon %s.  gnuplot, run in this directory on this script, draws the\n"
+                  "# figure again; -e \"figure='OTHER'\" before it draws into another file.\n",
+                  fst_version());
+    (void)fputs("data = ", script);
+    quote_name(figure, "dat");
+    (void)fputs("\nif (!exists('figure')) figure = ", script);
+    quote_name(figure, figure->ending);
+    (void)fputs("\nset encoding utf8\nset datafile missing 'nan'\n", script);
+    write_terminal(figure, width, height);
+    (void)fputs("set output figure\n"
+                "set border lc rgb '#333333' lw 1\n"
+                "set tics textcolor rgb '#333333' nomirror\n"
+                "set style line 101 lc rgb '#e4e4e4' lw 1\n",
+                script);
+}
+
+/* ------------------------------------------------------------------ life */
+
+static void release(fst_figure_file *figure)
+{
+    if (figure->script)
+        (void)fclose(figure->script);
+    if (figure->data)
+        (void)fclose(figure->data);
+    free(figure->script_text);
+    free(figure->data_text);
+    free(figure->out);
+    free(figure->directory);
+    free(figure->stem);
+    fst_c_locale_leave(figure->locale);
+    *figure = (fst_figure_file){0};
+}
+
+fst_status fst_figure_begin(fst_figure_file *figure, const char *out, int width, int height, fst_error *error)
+{
+    *figure = (fst_figure_file){0};
+    figure->locale = fst_c_locale_enter();
+    fst_status status = take_apart(figure, out, error);
+    if (status == FST_OK) {
+        figure->script = open_memstream(&figure->script_text, &figure->script_size);
+        figure->data = open_memstream(&figure->data_text, &figure->data_size);
+        if (!figure->script || !figure->data)
+            status = fst_fail(error, FST_NO_MEMORY, out, "no memory for a figure");
+    }
+    if (status != FST_OK) {
+        release(figure);
+        return status;
+    }
+    write_head(figure, width, height);
+    return FST_OK;
+}
+
+void fst_figure_block(fst_figure_file *figure, const char *name, const char *columns)
+{
+    /* Two empty lines end a block; the comment right before a block is the name that `index` looks for. */
+    if (ftell(figure->data) > 0)
+        (void)fputs("\n\n", figure->data);
+    (void)fprintf(figure->data, "# %s\n# %s\n", name, columns);
+}
+
+/* gnuplot does not report a full disk: the figure's last bytes tell whether it is complete. */
+static int is_complete(const char *path, const char *ending)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return 0;
+    char tail[65] = {0};
+    size_t got = 0;
+    if (fseek(file, -64, SEEK_END) == 0)
+        got = fread(tail, 1, 64, file);
+    (void)fclose(file);
+    const char *mark = !strcmp(ending, "svg") ? "</svg>" : !strcmp(ending, "pdf") ? "%%EOF" : "IEND";
+    size_t length = strlen(mark);
+    for (size_t i = 0; i + length <= got; i++)
+        if (memcmp(tail + i, mark, length) == 0)
+            return 1;
+    return 0;
+}
+
+/* Draw into a temporary file, which takes the figure's place once it is complete. */
+static fst_status draw(const fst_figure_file *figure, fst_error *error)
+{
+    fst_whole_file file;
+    fst_status status = fst_whole_file_open(&file, figure->out, error);
+    if (status != FST_OK)
+        return status;
+    (void)fclose(file.stream);
+    file.stream = NULL;
+    /* gnuplot runs in the figure's directory, and there a relative name is just the file's own. */
+    const char *slash = strrchr(file.temporary, '/');
+    const char *name = slash && file.temporary[0] != '/' ? slash + 1 : file.temporary;
+    char *script = malloc(strlen(figure->stem) + sizeof ".gp");
+    if (script) {
+        (void)sprintf(script, "%s.gp", figure->stem);
+        status = fst_gnuplot_run(figure->directory, script, name, error);
+    } else {
+        status = fst_fail(error, FST_NO_MEMORY, figure->out, "no memory for a file name");
+    }
+    free(script);
+    if (status == FST_OK && !is_complete(file.temporary, figure->ending))
+        status = fst_fail(error, FST_IO, figure->out, "gnuplot left an incomplete figure: is the disk full?");
+    if (status == FST_OK)
+        return fst_whole_file_commit(&file, error);
+    fst_whole_file_discard(&file);
+    return status;
+}
+
+/* Write `size` bytes to `path`. */
+static fst_status write_beside(const char *path, const char *bytes, size_t size, fst_error *error)
+{
+    fst_whole_file file;
+    fst_status status = fst_whole_file_open(&file, path, error);
+    if (status != FST_OK)
+        return status;
+    (void)fwrite(bytes, 1, size, file.stream);
+    return fst_whole_file_commit(&file, error);
+}
+
+/* Close a memory stream; 1 if everything went into it. */
+static int closed(FILE **stream)
+{
+    int good = !ferror(*stream);
+    good = fclose(*stream) == 0 && good;
+    *stream = NULL;
+    return good;
+}
+
+fst_status fst_figure_finish(fst_figure_file *figure, fst_error *error)
+{
+    (void)fputs("unset output\n", figure->script);
+    int good = closed(&figure->script);
+    good = closed(&figure->data) && good;
+    char *script = beside(figure, "gp");
+    char *data = beside(figure, "dat");
+    fst_status status = FST_OK;
+    if (!good || !script || !data)
+        status = fst_fail(error, FST_NO_MEMORY, figure->out, "no memory for a figure");
+    if (status == FST_OK)
+        status = write_beside(data, figure->data_text, figure->data_size, error);
+    if (status == FST_OK)
+        status = write_beside(script, figure->script_text, figure->script_size, error);
+    if (status == FST_OK)
+        status = draw(figure, error);
+    free(script);
+    free(data);
+    release(figure);
+    return status;
+}
+
+void fst_figure_abandon(fst_figure_file *figure)
+{
+    release(figure);
+}

@@ -1,0 +1,215 @@
+/* figure_path.c - the bead's path over the plate (the paper's Figs. f4, f4detail, om04). */
+#include "draw/figure_trajectory.h"
+
+#include "base/error.h"
+#include "draw/style.h"
+#include "draw/view.h"
+
+#include <string.h>
+
+enum {
+    WIDTH = 690, /* pixels of the whole and of the square of plate in it */
+    HEIGHT = 705,
+    SIDE = 510,
+    LEFT = 70,
+    TOP = 45,
+    ARROWS = 170,       /* about as many arrows as a picture bears */
+    MOST_SAMPLES = 6000 /* more would only make the file larger */
+};
+
+/* What a colour means, for columns that people look at most; others are labelled by name and unit. */
+static const struct {
+    const char *column, *label;
+} colour_labels[] = {
+    {"n_z", "n_z"},
+    {"slip", "slip |V| of the contact point (ℓγ), in proportion to friction"},
+    {"angle", "angle between n and B (degrees)"},
+    {"B", "|B| (B_0)"},
+    {"r", "r (ℓ)"},
+};
+
+typedef struct path_columns {
+    const double *x, *y, *n_x, *n_y, *alpha, *phi, *colour;
+    const fst_column_info *colour_info;
+} path_columns;
+
+static fst_status find_columns(const fst_view *view, const char *colour, path_columns *columns,
+                               fst_error *error)
+{
+    fst_status status =
+        fst_view_columns(view, error, "x", &columns->x, "y", &columns->y, "n_x", &columns->n_x, "n_y",
+                         &columns->n_y, "alpha", &columns->alpha, "Phi", &columns->phi, NULL);
+    if (status == FST_OK)
+        status = fst_view_column(view, colour ? colour : "n_z", &columns->colour, &columns->colour_info, error);
+    return status;
+}
+
+/* ------------------------------------------------------------------ frame */
+
+/* The square of the plate that is shown, in mm: the zoom, or everything about the axis. */
+static fst_status choose_box(const fst_view *view, const path_columns *columns,
+                             const fst_figure_options *options, double box[4], fst_error *error)
+{
+    const double *zoom = options->zoom;
+    if (!isnan(zoom[0]) && !isnan(zoom[1]) && !isnan(zoom[2]) && !isnan(zoom[3])) {
+        if (!(zoom[0] < zoom[1] && zoom[2] < zoom[3]))
+            return fst_fail(error, FST_BAD_INPUT, "figure", "an empty zoom: it is x0 x1 y0 y1 in mm");
+        memcpy(box, zoom, 4 * sizeof *box);
+        return FST_OK;
+    }
+    double least, greatest, reach = 0.0;
+    fst_view_range(view, columns->x, &least, &greatest);
+    reach = fmax(reach, fmax(-least, greatest));
+    fst_view_range(view, columns->y, &least, &greatest);
+    reach = fmax(reach, fmax(-least, greatest));
+    /* The magnet's outline should have room too. */
+    reach = fmax(1.12 * reach, 1.12) * view->millimetres;
+    box[0] = box[2] = -reach;
+    box[1] = box[3] = reach;
+    return FST_OK;
+}
+
+/* The magnet where it is when the path begins: a faint rectangle, its lines, and the turning's sense. */
+static void draw_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
+{
+    double turned = columns->alpha[view->first] - columns->phi[view->first];
+    double length = view->millimetres, width = 1e3 * view->table->params.magnet_width / 2.0;
+    double cosine = cos(turned), sine = sin(turned);
+    static const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    fst_figure_block(figure, "magnet", "x/mm y/mm: the magnet when the path begins");
+    for (int i = 0; i <= 4; i++) {
+        double along = corners[i % 4][0] * length, across = corners[i % 4][1] * width;
+        (void)fprintf(figure->data, "%.6g %.6g\n", along * cosine - across * sine,
+                      along * sine + across * cosine);
+    }
+}
+
+static void write_frame(fst_figure_file *figure, const fst_view *view, const double box[4])
+{
+    FILE *script = figure->script;
+    (void)fputs("set title ", script);
+    fst_figure_quote(figure, view->title);
+    (void)fprintf(script,
+                  " noenhanced\n"
+                  "set size ratio -1\n"
+                  "set xrange [%.6g:%.6g]\n"
+                  "set yrange [%.6g:%.6g]\n"
+                  "set xlabel 'x (mm)'\n"
+                  "set ylabel 'y (mm)'\n"
+                  "set grid ls 101\n"
+                  "set lmargin at screen %.4f\n"
+                  "set rmargin at screen %.4f\n"
+                  "set tmargin at screen %.4f\n"
+                  "set bmargin at screen %.4f\n"
+                  "set key at screen %.4f, screen %.4f left bottom Left reverse samplen 2 spacing 1.15\n",
+                  box[0], box[1], box[2], box[3], LEFT / (double)WIDTH, (LEFT + SIDE) / (double)WIDTH,
+                  1.0 - TOP / (double)HEIGHT, 1.0 - (TOP + SIDE) / (double)HEIGHT, LEFT / (double)WIDTH,
+                  8.0 / HEIGHT);
+}
+
+/* ------------------------------------------------------------------ colour */
+
+static void write_colour(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
+{
+    double least, greatest;
+    fst_view_range(view, columns->colour, &least, &greatest);
+    int both_signs = least < 0.0 && greatest > 0.0;
+    const char *name = columns->colour_info->name;
+    if (!strcmp(name, "n_z")) {
+        both_signs = 1;
+        least = -1.0;
+        greatest = 1.0;
+    } else if (both_signs) {
+        greatest = fmax(greatest, -least);
+        least = -greatest;
+    } else if (least >= 0.0 && least < 0.25 * greatest) {
+        least = 0.0;
+    }
+    if (!(greatest > least)) {
+        double span = fmax(fabs(least) * 1e-3, 1e-12);
+        least -= span;
+        greatest += span;
+    }
+    fst_figure_palette(figure, both_signs ? FST_PALETTE_DIVERGING : FST_PALETTE_LINE);
+    (void)fprintf(figure->script,
+                  "set cbrange [%.9g:%.9g]\nset colorbox user origin %.4f,%.4f size %.4f,%.4f\n", least,
+                  greatest, (LEFT + SIDE + 14.0) / WIDTH, 1.0 - (TOP + SIDE) / (double)HEIGHT, 16.0 / WIDTH,
+                  SIDE / (double)HEIGHT);
+    for (size_t i = 0; i < sizeof colour_labels / sizeof colour_labels[0]; i++) {
+        if (!strcmp(name, colour_labels[i].column)) {
+            (void)fprintf(figure->script, "set cblabel '%s'\n", colour_labels[i].label);
+            return;
+        }
+    }
+    (void)fprintf(figure->script, "set cblabel '%s (%s)' noenhanced\n", name, columns->colour_info->unit);
+}
+
+/* ------------------------------------------------------------------ data */
+
+static void write_path(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
+{
+    size_t stride = (view->last - view->first) / MOST_SAMPLES + 1;
+    fst_figure_block(figure, "path", "x/mm y/mm colour");
+    for (size_t row = view->first; row < view->last; row += stride)
+        (void)fprintf(figure->data, "%.7g %.7g %.7g\n", columns->x[row] * view->millimetres,
+                      columns->y[row] * view->millimetres, columns->colour[row]);
+}
+
+/* Arrows of the moment's horizontal part, as long as it is relative to the others; in a zoom there are as many
+ * per length of path as the picture bears. */
+static void write_arrows(fst_figure_file *figure, const fst_view *view, const path_columns *columns,
+                         const double box[4])
+{
+    size_t inside = 0;
+    for (size_t row = view->first; row < view->last; row++) {
+        double x = columns->x[row] * view->millimetres, y = columns->y[row] * view->millimetres;
+        inside += x >= box[0] && x <= box[1] && y >= box[2] && y <= box[3];
+    }
+    size_t stride = inside / ARROWS + 1;
+    double scale = 0.07 * (box[1] - box[0]);
+    fst_figure_block(figure, "moment", "x/mm y/mm dx dy: the horizontal part of n");
+    for (size_t row = view->first; row < view->last; row += stride)
+        (void)fprintf(figure->data, "%.6g %.6g %.5g %.5g\n", columns->x[row] * view->millimetres,
+                      columns->y[row] * view->millimetres, scale * columns->n_x[row],
+                      scale * columns->n_y[row]);
+}
+
+/* ------------------------------------------------------------------ the figure */
+
+fst_status fst_figure_path(const fst_table *table, const char *out, const fst_figure_options *options,
+                           fst_error *error)
+{
+    fst_view view;
+    path_columns columns = {0};
+    double box[4] = {0};
+    fst_status status = fst_view_of(&view, table, options, 2.0, 30.0, error);
+    if (status == FST_OK)
+        status = find_columns(&view, options->colour, &columns, error);
+    if (status == FST_OK)
+        status = choose_box(&view, &columns, options, box, error);
+    fst_figure_file figure;
+    if (status == FST_OK)
+        status = fst_figure_begin(&figure, out, WIDTH, HEIGHT, error);
+    if (status != FST_OK)
+        return status;
+
+    draw_magnet(&figure, &view, &columns);
+    write_path(&figure, &view, &columns);
+    write_frame(&figure, &view, box);
+    write_colour(&figure, &view, &columns);
+    fputs("plot data index 'magnet' using 1:2 with filledcurves closed fc rgb '#f4f4f4' notitle, \\\n"
+          "     data index 'magnet' using 1:2 with lines lc rgb '#c4c4c4' lw 1 title 'magnet when the path "
+          "begins (turns anticlockwise)', \\\n",
+          figure.script);
+    if (options->arrows) {
+        write_arrows(&figure, &view, &columns, box);
+        fputs("     data index 'moment' using 1:2:3:4 with vectors head filled size screen 0.007,18 lc rgb "
+              "'#8a8a8a' lw 0.8 title 'horizontal part of the moment n', \\\n",
+              figure.script);
+    }
+    fputs("     data index 'path' using 1:2:3 with lines lc palette lw 2.2 notitle, \\\n"
+          "     data index 'path' using 1:2 every ::0::0 with points pt 6 ps 1 lw 2 lc rgb '#222222' title "
+          "'the bead then'\n",
+          figure.script);
+    return fst_figure_finish(&figure, error);
+}

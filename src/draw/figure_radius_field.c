@@ -1,0 +1,84 @@
+/* figure_radius_field.c - r and |B| while the magnet passes under the bead (the paper's Fig. magint). */
+#include "draw/figure_trajectory.h"
+
+#include "base/error.h"
+#include "draw/chart.h"
+#include "draw/view.h"
+
+#include <stdlib.h>
+
+#define PI 3.14159265358979323846
+
+/* Phi folded into half a revolution of the magnet; a fold gets a NAN row, so that the line breaks there. */
+typedef struct folded {
+    double *phi, *r, *b;
+    size_t count;
+} folded;
+
+static void fold(const fst_view *view, const double *phi, const double *r, const double *b, folded *curve)
+{
+    double previous = NAN;
+    for (size_t row = view->first; row < view->last; row++) {
+        double half_turn = floor(phi[row] / PI);
+        size_t i = curve->count;
+        if (!isnan(previous) && half_turn != previous) {
+            curve->phi[i] = curve->r[i] = curve->b[i] = NAN;
+            i++;
+        }
+        previous = half_turn;
+        curve->phi[i] = phi[row] - half_turn * PI;
+        curve->r[i] = r[row];
+        curve->b[i] = b[row];
+        curve->count = i + 1;
+    }
+}
+
+static fst_status draw(const fst_view *view, const char *out, const folded *curve, fst_error *error)
+{
+    fst_chart_curve curves[] = {
+        {NULL, curve->phi, curve->r, curve->count, FST_COLOUR_BLUE, FST_CURVE_LINE, 0},
+        {NULL, curve->phi, curve->b, curve->count, FST_COLOUR_VERMILION, FST_CURVE_LINE, 1},
+    };
+    fst_chart_panel panel = {.left_label = "r (ℓ), blue",
+                             .right_label = "|B| (B_0), orange",
+                             .low = NAN,
+                             .high = NAN,
+                             .left_colour = FST_COLOUR_BLUE,
+                             .right_colour = FST_COLOUR_VERMILION,
+                             .curves = curves,
+                             .curve_count = 2};
+    fst_chart chart = {.title = view->title,
+                       .x_label = "Φ = α − ωt, the bead's angle against the magnet (0: over its lines' ends)",
+                       .x_low = 0.0,
+                       .x_high = PI,
+                       .x_tics = "('0' 0, 'π/4' 0.785398163, 'π/2' 1.570796327, '3π/4' 2.35619449, 'π' "
+                                 "3.141592654)",
+                       .height = 420,
+                       .panels = &panel,
+                       .panel_count = 1};
+    return fst_figure_chart(out, &chart, error);
+}
+
+fst_status fst_figure_radius_field(const fst_table *table, const char *out, const fst_figure_options *options,
+                                   fst_error *error)
+{
+    if (options->colour)
+        return fst_fail(error, FST_BAD_INPUT, "figure",
+                        "the figure of r and |B| has two curves and no colour scale");
+    fst_view view;
+    const double *phi, *r, *b;
+    fst_status status = fst_view_of(&view, table, options, INFINITY, 6.0, error);
+    if (status == FST_OK)
+        status = fst_view_columns(&view, error, "Phi", &phi, "r", &r, "B", &b, NULL);
+    if (status != FST_OK)
+        return status;
+    size_t room = 2 * (view.last - view.first);
+    double *memory = malloc(3 * room * sizeof *memory);
+    if (!memory)
+        return fst_fail(error, FST_NO_MEMORY, out, "no memory for %zu samples", room);
+    folded curve = {.phi = memory, .r = memory + room, .b = memory + 2 * room};
+    fold(&view, phi, r, b, &curve);
+    status = draw(&view, out, &curve, error);
+    free(memory);
+    return status;
+}

@@ -1,0 +1,35 @@
+#include "draw/figure_trajectory.h"
+
+#include "base/error.h"
+
+enum { OPTIONS_COOKIE = 0x46494721 };
+
+fst_figure_options fst_default_figure_options(void)
+{
+    return (fst_figure_options){.cookie = OPTIONS_COOKIE,
+                                .kind = FST_FIGURE_PATH,
+                                .arrows = 1,
+                                .from = NAN,
+                                .to = NAN,
+                                .zoom = {NAN, NAN, NAN, NAN}};
+}
+
+fst_status fst_figure_trajectory(const fst_table *table, const char *out, const fst_figure_options *options,
+                                 fst_error *error)
+{
+    fst_figure_options defaults = fst_default_figure_options();
+    if (!options)
+        options = &defaults;
+    if (options->cookie != OPTIONS_COOKIE)
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_trajectory",
+                        "the options were not made by fst_default_figure_options()");
+    switch (options->kind) {
+    case FST_FIGURE_PATH:
+        return fst_figure_path(table, out, options, error);
+    case FST_FIGURE_LOCAL_N:
+        return fst_figure_local_n(table, out, options, error);
+    case FST_FIGURE_RADIUS_FIELD:
+        return fst_figure_radius_field(table, out, options, error);
+    }
+    return fst_fail(error, FST_BAD_INPUT, "fst_figure_trajectory", "no such kind of figure");
+}

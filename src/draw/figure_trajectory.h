@@ -1,0 +1,15 @@
+/* figure_trajectory.h - the kinds of figure that a trajectory gives, one function each (see fst_figure_kind).
+ */
+#ifndef FST_DRAW_FIGURE_TRAJECTORY_H
+#define FST_DRAW_FIGURE_TRAJECTORY_H
+
+#include <festoon/festoon_tools.h>
+
+fst_status fst_figure_path(const fst_table *table, const char *out, const fst_figure_options *options,
+                           fst_error *error);
+fst_status fst_figure_local_n(const fst_table *table, const char *out, const fst_figure_options *options,
+                              fst_error *error);
+fst_status fst_figure_radius_field(const fst_table *table, const char *out, const fst_figure_options *options,
+                                   fst_error *error);
+
+#endif

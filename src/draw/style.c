@@ -1,0 +1,20 @@
+#include "draw/style.h"
+
+const char *fst_colour_code(fst_colour colour)
+{
+    static const char *const codes[] = {
+        [FST_COLOUR_BLACK] = "#222222", [FST_COLOUR_BLUE] = "#0072b2",   [FST_COLOUR_VERMILION] = "#d55e00",
+        [FST_COLOUR_GREEN] = "#009e73", [FST_COLOUR_PURPLE] = "#cc79a7", [FST_COLOUR_GREY] = "#888888"};
+    return codes[colour];
+}
+
+void fst_figure_palette(fst_figure_file *figure, fst_palette palette)
+{
+    /* "line" is viridis turned round, without its yellow end, which is lost on white. */
+    static const char *const definitions[] = {
+        [FST_PALETTE_DIVERGING] = "-1 '#123f8c', -0.5 '#4f86cf', 0 '#bdbdbd', 0.5 '#e8894a', 1 '#b03000'",
+        [FST_PALETTE_LINE] =
+            "0 '#a8db34', 0.2 '#4ac16d', 0.4 '#1fa187', 0.6 '#2d708e', 0.8 '#414487', 1 '#440154'",
+        [FST_PALETTE_MAP] = "0 '#fbfdff', 0.35 '#d3e3f2', 0.7 '#8fbfe0', 1 '#4292c6'"};
+    (void)fprintf(figure->script, "set palette defined (%s)\n", definitions[palette]);
+}

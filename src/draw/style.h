@@ -1,0 +1,26 @@
+/* style.h - the colours that all figures share, chosen so that colour-blind readers can tell them apart. */
+#ifndef FST_DRAW_STYLE_H
+#define FST_DRAW_STYLE_H
+
+#include "draw/figure_file.h"
+
+/* Colours of curves (Okabe and Ito's palette). */
+typedef enum {
+    FST_COLOUR_BLACK,
+    FST_COLOUR_BLUE,
+    FST_COLOUR_VERMILION,
+    FST_COLOUR_GREEN,
+    FST_COLOUR_PURPLE,
+    FST_COLOUR_GREY
+} fst_colour;
+
+/* "#0072b2" */
+const char *fst_colour_code(fst_colour colour);
+
+/* Define the palette for a quantity of both signs (blue, grey, vermilion), or of one sign: `line` runs from a
+ * light green to dark violet, for lines on white where much should be dark; `map` from nearly white to blue,
+ * for areas with dark lines on them. */
+typedef enum { FST_PALETTE_DIVERGING, FST_PALETTE_LINE, FST_PALETTE_MAP } fst_palette;
+void fst_figure_palette(fst_figure_file *figure, fst_palette palette);
+
+#endif

@@ -1,0 +1,128 @@
+#include "draw/view.h"
+
+#include "base/error.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+static fst_status no_such_column(const char *name, fst_error *error)
+{
+    size_t room = 1;
+    for (int i = 0; i < fst_column_count(); i++)
+        room += strlen(fst_column_at(i)->name) + 1;
+    char *names = malloc(room);
+    if (!names)
+        return fst_fail(error, FST_NO_MEMORY, name, "no memory for a list of names");
+    size_t used = 0;
+    for (int i = 0; i < fst_column_count(); i++)
+        used += (size_t)snprintf(names + used, room - used, "%s%s", i ? "|" : "", fst_column_at(i)->name);
+    char nearest[64] = "";
+    (void)fst_nearest_name(name, names, nearest, sizeof nearest);
+    free(names);
+    return fst_fail(error, FST_BAD_INPUT, "figure",
+                    "a trajectory has no column \"%.60s\"; the nearest name is \"%s\"", name, nearest);
+}
+
+fst_status fst_view_column(const fst_view *view, const char *name, const double **column,
+                           const fst_column_info **info, fst_error *error)
+{
+    for (int i = 0; i < fst_column_count(); i++) {
+        if (strcmp(fst_column_at(i)->name, name) != 0)
+            continue;
+        *column = view->table->columns[i];
+        if (info)
+            *info = fst_column_at(i);
+        return FST_OK;
+    }
+    return no_such_column(name, error);
+}
+
+fst_status fst_view_columns(const fst_view *view, fst_error *error, ...)
+{
+    va_list pairs;
+    va_start(pairs, error);
+    fst_status status = FST_OK;
+    for (const char *name; status == FST_OK && (name = va_arg(pairs, const char *)) != NULL;)
+        status = fst_view_column(view, name, va_arg(pairs, const double **), NULL, error);
+    va_end(pairs);
+    return status;
+}
+
+void fst_view_range(const fst_view *view, const double *column, double *least, double *greatest)
+{
+    *least = INFINITY;
+    *greatest = -INFINITY;
+    for (size_t row = view->first; row < view->last; row++) {
+        if (!isfinite(column[row]))
+            continue;
+        *least = fmin(*least, column[row]);
+        *greatest = fmax(*greatest, column[row]);
+    }
+    if (*least > *greatest)
+        *least = *greatest = 0.0;
+}
+
+/* Find the rows; `turns` of the bead or `periods` of the drive end an open view. */
+static fst_status choose_rows(fst_view *view, const fst_figure_options *options, double turns, double periods,
+                              fst_error *error)
+{
+    const double *drive, *alpha;
+    fst_status status = fst_view_columns(view, error, "drive_turns", &drive, "alpha", &alpha, NULL);
+    if (status != FST_OK)
+        return status;
+    size_t rows = view->table->rows, first = 0;
+    double from = options->from;
+    if (isnan(from)) /* a run that ended before its discard is shown from its beginning */
+        from =
+            rows > 0 && drive[rows - 1] > view->table->params.run_discard ? view->table->params.run_discard : 0;
+    while (first < rows && drive[first] < from - 1e-9)
+        first++;
+    size_t last = first;
+    while (last < rows) {
+        if (!isnan(options->to)
+                ? drive[last] > options->to + 1e-9
+                : drive[last] - drive[first] > periods || fabs(alpha[last] - alpha[first]) > 2.0 * PI * turns)
+            break;
+        last++;
+    }
+    if (last - first < 2)
+        return fst_fail(
+            error, FST_BAD_INPUT, "figure",
+            "fewer than two samples from drive period %g on: the trajectory has %zu samples and ends at "
+            "period %g",
+            from, rows, rows > 0 ? drive[rows - 1] : 0.0);
+    view->first = first;
+    view->last = last;
+    return FST_OK;
+}
+
+static void make_title(fst_view *view, const char *title)
+{
+    if (title) {
+        (void)snprintf(view->title, sizeof view->title, "%s", title);
+        return;
+    }
+    (void)snprintf(view->title, sizeof view->title, "ω = %.4g (%.4g Hz), dynamics %s", view->omega,
+                   view->omega * view->gamma / (2.0 * PI), view->dynamics);
+}
+
+fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options, double turns,
+                       double periods, fst_error *error)
+{
+    *view = (fst_view){.table = table,
+                       .gamma = table->params.friction_gamma,
+                       .millimetres = 1e3 * table->params.magnet_half_length,
+                       .dynamics = table->params.model_dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020"};
+    fst_status status = choose_rows(view, options, turns, periods, error);
+    const double *omega;
+    if (status == FST_OK)
+        status = fst_view_columns(view, error, "omega", &omega, NULL);
+    if (status != FST_OK)
+        return status;
+    view->omega = omega[view->last - 1];
+    make_title(view, options->title);
+    return FST_OK;
+}

@@ -1,0 +1,37 @@
+/* view.h - the part of a trajectory that a figure shows. */
+#ifndef FST_DRAW_VIEW_H
+#define FST_DRAW_VIEW_H
+
+#include "draw/figure_file.h"
+
+#include <festoon/festoon_tools.h>
+
+typedef struct fst_view {
+    const fst_table *table;
+    size_t first, last; /* rows shown: first <= row < last */
+    double omega;       /* drive at the last row */
+    double gamma;       /* 1/s */
+    double millimetres; /* of the unit of length */
+    const char *dynamics;
+    char title[256];
+} fst_view;
+
+/* The rows from options->from to options->to drive periods; where that is open, from the discard on, for
+ * `turns` revolutions of the bead about the axis or `periods` drive periods, whichever ends first.  The title
+ * is options->title, or made from the scene.
+ * FST_BAD_INPUT: no rows there. */
+fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options, double turns,
+                       double periods, fst_error *error);
+
+/* The column called `name`.  FST_BAD_INPUT: none; the sentence has the nearest one. */
+fst_status fst_view_column(const fst_view *view, const char *name, const double **column,
+                           const fst_column_info **info, fst_error *error);
+
+/* Several columns at once, for names that are known to exist; ends with NULL pairs:
+ * fst_view_columns(view, error, "t", &t, "r", &r, NULL). */
+fst_status fst_view_columns(const fst_view *view, fst_error *error, ...);
+
+/* Least and greatest finite value of a column in the view (0, 0 where none is finite). */
+void fst_view_range(const fst_view *view, const double *column, double *least, double *greatest);
+
+#endif

@@ -1,0 +1,216 @@
+#include "io/csv.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/number.h"
+
+/* The lines that the reader looks for. */
+#define FIRST_LINE "# festoon trajectory"
+#define SCENE_LINE "# scene:"
+#define SCENE_INDENT "#   "
+#define COMPLETE_LINE "# complete = "
+
+/* ---------------------------------------------------------------- writing */
+
+void fst_csv_begin(FILE *out, const char *scene)
+{
+    (void)fprintf(out, "%s\n# version = %s\n%s\n", FIRST_LINE, fst_version(), SCENE_LINE);
+    while (*scene) {
+        size_t length = strcspn(scene, "\n");
+        (void)fprintf(out, "%s%.*s\n", SCENE_INDENT, (int)length, scene);
+        scene += length;
+        scene += *scene == '\n';
+    }
+    for (int i = 0; i < fst_column_count(); i++) {
+        const fst_column_info *info = fst_column_at(i);
+        (void)fprintf(out, "%s%s [%s]", i ? "," : "", info->name, info->unit);
+    }
+    (void)fputc('\n', out);
+}
+
+void fst_csv_row(FILE *out, const double values[FST_COLUMN_COUNT])
+{
+    fst_c_locale locale = fst_c_locale_enter();
+    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+        (void)fprintf(out, "%s%.17g", i ? "," : "", values[i]);
+    fst_c_locale_leave(locale);
+    (void)fputc('\n', out);
+}
+
+void fst_csv_end(FILE *out, const char *result, int complete)
+{
+    if (result)
+        (void)fprintf(out, "# result = %s\n", result);
+    (void)fprintf(out, "%s%s\n", COMPLETE_LINE, complete ? "true" : "false");
+}
+
+/* ---------------------------------------------------------------- reading */
+
+typedef struct csv_reader {
+    FILE *in;
+    const char *path;
+    char *line; /* LONGEST_LINE bytes, without the newline */
+    int number; /* of the line, from 1 */
+    char *scene;
+    size_t scene_length;
+    size_t room; /* rows allocated */
+    fst_table *table;
+    fst_error *error;
+} csv_reader;
+
+/* Rows take about 1000 bytes and the result about 5000. */
+#define LONGEST_LINE 65536
+
+static fst_status fail_line(csv_reader *reader, const char *sentence)
+{
+    char where[256];
+    (void)snprintf(where, sizeof where, "%.200s:%d", reader->path, reader->number);
+    return fst_fail(reader->error, FST_BAD_INPUT, where, "%s", sentence);
+}
+
+/* 1 with the next line, 0 at the end of the file or where no whole line is left. */
+static int next_line(csv_reader *reader)
+{
+    if (!fgets(reader->line, LONGEST_LINE, reader->in))
+        return 0;
+    reader->number++;
+    size_t length = strlen(reader->line);
+    if (length == 0 || reader->line[length - 1] != '\n')
+        return 0;
+    reader->line[length - 1] = '\0';
+    return 1;
+}
+
+static fst_status keep_scene_line(csv_reader *reader)
+{
+    const char *text = reader->line + strlen(SCENE_INDENT);
+    size_t length = strlen(text);
+    if (reader->scene_length + length > FST_SCENE_SIZE_LIMIT)
+        return fail_line(reader, "the scene in this file is too long");
+    char *longer = realloc(reader->scene, reader->scene_length + length + 2);
+    if (!longer)
+        return fst_fail(reader->error, FST_NO_MEMORY, reader->path, "out of memory");
+    reader->scene = longer;
+    memcpy(longer + reader->scene_length, text, length);
+    memcpy(longer + reader->scene_length + length, "\n", 2);
+    reader->scene_length += length + 1;
+    return FST_OK;
+}
+
+/* The commented lines before the column names. */
+static fst_status read_head(csv_reader *reader)
+{
+    if (!next_line(reader) || strcmp(reader->line, FIRST_LINE) != 0)
+        return fst_fail(reader->error, FST_BAD_INPUT, reader->path,
+                        "this is no trajectory of festoon: it begins neither as HDF5 nor with \"%s\"",
+                        FIRST_LINE);
+    int in_scene = 0;
+    while (next_line(reader) && reader->line[0] == '#') {
+        if (in_scene && strncmp(reader->line, SCENE_INDENT, strlen(SCENE_INDENT)) == 0) {
+            fst_status status = keep_scene_line(reader);
+            if (status != FST_OK)
+                return status;
+        }
+        in_scene = in_scene || strcmp(reader->line, SCENE_LINE) == 0;
+    }
+    if (!in_scene)
+        return fail_line(reader, "the scene is missing in the head of this trajectory");
+    return fst_scene_parse(reader->scene ? reader->scene : "", reader->scene_length, reader->path,
+                           &reader->table->params, reader->error);
+}
+
+/* The line of column names, which read_head() has left in reader->line. */
+static fst_status check_names(csv_reader *reader)
+{
+    const char *at = reader->line;
+    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+        char expected[96], sentence[160];
+        const fst_column_info *info = fst_column_at(i);
+        (void)snprintf(expected, sizeof expected, "%s [%s]%s", info->name, info->unit,
+                       i + 1 < FST_COLUMN_COUNT ? "," : "");
+        if (strncmp(at, expected, strlen(expected)) != 0) {
+            (void)snprintf(sentence, sizeof sentence, "the column \"%s [%s]\" is missing in its place",
+                           info->name, info->unit);
+            return fail_line(reader, sentence);
+        }
+        at += strlen(expected);
+    }
+    return *at ? fail_line(reader, "there are more columns than a trajectory has") : FST_OK;
+}
+
+static fst_status make_room(csv_reader *reader)
+{
+    if (reader->table->rows < reader->room)
+        return FST_OK;
+    size_t room = reader->room ? 2 * reader->room : 1024;
+    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+        double *longer = realloc(reader->table->columns[i], room * sizeof *longer);
+        if (!longer)
+            return fst_fail(reader->error, FST_NO_MEMORY, reader->path, "out of memory after %zu rows",
+                            reader->table->rows);
+        reader->table->columns[i] = longer;
+    }
+    reader->room = room;
+    return FST_OK;
+}
+
+static fst_status read_row(csv_reader *reader)
+{
+    fst_status status = make_room(reader);
+    if (status != FST_OK)
+        return status;
+    const char *at = reader->line;
+    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+        char *end;
+        reader->table->columns[i][reader->table->rows] = strtod(at, &end);
+        if (end == at || *end != (i + 1 < FST_COLUMN_COUNT ? ',' : '\0')) {
+            char sentence[128];
+            (void)snprintf(sentence, sizeof sentence, "this is no row of %d numbers: the column %s is wrong",
+                           FST_COLUMN_COUNT, fst_column_at(i)->name);
+            return fail_line(reader, sentence);
+        }
+        at = end + 1;
+    }
+    reader->table->rows++;
+    return FST_OK;
+}
+
+/* Rows, then the commented end with the line that says whether the run was complete. */
+static fst_status read_rows(csv_reader *reader)
+{
+    int ended = 0;
+    while (next_line(reader)) {
+        if (reader->line[0] != '#') {
+            fst_status status = ended ? fail_line(reader, "there is a row behind the end of this trajectory")
+                                      : read_row(reader);
+            if (status != FST_OK)
+                return status;
+        } else if (strncmp(reader->line, COMPLETE_LINE, strlen(COMPLETE_LINE)) == 0) {
+            ended = 1;
+            reader->table->complete = strcmp(reader->line + strlen(COMPLETE_LINE), "true") == 0;
+        }
+    }
+    if (!ended || !feof(reader->in))
+        return fail_line(reader, "this trajectory is cut off: the line \"" COMPLETE_LINE "...\" is missing");
+    return FST_OK;
+}
+
+fst_status fst_csv_read(FILE *in, const char *path, fst_table *table, fst_error *error)
+{
+    csv_reader reader = {.in = in, .path = path, .table = table, .error = error};
+    reader.line = malloc(LONGEST_LINE);
+    if (!reader.line)
+        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    fst_c_locale locale = fst_c_locale_enter();
+    fst_status status = read_head(&reader);
+    if (status == FST_OK)
+        status = check_names(&reader);
+    if (status == FST_OK)
+        status = read_rows(&reader);
+    fst_c_locale_leave(locale);
+    free(reader.line);
+    free(reader.scene);
+    return status;
+}

@@ -1,0 +1,22 @@
+/* csv.h - trajectories as text: a commented head with the scene, a line of column names, rows, and a
+ * commented end. */
+#ifndef FST_IO_CSV_H
+#define FST_IO_CSV_H
+
+#include <stdio.h>
+
+#include <festoon/festoon_tools.h>
+
+#include "io/columns.h"
+
+/* Write to `out`; failures show in ferror(out). */
+void fst_csv_begin(FILE *out, const char *scene);
+void fst_csv_row(FILE *out, const double values[FST_COLUMN_COUNT]);
+/* `result` is JSON on one line, or NULL. */
+void fst_csv_end(FILE *out, const char *result, int complete);
+
+/* Read such a file.  The caller frees the table, also on failure.  FST_BAD_INPUT: the sentence says which line
+ * is wrong. */
+fst_status fst_csv_read(FILE *in, const char *path, fst_table *table, fst_error *error);
+
+#endif

@@ -1,0 +1,372 @@
+/* hdf5_module.c - trajectories in HDF5, as the module festoon-hdf5.so.
+ *
+ * The file: one extendible data set of doubles for each column, with the attributes `unit` and `description`;
+ * at the root the attributes `program`, `version`, `units`, `scene` (YAML), `result` (JSON, as `festoon run
+ * --json`) and `complete` (a boolean).
+ */
+#include "io/hdf5_module.h"
+
+#include <hdf5.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+/* Rows in a chunk: also what is held in memory, so that a trajectory's length does not matter. */
+#define CHUNK 4096
+
+#define PROGRAM "festoon"
+#define UNITS                                                                                                  \
+    "scaled: lengths in l (magnet.half_length), times in 1/gamma (friction.gamma), fields in B0, masses in "   \
+    "the "                                                                                                     \
+    "bead's mass; see each column's unit"
+
+struct fst_hdf5_writer {
+    hid_t file;
+    hid_t *sets; /* data set of each column */
+    const fst_column_info *const *columns;
+    int count;
+    hsize_t written;  /* rows in the file */
+    size_t pending;   /* rows in the buffer */
+    double *buffer;   /* count columns of CHUNK rows */
+    const char *name; /* of the file that it will become, for messages */
+    char *path;
+};
+
+/* HDF5 prints its errors unless told not to; the caller's setting is put back. */
+typedef struct quiet {
+    H5E_auto2_t function;
+    void *data;
+} quiet;
+
+static quiet be_quiet(void)
+{
+    quiet before = {NULL, NULL};
+    (void)H5Eget_auto2(H5E_DEFAULT, &before.function, &before.data);
+    (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    return before;
+}
+
+static void be_as_before(quiet before)
+{
+    (void)H5Eset_auto2(H5E_DEFAULT, before.function, before.data);
+}
+
+/* ---------------------------------------------------------------- attributes */
+
+static int write_text(hid_t object, const char *name, const char *text)
+{
+    hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    (void)H5Tset_size(type, strlen(text) + 1);
+    (void)H5Tset_cset(type, H5T_CSET_UTF8);
+    hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    int failed = attribute < 0 || H5Awrite(attribute, type, text) < 0;
+    failed = (attribute >= 0 && H5Aclose(attribute) < 0) || failed;
+    (void)H5Sclose(space);
+    (void)H5Tclose(type);
+    return failed;
+}
+
+/* The boolean that h5py knows: an enumeration of one byte. */
+static hid_t boolean_type(void)
+{
+    hid_t type = H5Tenum_create(H5T_NATIVE_INT8);
+    signed char value = 0;
+    (void)H5Tenum_insert(type, "FALSE", &value);
+    value = 1;
+    (void)H5Tenum_insert(type, "TRUE", &value);
+    return type;
+}
+
+static int write_boolean(hid_t object, const char *name, int truth)
+{
+    signed char value = truth != 0;
+    hid_t type = boolean_type(), space = H5Screate(H5S_SCALAR);
+    hid_t attribute = H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    int failed = attribute < 0 || H5Awrite(attribute, type, &value) < 0;
+    failed = (attribute >= 0 && H5Aclose(attribute) < 0) || failed;
+    (void)H5Sclose(space);
+    (void)H5Tclose(type);
+    return failed;
+}
+
+/* A text attribute as a new string; NULL where there is none of fixed length. */
+static char *read_text(hid_t object, const char *name)
+{
+    hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+    if (attribute < 0)
+        return NULL;
+    hid_t type = H5Aget_type(attribute), space = H5Aget_space(attribute);
+    char *text = NULL;
+    size_t size = type >= 0 ? H5Tget_size(type) : 0;
+    int usable = type >= 0 && H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
+                 size <= FST_SCENE_SIZE_LIMIT && H5Sget_simple_extent_npoints(space) == 1;
+    if (usable)
+        text = calloc(size + 1, 1);
+    if (text && H5Aread(attribute, type, text) < 0) {
+        free(text);
+        text = NULL;
+    }
+    if (type >= 0)
+        (void)H5Tclose(type);
+    if (space >= 0)
+        (void)H5Sclose(space);
+    (void)H5Aclose(attribute);
+    return text;
+}
+
+/* 1, 0, or -1 where there is no such boolean. */
+static int read_boolean(hid_t object, const char *name)
+{
+    hid_t attribute = H5Aopen(object, name, H5P_DEFAULT);
+    if (attribute < 0)
+        return -1;
+    signed char value = -1;
+    hid_t type = boolean_type(), space = H5Aget_space(attribute);
+    if (H5Sget_simple_extent_npoints(space) != 1 || H5Aread(attribute, type, &value) < 0)
+        value = -1;
+    if (space >= 0)
+        (void)H5Sclose(space);
+    (void)H5Tclose(type);
+    (void)H5Aclose(attribute);
+    return value;
+}
+
+/* ---------------------------------------------------------------- writing */
+
+static fst_status fail_write(const fst_hdf5_writer *writer, fst_error *error)
+{
+    return fst_fail(error, FST_IO, writer->name, "HDF5 could not write this file: is the disk full?");
+}
+
+/* Chunked, checksummed, and compressed where this HDF5 can. */
+static hid_t storage_of_column(void)
+{
+    const hsize_t chunk = CHUNK;
+    hid_t storage = H5Pcreate(H5P_DATASET_CREATE);
+    (void)H5Pset_chunk(storage, 1, &chunk);
+    (void)H5Pset_shuffle(storage);
+    if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0)
+        (void)H5Pset_deflate(storage, 1);
+    (void)H5Pset_fletcher32(storage);
+    return storage;
+}
+
+static int create_columns(fst_hdf5_writer *writer)
+{
+    const hsize_t none = 0, unlimited = H5S_UNLIMITED;
+    hid_t space = H5Screate_simple(1, &none, &unlimited);
+    hid_t storage = storage_of_column();
+    /* Whole chunks are written at once: a cache would only hold copies of them. */
+    hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
+    (void)H5Pset_chunk_cache(access, 1, 0, 1.0);
+    int failed = 0;
+    for (int i = 0; i < writer->count && !failed; i++) {
+        const fst_column_info *column = writer->columns[i];
+        hid_t set = H5Dcreate2(writer->file, column->name, H5T_IEEE_F64LE, space, H5P_DEFAULT, storage, access);
+        writer->sets[i] = set;
+        failed =
+            set < 0 || write_text(set, "unit", column->unit) || write_text(set, "description", column->doc);
+    }
+    (void)H5Pclose(access);
+    (void)H5Pclose(storage);
+    (void)H5Sclose(space);
+    return failed;
+}
+
+/* Close everything and free the writer; 1 if the file did not close well.  A file that is to be thrown away is
+ * emptied first: on a full disk HDF5 could otherwise not write what it still holds, would keep the file open,
+ * and crash over it at the end of the program. */
+static int close_writer(fst_hdf5_writer *writer, int thrown_away)
+{
+    int failed = thrown_away && truncate(writer->path, 0) != 0;
+    for (int i = 0; i < writer->count; i++)
+        if (writer->sets && writer->sets[i] >= 0)
+            failed = H5Dclose(writer->sets[i]) < 0 || failed;
+    if (writer->file >= 0)
+        failed = H5Fclose(writer->file) < 0 || failed;
+    free(writer->sets);
+    free(writer->buffer);
+    free(writer->path);
+    free(writer);
+    return failed;
+}
+
+static fst_status create(const char *path, const char *name, const fst_column_info *const *columns, int count,
+                         const char *scene, fst_hdf5_writer **out, fst_error *error)
+{
+    *out = NULL;
+    fst_hdf5_writer *writer = calloc(1, sizeof *writer);
+    if (!writer)
+        return fst_fail(error, FST_NO_MEMORY, name, "out of memory");
+    writer->columns = columns;
+    writer->count = count;
+    writer->file = -1;
+    writer->name = name;
+    writer->path = strdup(path);
+    writer->sets = calloc((size_t)count, sizeof *writer->sets);
+    writer->buffer = malloc((size_t)count * CHUNK * sizeof *writer->buffer);
+    if (!writer->path || !writer->sets || !writer->buffer) {
+        writer->count = 0; /* no data set is open yet */
+        (void)close_writer(writer, 0);
+        return fst_fail(error, FST_NO_MEMORY, name, "out of memory");
+    }
+    for (int i = 0; i < count; i++)
+        writer->sets[i] = -1;
+    quiet before = be_quiet();
+    writer->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    int failed = writer->file < 0 || write_text(writer->file, "program", PROGRAM) ||
+                 write_text(writer->file, "version", fst_version()) ||
+                 write_text(writer->file, "units", UNITS) || write_text(writer->file, "scene", scene) ||
+                 create_columns(writer);
+    if (failed) {
+        fail_write(writer, error);
+        (void)close_writer(writer, 1);
+    }
+    be_as_before(before);
+    if (failed)
+        return FST_IO;
+    *out = writer;
+    return FST_OK;
+}
+
+/* Append the buffered rows to every column. */
+static int flush_rows(fst_hdf5_writer *writer)
+{
+    if (writer->pending == 0)
+        return 0;
+    const hsize_t start = writer->written, added = writer->pending, total = start + added;
+    hid_t memory = H5Screate_simple(1, &added, NULL);
+    int failed = 0;
+    for (int i = 0; i < writer->count && !failed; i++) {
+        failed = H5Dset_extent(writer->sets[i], &total) < 0;
+        hid_t space = failed ? -1 : H5Dget_space(writer->sets[i]);
+        failed = space < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, NULL, &added, NULL) < 0 ||
+                 H5Dwrite(writer->sets[i], H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT,
+                          writer->buffer + (size_t)i * CHUNK) < 0;
+        if (space >= 0)
+            (void)H5Sclose(space);
+    }
+    (void)H5Sclose(memory);
+    writer->written = total;
+    writer->pending = 0;
+    return failed;
+}
+
+static fst_status row(fst_hdf5_writer *writer, const double *values, fst_error *error)
+{
+    for (int i = 0; i < writer->count; i++)
+        writer->buffer[(size_t)i * CHUNK + writer->pending] = values[i];
+    if (++writer->pending < CHUNK)
+        return FST_OK;
+    quiet before = be_quiet();
+    int failed = flush_rows(writer);
+    be_as_before(before);
+    return failed ? fail_write(writer, error) : FST_OK;
+}
+
+static fst_status finish(fst_hdf5_writer *writer, const char *result, int complete, fst_error *error)
+{
+    quiet before = be_quiet();
+    int failed = flush_rows(writer) || (result && write_text(writer->file, "result", result)) ||
+                 write_boolean(writer->file, "complete", complete);
+    if (!failed)
+        failed = H5Fflush(writer->file, H5F_SCOPE_LOCAL) < 0;
+    const char *name = writer->name;
+    fst_status status = failed ? fail_write(writer, error) : FST_OK;
+    if (close_writer(writer, failed) && status == FST_OK)
+        status = fst_fail(error, FST_IO, name, "HDF5 could not close this file: is the disk full?");
+    be_as_before(before);
+    return status;
+}
+
+static void abandon(fst_hdf5_writer *writer)
+{
+    quiet before = be_quiet();
+    (void)close_writer(writer, 1);
+    be_as_before(before);
+}
+
+/* ---------------------------------------------------------------- reading */
+
+/* Read one column; the first one sets the number of rows. */
+static fst_status read_column(hid_t file, const char *path, const char *name, int first, double **data,
+                              size_t *rows, fst_error *error)
+{
+    hid_t set = H5Dopen2(file, name, H5P_DEFAULT);
+    if (set < 0)
+        return fst_fail(error, FST_BAD_INPUT, path,
+                        "the column %s is missing: this is no trajectory of festoon", name);
+    hid_t space = H5Dget_space(set), type = H5Dget_type(set);
+    hsize_t length = 0;
+    const char *problem = NULL;
+    if (space < 0 || H5Sget_simple_extent_ndims(space) != 1 ||
+        H5Sget_simple_extent_dims(space, &length, NULL) < 0 || type < 0 || H5Tget_class(type) != H5T_FLOAT)
+        problem = "is no list of numbers";
+    else if (!first && length != *rows)
+        problem = "has another length than the columns before it";
+    else if (length > SIZE_MAX / sizeof **data || (length > 0 && H5Dget_storage_size(set) == 0))
+        problem = "is damaged";
+    else
+        *data = malloc(length ? (size_t)length * sizeof **data : 1);
+    fst_status status = FST_OK;
+    if (!problem && !*data)
+        status = fst_fail(error, FST_NO_MEMORY, path, "no memory for the %llu rows of the column %s",
+                          (unsigned long long)length, name);
+    else if (!problem && H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, *data) < 0)
+        problem = "is damaged";
+    if (problem)
+        status = fst_fail(error, FST_BAD_INPUT, path, "the column %s %s", name, problem);
+    *rows = (size_t)length;
+    if (type >= 0)
+        (void)H5Tclose(type);
+    if (space >= 0)
+        (void)H5Sclose(space);
+    (void)H5Dclose(set);
+    return status;
+}
+
+static fst_status read_root(hid_t file, const char *path, char **scene, int *complete, fst_error *error)
+{
+    char *program = read_text(file, "program");
+    int ours = program && strcmp(program, PROGRAM) == 0;
+    free(program);
+    if (!ours)
+        return fst_fail(error, FST_BAD_INPUT, path, "this HDF5 file is no trajectory of festoon");
+    *scene = read_text(file, "scene");
+    int said = read_boolean(file, "complete");
+    if (!*scene || said < 0)
+        return fst_fail(error, FST_BAD_INPUT, path, "the attribute %s is missing: the file is damaged",
+                        *scene ? "complete" : "scene");
+    *complete = said;
+    return FST_OK;
+}
+
+static fst_status read_all(const char *path, const fst_column_info *const *columns, int count, double **data,
+                           size_t *rows, char **scene, int *complete, fst_error *error)
+{
+    quiet before = be_quiet();
+    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
+    fst_status status = FST_OK;
+    if (file < 0)
+        status = fst_fail(error, FST_BAD_INPUT, path, "HDF5 cannot open this file: it is damaged or cut off");
+    else
+        status = read_root(file, path, scene, complete, error);
+    for (int i = 0; i < count && status == FST_OK; i++)
+        status = read_column(file, path, columns[i]->name, i == 0, &data[i], rows, error);
+    if (file >= 0)
+        (void)H5Fclose(file);
+    be_as_before(before);
+    return status;
+}
+
+FST_API extern const fst_hdf5_module_table fst_hdf5_module;
+const fst_hdf5_module_table fst_hdf5_module = {
+    .version = FST_VERSION_STRING,
+    .create = create,
+    .row = row,
+    .finish = finish,
+    .abandon = abandon,
+    .read = read_all,
+};

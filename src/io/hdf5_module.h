@@ -1,0 +1,31 @@
+/* hdf5_module.h - what festoon-hdf5.so offers.  HDF5 is heavy to load, so that only a trajectory that needs it
+ * loads the module. */
+#ifndef FST_IO_HDF5_MODULE_H
+#define FST_IO_HDF5_MODULE_H
+
+#include <festoon/festoon_tools.h>
+
+typedef struct fst_hdf5_writer fst_hdf5_writer;
+
+/* The module's one symbol is a table of this type, named FST_HDF5_MODULE_SYMBOL. */
+#define FST_HDF5_MODULE_SYMBOL "fst_hdf5_module"
+typedef struct fst_hdf5_module_table {
+    const char *version; /* FST_VERSION_STRING at the module's build: another version is refused */
+
+    /* Write a trajectory to `path`, over what is there; `name` stands for it in messages.  The name and the
+     * columns are kept, not copied. */
+    fst_status (*create)(const char *path, const char *name, const fst_column_info *const *columns, int count,
+                         const char *scene, fst_hdf5_writer **writer, fst_error *error);
+    fst_status (*row)(fst_hdf5_writer *writer, const double *values, fst_error *error);
+    /* Write the last rows and the attributes `result` (JSON or NULL) and `complete`, and close.  The writer is
+     * gone afterwards, also on failure. */
+    fst_status (*finish)(fst_hdf5_writer *writer, const char *result, int complete, fst_error *error);
+    void (*abandon)(fst_hdf5_writer *writer);
+
+    /* Read all columns; columns[i] are allocated, `scene` is to be freed.  On failure the caller frees what is
+     * not NULL. */
+    fst_status (*read)(const char *path, const fst_column_info *const *columns, int count, double **data,
+                       size_t *rows, char **scene, int *complete, fst_error *error);
+} fst_hdf5_module_table;
+
+#endif

@@ -1,0 +1,228 @@
+/* json.c - results and the table of parameters as JSON, by jansson. */
+#include <festoon/festoon_tools.h>
+
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "io/json.h"
+
+/* JSON has no NaN and no infinity. */
+static json_t *number(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *text_or_null(const char *text)
+{
+    return text && text[0] ? json_string(text) : json_null();
+}
+
+static json_t *count_of(uint64_t value)
+{
+    return json_integer((json_int_t)value);
+}
+
+/* The parameters by key, in SI; what was not given, or is overridden by its other form, is null. */
+static json_t *scene_object(const fst_params *params)
+{
+    json_t *scene = json_object();
+    for (int i = 0; i < fst_param_count(); i++) {
+        const fst_param_info *info = fst_param_at(i);
+        char text[64];
+        json_t *value = NULL;
+        double real;
+        int integer;
+        memcpy(&integer, (const char *)params + info->offset, sizeof integer);
+        if (fst_params_get(params, i, text, sizeof text) == 0) {
+            value = json_null();
+        } else if (info->kind == FST_KIND_REAL) {
+            memcpy(&real, (const char *)params + info->offset, sizeof real);
+            value = number(real);
+        } else {
+            value = info->kind == FST_KIND_INT ? json_integer(integer) : json_string(text);
+        }
+        json_object_set_new(scene, info->key, value);
+    }
+    return scene;
+}
+
+static json_t *groups_object(const fst_params *params)
+{
+    fst_model *model = NULL;
+    if (fst_model_new(params, &model, NULL) != FST_OK)
+        return json_null();
+    fst_groups g = fst_model_groups(model);
+    fst_model_free(model);
+    json_t *groups = json_object();
+    const struct {
+        const char *name;
+        double value;
+    } numbers[] = {
+        {"eps", g.eps},
+        {"h", g.h},
+        {"lambda", g.lambda},
+        {"kappa", g.kappa},
+        {"a", g.a},
+        {"b", g.b},
+        {"omega", g.omega},
+        {"gravity", g.gravity},
+        {"plate_radius", g.plate_radius},
+        {"length_unit_m", g.length_unit},
+        {"time_unit_s", g.time_unit},
+        {"mass_kg", g.mass},
+        {"field_unit_t", g.field_unit},
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        json_object_set_new(groups, numbers[i].name, number(numbers[i].value));
+    json_object_set_new(groups, "lines", json_integer(g.lines));
+    return groups;
+}
+
+static json_t *number_array(const double *values, int count)
+{
+    json_t *array = json_array();
+    for (int i = 0; i < count; i++)
+        json_array_append_new(array, number(values[i]));
+    return array;
+}
+
+static json_t *ramp_array(const fst_ramp_point *ramp, size_t count)
+{
+    json_t *array = json_array();
+    for (size_t i = 0; i < count; i++) {
+        json_t *point = json_object();
+        json_object_set_new(point, "omega", number(ramp[i].omega));
+        json_object_set_new(point, "frequency_hz", number(ramp[i].frequency_hz));
+        json_object_set_new(point, "mean_r", number(ramp[i].mean_r));
+        json_object_set_new(point, "std_r", number(ramp[i].std_r));
+        json_object_set_new(point, "mean_alpha_dot", number(ramp[i].mean_alpha_dot));
+        json_object_set_new(point, "mean_phi_dot", number(ramp[i].mean_phi_dot));
+        json_object_set_new(point, "mean_nz", number(ramp[i].mean_nz));
+        json_array_append_new(array, point);
+    }
+    return array;
+}
+
+static const char *choice_text(const fst_params *params, const char *key, char *text, size_t size)
+{
+    (void)fst_params_get(params, fst_param_find(key), text, size);
+    return text;
+}
+
+/* The text of a document, with a newline at its end; takes the reference. */
+static char *dump(json_t *document, size_t flags)
+{
+    char *text = document ? json_dumps(document, flags | JSON_REAL_PRECISION(17)) : NULL;
+    json_decref(document);
+    if (!text)
+        return NULL;
+    size_t length = strlen(text);
+    char *longer = realloc(text, length + 2);
+    if (!longer) {
+        free(text);
+        return NULL;
+    }
+    memcpy(longer + length, "\n", 2);
+    return longer;
+}
+
+static json_t *run_object(const fst_params *params, const fst_run_result *result)
+{
+    char dynamics[48];
+    json_t *run = json_object();
+    json_object_set_new(run, "regime", text_or_null(fst_regime_name(result->regime)));
+    json_object_set_new(run, "reason", text_or_null(result->reason));
+    json_object_set_new(run, "symmetry", text_or_null(fst_symmetry_name(result->symmetry)));
+    json_object_set_new(run, "dynamics",
+                        text_or_null(choice_text(params, "model.dynamics", dynamics, sizeof dynamics)));
+    for (int i = 0; i < fst_result_count(); i++) {
+        const fst_result_info *info = fst_result_at(i);
+        double value;
+        memcpy(&value, (const char *)result + info->offset, sizeof value);
+        json_object_set_new(run, info->name, number(value));
+    }
+    json_object_set_new(run, "returns", json_integer(result->returns));
+    json_object_set_new(run, "rhs_calls", count_of(result->rhs_calls));
+    json_object_set_new(run, "steps_accepted", count_of(result->accepted));
+    json_object_set_new(run, "steps_rejected", count_of(result->rejected));
+    json_object_set_new(run, "final_state", number_array(result->final_state, FST_STATE_SIZE));
+    return run;
+}
+
+char *fst_result_line(const fst_params *params, const fst_run_result *result)
+{
+    char *text = dump(run_object(params, result), JSON_COMPACT);
+    if (text)
+        text[strlen(text) - 1] = '\0';
+    return text;
+}
+
+char *fst_run_json(const fst_params *params, const fst_run_result *result, const fst_ramp_point *ramp,
+                   size_t ramp_count)
+{
+    json_t *run = run_object(params, result);
+    json_object_set_new(run, "groups", groups_object(params));
+    json_object_set_new(run, "scene", scene_object(params));
+    if (ramp_count)
+        json_object_set_new(run, "ramp", ramp_array(ramp, ramp_count));
+    json_object_set_new(run, "version", json_string(fst_version()));
+    return dump(run, JSON_INDENT(2));
+}
+
+char *fst_scene_json(const fst_params *params)
+{
+    json_t *document = json_object();
+    json_object_set_new(document, "scene", scene_object(params));
+    json_object_set_new(document, "groups", groups_object(params));
+    return dump(document, JSON_INDENT(2));
+}
+
+char *fst_field_json(const fst_model *model, double x, double y)
+{
+    double b[3], grad[3][3];
+    fst_field(model, x, y, b, grad);
+    json_t *document = json_object(), *rows = json_array();
+    json_object_set_new(document, "x", number(x));
+    json_object_set_new(document, "y", number(y));
+    json_object_set_new(document, "b", number_array(b, 3));
+    for (int i = 0; i < 3; i++)
+        json_array_append_new(rows, number_array(grad[i], 3));
+    json_object_set_new(document, "grad", rows);
+    return dump(document, JSON_INDENT(2));
+}
+
+char *fst_schema_json(void)
+{
+    static const char *const kinds[] = {
+        [FST_KIND_REAL] = "real", [FST_KIND_INT] = "integer", [FST_KIND_CHOICE] = "choice"};
+    fst_params defaults = fst_default_params();
+    json_t *schema = json_array();
+    for (int i = 0; i < fst_param_count(); i++) {
+        const fst_param_info *info = fst_param_at(i);
+        char text[64];
+        int choice = info->kind == FST_KIND_CHOICE, integer = info->kind == FST_KIND_INT;
+        (void)fst_params_get(&defaults, i, text, sizeof text);
+        json_t *row = json_object();
+        json_object_set_new(row, "key", json_string(info->key));
+        json_object_set_new(row, "kind", json_string(kinds[info->kind]));
+        json_object_set_new(row, "unit", choice ? json_null() : json_string(fst_unit_name(info->unit)));
+        json_object_set_new(row, "default",
+                            choice    ? json_string(text)
+                            : integer ? json_integer((json_int_t)info->initial)
+                                      : number(info->initial));
+        json_object_set_new(row, "min", choice ? json_null() : number(info->least));
+        json_object_set_new(row, "max", choice ? json_null() : number(info->greatest));
+        json_object_set_new(row, "doc", json_string(info->doc));
+        json_t *names = choice ? json_array() : json_null();
+        for (const char *name = choice ? info->names : ""; *name; name += strspn(name, "|")) {
+            size_t length = strcspn(name, "|");
+            json_array_append_new(names, json_stringn(name, length));
+            name += length;
+        }
+        json_object_set_new(row, "names", names);
+        json_object_set_new(row, "other_form", text_or_null(fst_param_other_form(info->key)));
+        json_array_append_new(schema, row);
+    }
+    return dump(schema, JSON_INDENT(2));
+}

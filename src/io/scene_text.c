@@ -1,0 +1,124 @@
+/* scene_text.c - writing scenes: parameters as YAML that fst_scene_parse() reads back to the same bits. */
+#include <festoon/festoon_tools.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "base/whole_file.h"
+
+/* Columns of a comment line. */
+#define WIDTH 100
+
+/* A doc as comment lines, broken between words. */
+static void write_comment(FILE *out, const char *text)
+{
+    while (*text) {
+        size_t length = strlen(text);
+        if (length > WIDTH) {
+            length = WIDTH;
+            while (length > 0 && text[length] != ' ')
+                length--;
+            if (length == 0)
+                length = strcspn(text, " ");
+        }
+        (void)fprintf(out, "  # %.*s\n", (int)length, text);
+        text += length;
+        text += strspn(text, " ");
+    }
+}
+
+/* "0.0001 mm to 1000 mm; um mm cm m", or the choices. */
+static void write_limits(FILE *out, const fst_param_info *info)
+{
+    if (info->kind == FST_KIND_CHOICE) {
+        (void)fprintf(out, "  # one of: %s\n", info->names);
+        return;
+    }
+    char least[64], greatest[64];
+    const char *accepted = fst_unit_accepted(info->unit);
+    (void)fst_value_write(least, sizeof least, info->least, info->unit);
+    (void)fst_value_write(greatest, sizeof greatest, info->greatest, info->unit);
+    (void)fprintf(out, "  # %s%s to %s", info->kind == FST_KIND_INT ? "integer, " : "", least, greatest);
+    if (accepted[0])
+        (void)fprintf(out, "; units: %s; bare numbers are in %s", accepted, fst_unit_name(info->unit));
+    (void)fprintf(out, "\n");
+}
+
+/* The value as people write it: numbers with their customary unit. */
+static void value_text(const fst_params *params, int index, char *text, size_t size)
+{
+    const fst_param_info *info = fst_param_at(index);
+    int length = fst_params_get(params, index, text, size);
+    if (length == 0 || info->kind != FST_KIND_REAL)
+        return;
+    double value;
+    memcpy(&value, (const char *)params + info->offset, sizeof value);
+    (void)fst_value_write(text, size, value, info->unit);
+}
+
+static void write_scene(FILE *out, const fst_params *params, int commented)
+{
+    char group[32] = "", value[64];
+    if (commented)
+        (void)fprintf(
+            out, "# A festoon scene.  A line that is missing keeps its default; --set KEY=VALUE overrides.\n"
+                 "# festoon schema lists all keys, festoon check reads a scene without running it.\n");
+    for (int i = 0; i < fst_param_count(); i++) {
+        const fst_param_info *info = fst_param_at(i);
+        size_t group_length = strcspn(info->key, ".");
+        value_text(params, i, value, sizeof value);
+        if (!value[0] && !commented)
+            continue;
+        if (strncmp(group, info->key, group_length) != 0 || group[group_length]) {
+            (void)snprintf(group, sizeof group, "%.*s", (int)group_length, info->key);
+            (void)fprintf(out, "%s%s:\n", commented ? "\n" : "", group);
+        }
+        if (commented) {
+            write_comment(out, info->doc);
+            write_limits(out, info);
+        }
+        const char *name = info->key + group_length + 1;
+        if (value[0])
+            (void)fprintf(out, "  %s: %s\n", name, value);
+        else
+            (void)fprintf(out, "  # %s:\n", name);
+    }
+}
+
+char *fst_scene_text(const fst_params *params, int commented)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    write_scene(out, params, commented);
+    int failed = ferror(out);
+    if (fclose(out) != 0 || failed) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
+fst_status fst_scene_write(const char *path, const fst_params *params, int commented, int overwrite,
+                           fst_error *error)
+{
+    if (!overwrite && access(path, F_OK) == 0)
+        return fst_fail(error, FST_BAD_INPUT, path, "this file is there already");
+    char *text = fst_scene_text(params, commented);
+    if (!text)
+        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    fst_whole_file file;
+    fst_status status = fst_whole_file_open(&file, path, error);
+    if (status == FST_OK) {
+        (void)fputs(text, file.stream); /* a failure shows at the commit */
+        status = fst_whole_file_commit(&file, error);
+    }
+    free(text);
+    return status;
+}

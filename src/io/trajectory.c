@@ -1,0 +1,233 @@
+/* trajectory.c - trajectories in files: choosing the format, the temporary file, and the module for HDF5. */
+/* dladdr() is an extension of the C library. */
+#define _GNU_SOURCE
+#include <festoon/festoon_tools.h>
+
+#include <dlfcn.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/whole_file.h"
+#include "io/columns.h"
+#include "io/csv.h"
+#include "io/hdf5_module.h"
+#include "io/hdf5_present.h"
+#include "io/json.h"
+#include "io/regular_file.h"
+
+#define MODULE_FILE "festoon-hdf5.so"
+
+/* Where the module lies, seen from this library: in the build tree, and installed. */
+static const char *const places[] = {"/" MODULE_FILE, "/festoon/" MODULE_FILE};
+
+struct fst_trajectory {
+    fst_params params;
+    fst_whole_file file;
+    fst_hdf5_writer *writer; /* NULL: CSV into file.stream */
+    const fst_hdf5_module_table *module;
+    const fst_column_info *columns[FST_COLUMN_COUNT];
+};
+
+/* Load the module; it is found along the RUNPATH of this library, and stays loaded. */
+static fst_status load_module(const fst_hdf5_module_table **module, const char *path, fst_error *error)
+{
+    void *library = dlopen(MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    *module = library ? dlsym(library, FST_HDF5_MODULE_SYMBOL) : NULL;
+    fst_status status = FST_OK;
+    if (!*module)
+        status =
+            fst_fail(error, FST_UNAVAILABLE, path,
+                     "this festoon has no HDF5 (%s): install libhdf5-dev and build festoon again, or give the "
+                     "file a name that ends in .csv",
+                     library ? MODULE_FILE " is no module of festoon" : MODULE_FILE " cannot be loaded");
+    else if (strcmp((*module)->version, fst_version()) != 0)
+        status =
+            fst_fail(error, FST_UNAVAILABLE, path, "%s belongs to festoon %s, not to %s: install festoon again",
+                     MODULE_FILE, (*module)->version, fst_version());
+    if (library)
+        (void)dlclose(library);
+    return status;
+}
+
+/* Found as the dynamic loader would find it, along the RUNPATH of this library, but not loaded: asking for the
+ * version must not cost the time of loading HDF5. */
+int fst_hdf5_present(void)
+{
+    Dl_info here;
+    char path[4096];
+    if (!dladdr((void *)&places, &here) || !here.dli_fname)
+        return 0;
+    const char *slash = strrchr(here.dli_fname, '/');
+    int directory = slash ? (int)(slash - here.dli_fname) : 1;
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        int length = snprintf(path, sizeof path, "%.*s%s", directory, slash ? here.dli_fname : ".", places[i]);
+        if (length > 0 && (size_t)length < sizeof path && access(path, R_OK) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+static int ends_in(const char *path, const char *ending)
+{
+    size_t length = strlen(path), wanted = strlen(ending);
+    return length > wanted && strcmp(path + length - wanted, ending) == 0;
+}
+
+static void list_columns(const fst_column_info *columns[FST_COLUMN_COUNT])
+{
+    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+        columns[i] = fst_column_at(i);
+}
+
+/* ---------------------------------------------------------------- writing */
+
+/* Begin the file's contents in the format of its ending. */
+static fst_status begin(fst_trajectory *trajectory, const char *path, int hdf5, fst_error *error)
+{
+    char *scene = fst_scene_text(&trajectory->params, 0);
+    if (!scene)
+        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    fst_status status = FST_OK;
+    if (hdf5) {
+        /* HDF5 opens the temporary file by its name. */
+        (void)fclose(trajectory->file.stream);
+        trajectory->file.stream = NULL;
+        status =
+            trajectory->module->create(trajectory->file.temporary, trajectory->file.path, trajectory->columns,
+                                       FST_COLUMN_COUNT, scene, &trajectory->writer, error);
+    } else {
+        fst_csv_begin(trajectory->file.stream, scene);
+    }
+    free(scene);
+    return status;
+}
+
+fst_status fst_trajectory_create(const char *path, const fst_params *params, fst_trajectory **out,
+                                 fst_error *error)
+{
+    *out = NULL;
+    int hdf5 = ends_in(path, ".h5") || ends_in(path, ".hdf5");
+    if (!hdf5 && !ends_in(path, ".csv"))
+        return fst_fail(error, FST_BAD_INPUT, path, "the name of a trajectory ends in .h5 or .csv");
+    fst_trajectory *trajectory = calloc(1, sizeof *trajectory);
+    if (!trajectory)
+        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    trajectory->params = *params;
+    list_columns(trajectory->columns);
+    fst_status status = hdf5 ? load_module(&trajectory->module, path, error) : FST_OK;
+    if (status == FST_OK)
+        status = fst_whole_file_open(&trajectory->file, path, error);
+    if (status == FST_OK)
+        status = begin(trajectory, path, hdf5, error);
+    if (status != FST_OK) {
+        fst_trajectory_discard(trajectory);
+        return status;
+    }
+    *out = trajectory;
+    return FST_OK;
+}
+
+fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *sample, fst_error *error)
+{
+    double values[FST_COLUMN_COUNT];
+    fst_column_values(sample, values);
+    if (trajectory->writer)
+        return trajectory->module->row(trajectory->writer, values, error);
+    fst_csv_row(trajectory->file.stream, values);
+    if (ferror(trajectory->file.stream))
+        return fst_fail(error, FST_IO, trajectory->file.path, "writing this file failed: is the disk full?");
+    return FST_OK;
+}
+
+fst_status fst_trajectory_close(fst_trajectory *trajectory, const fst_run_result *result, int complete,
+                                fst_error *error)
+{
+    fst_status status = FST_OK;
+    char *line = result ? fst_result_line(&trajectory->params, result) : NULL;
+    if (result && !line) {
+        status = fst_fail(error, FST_NO_MEMORY, trajectory->file.path, "out of memory");
+    } else if (trajectory->writer) {
+        status = trajectory->module->finish(trajectory->writer, line, complete, error);
+        trajectory->writer = NULL;
+    } else {
+        fst_csv_end(trajectory->file.stream, line, complete);
+    }
+    free(line);
+    if (status == FST_OK)
+        status = fst_whole_file_commit(&trajectory->file, error);
+    fst_trajectory_discard(trajectory); /* after a commit nothing is left to remove */
+    return status;
+}
+
+void fst_trajectory_discard(fst_trajectory *trajectory)
+{
+    if (!trajectory)
+        return;
+    if (trajectory->writer)
+        trajectory->module->abandon(trajectory->writer);
+    fst_whole_file_discard(&trajectory->file);
+    free(trajectory);
+}
+
+/* ---------------------------------------------------------------- reading */
+
+/* The first eight bytes of every HDF5 file that HDF5 itself made (others may begin with a user block). */
+static int is_hdf5(FILE *in)
+{
+    static const char signature[8] = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
+    char begin_bytes[8];
+    int found = fread(begin_bytes, 1, 8, in) == 8 && memcmp(begin_bytes, signature, 8) == 0;
+    rewind(in);
+    return found;
+}
+
+static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error)
+{
+    const fst_hdf5_module_table *module;
+    const fst_column_info *columns[FST_COLUMN_COUNT];
+    char *scene = NULL;
+    fst_status status = load_module(&module, path, error);
+    if (status != FST_OK)
+        return status;
+    list_columns(columns);
+    status = module->read(path, columns, FST_COLUMN_COUNT, table->columns, &table->rows, &scene,
+                          &table->complete, error);
+    if (status == FST_OK)
+        status = fst_scene_parse(scene, strlen(scene), path, &table->params, error);
+    free(scene);
+    return status;
+}
+
+fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *error)
+{
+    *table = (fst_table){.params = fst_default_params()};
+    int descriptor;
+    fst_status status = fst_open_regular(path, &descriptor, error);
+    if (status != FST_OK)
+        return status;
+    FILE *in = fdopen(descriptor, "r");
+    table->columns = calloc(FST_COLUMN_COUNT, sizeof *table->columns);
+    if (!in || !table->columns)
+        status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    else if (is_hdf5(in))
+        status = read_hdf5(path, table, error);
+    else
+        status = fst_csv_read(in, path, table, error);
+    if (in)
+        (void)fclose(in);
+    else
+        (void)close(descriptor);
+    if (status != FST_OK)
+        fst_table_free(table);
+    return status;
+}
+
+void fst_table_free(fst_table *table)
+{
+    for (int i = 0; table->columns && i < FST_COLUMN_COUNT; i++)
+        free(table->columns[i]);
+    free(table->columns);
+    *table = (fst_table){.rows = 0};
+}

@@ -1,0 +1,43 @@
+/* coefficients.inl - what the bodies of the model need of a setup, over REAL.
+ *
+ * With lanes each lane has its own REALs; the integers are shared by a batch.
+ */
+typedef struct FN(coefficients) {
+    int lines;                /* number of lines of dipoles */
+    int magnetisable;         /* the material has a or b: the general force and torque */
+    int gyroscopic_term_lost; /* dynamics farago2020 */
+    REAL eps;
+    REAL height;        /* h */
+    REAL spacing;       /* lambda */
+    REAL first_line;    /* -(lines - 1)/2: the lines lie at Y = lambda (first_line, first_line + 1, ...) */
+    REAL line_strength; /* 5/lines */
+    REAL hard;          /* kappa eps^2: force of a hard magnet */
+    REAL twice_a, twice_b;
+    REAL torque;   /* 5/(2 eps^2): from a torque per mass to dW/dt */
+    REAL traction; /* 5/(2 eps): from a contact force per mass to dW/dt */
+    REAL friction; /* 1, or 0 on a frictionless plate */
+    REAL gravity;
+    REAL omega; /* drive */
+} FN(coefficients);
+
+static inline FN(coefficients) FN(make_coefficients)(const fst_groups *g)
+{
+    FN(coefficients) c;
+    c.lines = g->lines;
+    c.magnetisable = g->material != FST_MATERIAL_HARD;
+    c.gyroscopic_term_lost = g->dynamics == FST_DYNAMICS_FARAGO2020;
+    c.eps = (REAL)g->eps;
+    c.height = (REAL)g->h;
+    c.spacing = (REAL)g->lambda;
+    c.first_line = -(R(0.5) * (REAL)(g->lines - 1));
+    c.line_strength = R(5.0) / (REAL)g->lines;
+    c.hard = (REAL)g->kappa * ((REAL)g->eps * (REAL)g->eps);
+    c.twice_a = R(2.0) * (REAL)g->a;
+    c.twice_b = R(2.0) * (REAL)g->b;
+    c.torque = R(2.5) / ((REAL)g->eps * (REAL)g->eps);
+    c.traction = R(2.5) / (REAL)g->eps;
+    c.friction = (REAL)(g->friction == FST_FRICTION_NONE ? 0 : 1);
+    c.gravity = (REAL)g->gravity;
+    c.omega = (REAL)g->omega;
+    return c;
+}

@@ -1,0 +1,80 @@
+/* field.inl - the magnet's field and its gradient along a direction in one pass, over REAL.
+ *
+ * Each line of dipoles is two point charges, +1 at X = 1 and -1 at X = -1 (paper, section Modelling, the
+ * equation before Fig. portrait).  With d from a charge of sign s to the bead,
+ *
+ *     B    = sum of s d/|d|^3,
+ *     G_ij = dB_i/dx_j = sum of s (delta_ij/|d|^3 - 3 d_i d_j/|d|^5),
+ *     G u  = sum of s (u/|d|^3 - 3 d (d.u)/|d|^5),
+ *
+ * and the last is all that a force needs: u is known before the roots and quotients are, so G u comes almost
+ * with B. G is symmetric and traceless: curl B = 0 and div B = 0.
+ */
+
+/* Sums over the lines, for the charges at the plus end and at the minus end: q = 1/|d|^3, Y q, t = 3
+ * (d.u)/|d|^5 and Y t.  ENDS is a pair of REALs where a pair costs no more than one, else a REAL; END() picks
+ * an end. */
+typedef struct FN(line_sums) {
+    ENDS q, yq, t, yt;
+} FN(line_sums);
+
+static inline void FN(add_line)(FN(line_sums) * sum, ENDS across2, ENDS along, REAL dy, REAL dy2, REAL uy)
+{
+    const ENDS distance2 = dy2 + across2;
+    const ENDS inverse2 = R(1.0) / distance2; /* the division need not wait for the root */
+    const ENDS q = (inverse2 * inverse2) * ENDS_SQRT(distance2);
+    const ENDS t = (q * inverse2) * (along + uy * dy);
+    sum->q = sum->q + q;
+    sum->yq = sum->yq + dy * q;
+    sum->t = sum->t + t;
+    sum->yt = sum->yt + dy * t;
+}
+
+/* B and G u at (x, y), at the height of the bead's centre. */
+static inline void FN(field_along)(const FN(coefficients) * c, REAL x, REAL y, const REAL u[3], REAL b[3],
+                                   REAL gu[3])
+{
+    const REAL h = c->height, f = c->line_strength;
+    const REAL dx[2] = {x - R(1.0), x + R(1.0)};
+    const REAL ux3 = R(3.0) * u[0], uy3 = R(3.0) * u[1], uzh3 = R(3.0) * u[2] * h;
+    const ENDS across2[ENDS_GROUPS] = ENDS_OF(dx[0] * dx[0] + h * h, dx[1] * dx[1] + h * h);
+    const ENDS along[ENDS_GROUPS] = ENDS_OF(ux3 * dx[0] + uzh3, ux3 * dx[1] + uzh3);
+    FN(line_sums) sum[ENDS_GROUPS];
+    for (int group = 0; group < ENDS_GROUPS; ++group) {
+        const ENDS zero = along[group] - along[group];
+        const FN(line_sums) nothing = {zero, zero, zero, zero};
+        sum[group] = nothing;
+    }
+    REAL line = c->first_line;
+    for (int count = c->lines; count > 0; --count, line = line + R(1.0)) {
+        const REAL dy = y - line * c->spacing;
+        for (int group = 0; group < ENDS_GROUPS; ++group)
+            FN(add_line)(&sum[group], across2[group], along[group], dy, dy * dy, uy3);
+    }
+    const REAL q = END(sum, q, 0) - END(sum, q, 1);
+    b[0] = f * (dx[0] * END(sum, q, 0) - dx[1] * END(sum, q, 1));
+    b[1] = f * (END(sum, yq, 0) - END(sum, yq, 1));
+    b[2] = f * (h * q);
+    gu[0] = f * (u[0] * q - (dx[0] * END(sum, t, 0) - dx[1] * END(sum, t, 1)));
+    gu[1] = f * (u[1] * q - (END(sum, yt, 0) - END(sum, yt, 1)));
+    gu[2] = f * (u[2] * q - h * (END(sum, t, 0) - END(sum, t, 1)));
+}
+
+/* B and the whole gradient, for reading. */
+typedef struct FN(field_values) {
+    REAL b[3];
+    REAL gxx, gyy, gxy, gxz, gyz; /* gzz = -(gxx + gyy) */
+} FN(field_values);
+
+static inline void FN(field)(const FN(coefficients) * c, REAL x, REAL y, FN(field_values) * out)
+{
+    const REAL ex[3] = {R(1.0), R(0.0), R(0.0)}, ey[3] = {R(0.0), R(1.0), R(0.0)};
+    REAL gx[3], gy[3];
+    FN(field_along)(c, x, y, ex, out->b, gx);
+    FN(field_along)(c, x, y, ey, out->b, gy);
+    out->gxx = gx[0];
+    out->gyy = gy[1];
+    out->gxy = gx[1];
+    out->gxz = gx[2];
+    out->gyz = gy[2];
+}

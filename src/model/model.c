@@ -1,0 +1,193 @@
+/* model.c - from parameters in SI to the scaled model, and the model's public face. */
+#include "model/model.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/elementary.h"
+#include "base/error.h"
+#include "model/params.h"
+
+#include "model/jacobian.inl"
+
+static const double TWO_PI = 6.283185307179586476925287;
+
+/* kappa: model.kappa, unless moment and B0 are both given.  Of moment, B0 and kappa two give the third. */
+static void set_strength(const fst_params *p, fst_groups *g)
+{
+    const double unit =
+        p->bead_mass * (p->bead_radius * p->bead_radius) * (p->friction_gamma * p->friction_gamma);
+    g->kappa = p->model_kappa;
+    g->field_unit = p->magnet_b0;
+    if (!isnan(p->bead_moment) && !isnan(p->magnet_b0))
+        g->kappa = p->bead_moment * p->magnet_b0 / unit;
+    else if (!isnan(p->bead_moment) && p->bead_moment > 0)
+        g->field_unit = g->kappa * unit / p->bead_moment;
+    if (p->bead_material == FST_MATERIAL_PARAMAGNETIC)
+        g->kappa = 0.0;
+    g->a = p->bead_material == FST_MATERIAL_HARD ? 0.0 : p->bead_a;
+    g->b = p->bead_material == FST_MATERIAL_MIXED ? p->bead_b : 0.0;
+}
+
+static void set_geometry(const fst_params *p, fst_groups *g)
+{
+    const double l = p->magnet_half_length;
+    g->length_unit = l;
+    g->eps = isnan(p->model_eps) ? p->bead_radius / l : p->model_eps;
+    g->h = isnan(p->model_h) ? (p->magnet_depth + p->bead_radius) / l : p->model_h;
+    g->lines = p->magnet_lines;
+    if (!isnan(p->model_lambda))
+        g->lambda = p->model_lambda;
+    else
+        g->lambda = p->magnet_lines > 1 ? p->magnet_width / ((p->magnet_lines - 1) * l) : 0.0;
+}
+
+fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
+{
+    *model = NULL;
+    const fst_status status = fst_params_validate(params, error);
+    if (status != FST_OK)
+        return status;
+    fst_groups g;
+    memset(&g, 0, sizeof g);
+    const double gamma = params->friction_gamma;
+    set_geometry(params, &g);
+    set_strength(params, &g);
+    g.omega = isnan(params->drive_omega) ? TWO_PI * params->drive_frequency / gamma : params->drive_omega;
+    g.gravity = params->plate_gravity / (g.length_unit * (gamma * gamma));
+    g.plate_radius = params->plate_radius / g.length_unit;
+    g.material = (fst_material)params->bead_material;
+    g.friction = (fst_friction_law)params->friction_law;
+    g.dynamics = (fst_dynamics)params->model_dynamics;
+    g.time_unit = 1.0 / gamma;
+    g.mass = params->bead_mass;
+    if (!isfinite(g.kappa) || !isfinite(g.omega) || g.h <= 0)
+        return fst_fail(error, FST_BAD_INPUT, "fst_model_new",
+                        "the scaled groups are out of range: kappa = %g, omega = %g, h = %g", g.kappa, g.omega,
+                        g.h);
+    fst_model *made = malloc(sizeof *made);
+    if (!made)
+        return fst_fail(error, FST_NO_MEMORY, "fst_model_new", "out of memory");
+    made->groups = g;
+    made->coefficients = fst_make_coefficients_double(&g);
+    *model = made;
+    return FST_OK;
+}
+
+void fst_model_free(fst_model *model)
+{
+    free(model);
+}
+
+fst_groups fst_model_groups(const fst_model *model)
+{
+    return model->groups;
+}
+
+void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3])
+{
+    fst_field_values_double f;
+    fst_field_double(&model->coefficients, x, y, &f);
+    memcpy(b, f.b, sizeof f.b);
+    const double g[3][3] = {{f.gxx, f.gxy, f.gxz}, {f.gxy, f.gyy, f.gyz}, {f.gxz, f.gyz, -(f.gxx + f.gyy)}};
+    memcpy(grad, g, sizeof g);
+}
+
+void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE], double derivative[FST_STATE_SIZE])
+{
+    fst_pull_double p;
+    fst_rhs_double(&model->coefficients, model->coefficients.omega, state, derivative, &p);
+}
+
+void fst_jacobian(const fst_model *model, const double state[FST_STATE_SIZE],
+                  double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], double by_omega[FST_STATE_SIZE])
+{
+    fst_jacobian_double(&model->coefficients, model->coefficients.omega, state, jacobian);
+    if (by_omega)
+        fst_rhs_by_omega_double(state, by_omega);
+}
+
+fst_observation fst_observe_double(const fst_coefficients_double *c, double omega, const double *state)
+{
+    fst_pull_double p;
+    fst_seen_double o;
+    fst_magnetic_pull_double(c, state[FST_X], state[FST_Y], state + FST_NX, &p);
+    fst_see_double(c, omega, state, &p, &o);
+    fst_observation out;
+    memset(&out, 0, sizeof out);
+    out.r = o.r;
+    out.cos_phi = o.cos_phi;
+    out.sin_phi = o.sin_phi;
+    memcpy(out.n, o.n, sizeof o.n);
+    memcpy(out.b, o.b, sizeof o.b);
+    out.b_norm = o.b_norm;
+    out.angle = fst_angle_of_gap(o.gap2);
+    out.slip[0] = o.slip_r;
+    out.slip[1] = o.slip_alpha;
+    out.slip_norm = sqrt(o.slip2);
+    out.spin = o.spin;
+    out.load = o.load;
+    out.energy = fst_energy_double(c, state, &p);
+    out.friction_power = o.friction_power;
+    out.drive_power = o.drive_power;
+    return out;
+}
+
+double fst_angle_of_gap(double gap2)
+{
+    const double half = 0.5 * sqrt(gap2);
+    return 2.0 * asin(half < 1.0 ? half : 1.0);
+}
+
+fst_observation fst_observe(const fst_model *model, const double state[FST_STATE_SIZE])
+{
+    return fst_observe_double(&model->coefficients, model->coefficients.omega, state);
+}
+
+void fst_apply_s2(const double state[FST_STATE_SIZE], double image[FST_STATE_SIZE])
+{
+    static const double sign[FST_STATE_SIZE] = {-1, -1, -1, -1, 1, 1, -1, -1, -1, 1};
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        image[i] = sign[i] * state[i];
+}
+
+fst_status fst_start_state(const fst_params *params, const fst_model *model, double state[FST_STATE_SIZE],
+                           fst_error *error)
+{
+    const fst_groups *g = &model->groups;
+    double sine, cosine;
+    fst_sin_cos_degrees(params->start_phi, &sine, &cosine);
+    const double r = params->start_r;
+    memset(state, 0, FST_STATE_SIZE * sizeof *state);
+    state[FST_X] = r * cosine;
+    state[FST_Y] = r * sine;
+    if (r >= g->plate_radius)
+        return fst_fail(error, FST_BAD_INPUT, "start.r",
+                        "start.r = %g lies beyond the plate's edge at %g: choose a smaller start.r", r,
+                        g->plate_radius);
+    fst_field_values_double f;
+    fst_field_double(&model->coefficients, state[FST_X], state[FST_Y], &f);
+    const double b = sqrt(f.b[0] * f.b[0] + f.b[1] * f.b[1] + f.b[2] * f.b[2]);
+    if (!(b > 1e-150))
+        return fst_fail(
+            error, FST_BAD_INPUT, "start.r",
+            "the magnet's field vanishes at the start, so n = B/|B| does not exist there: move start.r "
+            "or start.phi");
+    for (int i = 0; i < 3; ++i)
+        state[FST_NX + i] = f.b[i] / b;
+    if (params->start_spin == FST_SPIN_REST)
+        return FST_OK;
+    const double gap = r - g->eps;
+    if (!(fabs(gap) > 1e-9) || r == 0.0)
+        return fst_fail(
+            error, FST_BAD_INPUT, "start.r",
+            "a free-rolling start does not exist at start.r = %g with eps = %g: choose start.r > eps, "
+            "or start.spin = rest",
+            r, g->eps);
+    const double rate = g->omega * r / gap; /* free rolling: alpha' = -eps omega/(r - eps), W = rate e_r */
+    state[FST_VX] = g->eps * rate * sine;
+    state[FST_VY] = -g->eps * rate * cosine;
+    state[FST_WX] = rate * cosine;
+    state[FST_WY] = rate * sine;
+    return FST_OK;
+}

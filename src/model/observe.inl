@@ -1,0 +1,138 @@
+/* observe.inl - what can be read off a state and the magnet's pull at it, over REAL.
+ *
+ * Local components (r, alpha, z) of a horizontal vector u: u_r = (X uX + Y uY)/r, u_alpha = (X uY - Y uX)/r.
+ * On the axis r = 0 the local directions do not exist; the local components are then 0, never NaN.
+ */
+typedef struct FN(seen) {
+    REAL r, cos_phi, sin_phi;
+    REAL n[3], b[3]; /* local components */
+    REAL b2, b_norm;
+    REAL gap2; /* |n - B/|B||^2 = 2 (1 - cos angle), accurate for small angles */
+    REAL v_r, v_alpha;
+    REAL slip_r, slip_alpha, slip2;
+    REAL friction_power;       /* f.V */
+    REAL spin;                 /* W.n */
+    REAL force_r, force_alpha; /* magnetic */
+    REAL load;
+    REAL drive_power;
+} FN(seen);
+
+static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(pull) * p,
+                           FN(seen) * o)
+{
+    const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX;
+    const REAL r2 = y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y];
+    const REAL inverse_r = R(1.0) / REAL_SQRT(r2 + R(1e-290));
+    const REAL ex = y[FST_X] * inverse_r, ey = y[FST_Y] * inverse_r;
+    o->r = r2 * inverse_r;
+    o->cos_phi = ex;
+    o->sin_phi = ey;
+    o->n[0] = n[0] * ex + n[1] * ey;
+    o->n[1] = n[1] * ex - n[0] * ey;
+    o->n[2] = n[2];
+    o->b[0] = p->b[0] * ex + p->b[1] * ey;
+    o->b[1] = p->b[1] * ex - p->b[0] * ey;
+    o->b[2] = p->b[2];
+    o->b2 = p->b[0] * p->b[0] + p->b[1] * p->b[1] + p->b[2] * p->b[2];
+    const REAL inverse_b = R(1.0) / REAL_SQRT(o->b2 + R(1e-290));
+    o->b_norm = o->b2 * inverse_b;
+    const REAL gap[3] = {n[0] - p->b[0] * inverse_b, n[1] - p->b[1] * inverse_b, n[2] - p->b[2] * inverse_b};
+    o->gap2 = gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
+    o->v_r = v[0] * ex + v[1] * ey;
+    o->v_alpha = v[1] * ex - v[0] * ey;
+    const REAL slip_x = v[0] - c->eps * w[1], slip_y = v[1] + c->eps * w[0];
+    o->slip_r = slip_x * ex + slip_y * ey;
+    o->slip_alpha = slip_y * ex - slip_x * ey;
+    o->slip2 = slip_x * slip_x + slip_y * slip_y;
+    o->friction_power = c->friction * o->slip2;
+    o->spin = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+    o->force_r = p->force[0] * ex + p->force[1] * ey;
+    o->force_alpha = p->force[1] * ex - p->force[0] * ey;
+    /* Normal load: weight and the magnet's pull, g + dU/dz = g - F_z. */
+    o->load = c->gravity - p->force[2];
+    /* Drive power dU/dt at fixed x, n, W: omega e.(x x F + tau). */
+    o->drive_power = omega * (o->r * o->force_alpha + p->strength * (n[0] * p->b[1] - n[1] * p->b[0]));
+}
+
+/* Kinetic and magnetic energy per mass. */
+static inline REAL FN(energy)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p)
+{
+    const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX;
+    const REAL n_dot_b = n[0] * p->b[0] + n[1] * p->b[1] + n[2] * p->b[2];
+    const REAL b2 = p->b[0] * p->b[0] + p->b[1] * p->b[1] + p->b[2] * p->b[2];
+    const REAL kinetic = R(0.5) * (v[0] * v[0] + v[1] * v[1]) +
+                         R(0.2) * (c->eps * c->eps) * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    REAL magnetic = c->hard * n_dot_b;
+    if (c->magnetisable)
+        magnetic = magnetic + R(0.5) * (c->twice_a * b2 + c->twice_b * (n_dot_b * n_dot_b));
+    return kinetic - magnetic;
+}
+
+/* Quantities whose time integrals a run accumulates with the step's own stages. */
+enum {
+    FST_Q_R,
+    FST_Q_R2,
+    FST_Q_B,
+    FST_Q_B2, /* R2, B2: squared deviations from reference values */
+    FST_Q_FRICTION_POWER,
+    FST_Q_DRIVE_POWER,
+    FST_Q_SLIP2,
+    FST_Q_LOAD,
+    FST_Q_SLIP_R,
+    FST_Q_SLIP_ALPHA,
+    FST_Q_R_SLIP_ALPHA,
+    FST_Q_SPIN_TERM,
+    FST_Q_CENTRIFUGAL,
+    FST_Q_FORCE_R,
+    FST_Q_FORCE_R_PRINTED,
+    FST_Q_TORQUE_ALPHA,
+    FST_Q_EQ23,
+    FST_Q_N_R,
+    FST_Q_N_ALPHA,
+    FST_Q_N_Z, /* first and second moments of n in local components */
+    FST_Q_N_RR,
+    FST_Q_N_RALPHA,
+    FST_Q_N_RZ,
+    FST_Q_N_ALPHAALPHA,
+    FST_Q_N_ALPHAZ,
+    FST_Q_N_ZZ,
+    FST_Q_COUNT
+};
+
+/* `r0`, `b0`: reference values near the means, so that small deviations of r and |B| lose no digits. */
+static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, const FN(seen) * o, REAL r0,
+                                  REAL b0, REAL q[FST_Q_COUNT])
+{
+    q[FST_Q_R] = o->r;
+    q[FST_Q_R2] = (o->r - r0) * (o->r - r0);
+    q[FST_Q_B] = o->b_norm;
+    q[FST_Q_B2] = (o->b_norm - b0) * (o->b_norm - b0);
+    q[FST_Q_FRICTION_POWER] = o->friction_power;
+    q[FST_Q_DRIVE_POWER] = o->drive_power;
+    q[FST_Q_SLIP2] = o->slip2;
+    q[FST_Q_LOAD] = o->load;
+    q[FST_Q_SLIP_R] = o->slip_r;
+    q[FST_Q_SLIP_ALPHA] = o->slip_alpha;
+    q[FST_Q_R_SLIP_ALPHA] = o->r * o->slip_alpha;
+    q[FST_Q_SPIN_TERM] = c->eps * o->spin * o->n[1]; /* n_alpha = sin(theta) sin(phi) */
+    q[FST_Q_CENTRIFUGAL] = o->v_alpha * o->v_alpha / (o->r + R(1e-290));
+    q[FST_Q_FORCE_R] = o->force_r;
+    q[FST_Q_TORQUE_ALPHA] = o->r * o->force_alpha;
+    /* Printed Eq. (eq21), (eq23): n = sin(phi) e_alpha - cos(phi) e_z with the actual phi, n_r dropped. */
+    const REAL inverse_sine = R(1.0) / REAL_SQRT(o->n[1] * o->n[1] + o->n[2] * o->n[2] + R(1e-290));
+    const REAL n_alpha = o->n[1] * inverse_sine, n_z = o->n[2] * inverse_sine;
+    const REAL ex = o->cos_phi, ey = o->sin_phi;
+    const REAL printed[3] = {-(n_alpha * ey), n_alpha * ex, n_z};
+    REAL b[3], g[3];
+    FN(field_along)(c, y[FST_X], y[FST_Y], printed, b, g);
+    q[FST_Q_FORCE_R_PRINTED] = c->hard * (g[0] * ex + g[1] * ey);
+    q[FST_Q_EQ23] = c->hard / c->eps * (o->b[2] * n_alpha - o->b[1] * n_z);
+    for (int i = 0; i < 3; ++i)
+        q[FST_Q_N_R + i] = o->n[i];
+    q[FST_Q_N_RR] = o->n[0] * o->n[0];
+    q[FST_Q_N_RALPHA] = o->n[0] * o->n[1];
+    q[FST_Q_N_RZ] = o->n[0] * o->n[2];
+    q[FST_Q_N_ALPHAALPHA] = o->n[1] * o->n[1];
+    q[FST_Q_N_ALPHAZ] = o->n[1] * o->n[2];
+    q[FST_Q_N_ZZ] = o->n[2] * o->n[2];
+}

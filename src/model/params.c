@@ -1,0 +1,336 @@
+/* params.c - the table of parameters: defaults, look-up, setting from text.  Everything here is generated
+ * from params.def or driven by the rows made from it. */
+#include "model/params.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/number.h"
+#include "base/text.h"
+#include "base/units.h"
+
+static const fst_param_info rows[] = {
+#define FST_REAL(group, name, unit, initial, least, greatest, doc)                                             \
+    {#group "." #name,                                                                                         \
+     FST_KIND_REAL,                                                                                            \
+     FST_UNIT_##unit,                                                                                          \
+     NULL,                                                                                                     \
+     initial,                                                                                                  \
+     least,                                                                                                    \
+     greatest,                                                                                                 \
+     doc,                                                                                                      \
+     offsetof(fst_params, group##_##name)},
+#define FST_INT(group, name, initial, least, greatest, doc)                                                    \
+    {#group "." #name,                                                                                         \
+     FST_KIND_INT,                                                                                             \
+     FST_UNIT_NUMBER,                                                                                          \
+     NULL,                                                                                                     \
+     initial,                                                                                                  \
+     least,                                                                                                    \
+     greatest,                                                                                                 \
+     doc,                                                                                                      \
+     offsetof(fst_params, group##_##name)},
+#define FST_CHOICE(group, name, names, initial, doc)                                                           \
+    {#group "." #name,                                                                                         \
+     FST_KIND_CHOICE,                                                                                          \
+     FST_UNIT_NUMBER,                                                                                          \
+     names,                                                                                                    \
+     initial,                                                                                                  \
+     0,                                                                                                        \
+     0,                                                                                                        \
+     doc,                                                                                                      \
+     offsetof(fst_params, group##_##name)},
+#include <festoon/params.def>
+#undef FST_REAL
+#undef FST_INT
+#undef FST_CHOICE
+};
+enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
+
+fst_params fst_default_params(void)
+{
+    fst_params params = {
+        .cookie = FST_PARAMS_COOKIE,
+#define FST_REAL(group, name, unit, initial, least, greatest, doc) .group##_##name = (initial),
+#define FST_INT(group, name, initial, least, greatest, doc) .group##_##name = (initial),
+#define FST_CHOICE(group, name, names, initial, doc) .group##_##name = (initial),
+#include <festoon/params.def>
+#undef FST_REAL
+#undef FST_INT
+#undef FST_CHOICE
+    };
+    return params;
+}
+
+int fst_param_count(void)
+{
+    return ROW_COUNT;
+}
+
+const fst_param_info *fst_param_at(int index)
+{
+    return index >= 0 && index < ROW_COUNT ? &rows[index] : NULL;
+}
+
+int fst_param_find(const char *key)
+{
+    for (int i = 0; i < ROW_COUNT; i++)
+        if (strcmp(rows[i].key, key) == 0)
+            return i;
+    return -1;
+}
+
+static double *real_field(fst_params *params, const fst_param_info *row)
+{
+    return (double *)(void *)((char *)params + row->offset);
+}
+
+static int *int_field(fst_params *params, const fst_param_info *row)
+{
+    return (int *)(void *)((char *)params + row->offset);
+}
+
+static double real_value(const fst_params *params, const fst_param_info *row)
+{
+    double value;
+    memcpy(&value, (const char *)params + row->offset, sizeof value);
+    return value;
+}
+
+static int int_value(const fst_params *params, const fst_param_info *row)
+{
+    int value;
+    memcpy(&value, (const char *)params + row->offset, sizeof value);
+    return value;
+}
+
+/* ---------------------------------------------------------------- one quantity, two forms */
+
+/* The scaled form of a quantity, and the SI form that it overrides where it is given. */
+static const struct {
+    const char *scaled, *si;
+} forms[] = {
+    {"drive.omega", "drive.frequency"}, {"model.eps", "bead.radius"}, {"model.h", "magnet.depth"},
+    {"model.lambda", "magnet.width"},   {"model.kappa", "magnet.b0"},
+};
+enum { FORM_COUNT = sizeof forms / sizeof forms[0] };
+
+const char *fst_param_other_form(const char *key)
+{
+    for (int i = 0; i < FORM_COUNT; i++) {
+        if (strcmp(forms[i].scaled, key) == 0)
+            return forms[i].si;
+        if (strcmp(forms[i].si, key) == 0)
+            return forms[i].scaled;
+    }
+    return NULL;
+}
+
+static int moment_and_b0_given(const fst_params *params)
+{
+    return !isnan(params->bead_moment) && !isnan(params->magnet_b0);
+}
+
+/* Whether the value in the field plays no part because the other form of the quantity is given. */
+static int is_overridden(const fst_params *params, const fst_param_info *row)
+{
+    if (strcmp(row->key, "model.kappa") == 0)
+        return moment_and_b0_given(params);
+    for (int i = 0; i < FORM_COUNT; i++)
+        if (strcmp(forms[i].si, row->key) == 0 && strcmp(row->key, "magnet.b0") != 0)
+            return !isnan(real_value(params, &rows[fst_param_find(forms[i].scaled)]));
+    return 0;
+}
+
+/* After `key` was set: take back what says the same quantity otherwise.  An SI form that is overridden falls
+ * back to its default, so that no forgotten value stays behind.  kappa is special: it has two makers, and B0
+ * alone is no other form of it but the tesla scale; see params.def. */
+static void take_back_other_form(fst_params *params, const char *key)
+{
+    if (strcmp(key, "bead.moment") == 0 || strcmp(key, "magnet.b0") == 0) {
+        if (moment_and_b0_given(params))
+            params->model_kappa = rows[fst_param_find("model.kappa")].initial;
+        return;
+    }
+    const char *other = fst_param_other_form(key);
+    if (other) {
+        const fst_param_info *row = &rows[fst_param_find(other)];
+        *real_field(params, row) = row->initial;
+    }
+}
+
+/* ---------------------------------------------------------------- reading a value from text */
+
+static fst_status unknown_key(const char *key, fst_error *error)
+{
+    char quoted[FST_QUOTE_SIZE], names[ROW_COUNT * 32] = "", nearest[48] = "";
+    /* A key without its group ("radius") is nearer to the key that ends in it than spelling tells. */
+    for (int i = 0; i < ROW_COUNT && !nearest[0]; i++)
+        if (strcmp(strchr(rows[i].key, '.') + 1, key) == 0)
+            (void)snprintf(nearest, sizeof nearest, "%s", rows[i].key);
+    for (int i = 0; i < ROW_COUNT; i++) {
+        size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "%s%s", i ? "|" : "", rows[i].key);
+    }
+    if (!nearest[0])
+        fst_nearest_name(key, names, nearest, sizeof nearest);
+    return fst_fail(error, FST_BAD_INPUT, key,
+                    "unknown key %s; the nearest is %s (festoon schema lists them all)", fst_quote(key, quoted),
+                    nearest);
+}
+
+/* "0.001 mm to 1000 mm", as a message wants it. */
+static void range_text(const fst_param_info *row, char *text, size_t size)
+{
+    char least[64], greatest[64];
+    (void)fst_value_write(least, sizeof least, row->least, row->unit);
+    (void)fst_value_write(greatest, sizeof greatest, row->greatest, row->unit);
+    (void)snprintf(text, size, "%s to %s", least, greatest);
+}
+
+static fst_status out_of_range(const fst_param_info *row, const char *shown, fst_error *error)
+{
+    char range[160];
+    range_text(row, range, sizeof range);
+    return fst_fail(error, FST_BAD_INPUT, row->key, "%s = %s is out of range: it must be %s%s", row->key, shown,
+                    row->kind == FST_KIND_INT ? "an integer from " : "", range);
+}
+
+static fst_status set_number(fst_params *params, const fst_param_info *row, const char *text, fst_error *error)
+{
+    double value;
+    fst_error why = {FST_OK, "", ""};
+    if (fst_parse_value(text, row->unit, &value, &why) != FST_OK) {
+        const char *accepted = fst_unit_accepted(row->unit);
+        if (accepted[0] && !strstr(why.sentence, "units here"))
+            return fst_fail(error, FST_BAD_INPUT, row->key, "%s: %s (units here: %s)", row->key, why.sentence,
+                            accepted);
+        return fst_fail(error, FST_BAD_INPUT, row->key, "%s: %s", row->key, why.sentence);
+    }
+    size_t length;
+    const char *trimmed = fst_trim(text, &length);
+    char shown[64];
+    (void)snprintf(shown, sizeof shown, "%.*s", (int)(length < 40 ? length : 40), trimmed);
+    if (!(value >= row->least && value <= row->greatest) ||
+        (row->kind == FST_KIND_INT && value != floor(value)))
+        return out_of_range(row, shown, error);
+    if (row->kind == FST_KIND_INT)
+        *int_field(params, row) = (int)value;
+    else
+        *real_field(params, row) = value;
+    return FST_OK;
+}
+
+static fst_status set_choice(fst_params *params, const fst_param_info *row, const char *text, fst_error *error)
+{
+    size_t length;
+    const char *word = fst_trim(text, &length);
+    int index = 0;
+    for (const char *name = row->names; *name; index++) {
+        size_t name_length = strcspn(name, "|");
+        if (name_length == length && memcmp(name, word, length) == 0) {
+            *int_field(params, row) = index;
+            return FST_OK;
+        }
+        name += name_length;
+        name += *name == '|';
+    }
+    char nearest[48], quoted[FST_QUOTE_SIZE];
+    fst_nearest_name(word, row->names, nearest, sizeof nearest);
+    return fst_fail(error, FST_BAD_INPUT, row->key, "%s: unknown choice %s; the nearest is %s (choices: %s)",
+                    row->key, fst_quote(text, quoted), nearest, row->names);
+}
+
+fst_status fst_params_set(fst_params *params, const char *key, const char *text, fst_error *error)
+{
+    if (params->cookie != FST_PARAMS_COOKIE)
+        return fst_fail(error, FST_BAD_INPUT, "fst_params_set",
+                        "the parameters were never initialised: begin with fst_default_params()");
+    int index = fst_param_find(key);
+    if (index < 0)
+        return unknown_key(key, error);
+    const fst_param_info *row = &rows[index];
+    fst_status status = row->kind == FST_KIND_CHOICE ? set_choice(params, row, text, error)
+                                                     : set_number(params, row, text, error);
+    if (status == FST_OK)
+        take_back_other_form(params, key);
+    return status;
+}
+
+int fst_params_get(const fst_params *params, int index, char *text, size_t size)
+{
+    const fst_param_info *row = fst_param_at(index);
+    if (size)
+        text[0] = '\0';
+    if (!row || is_overridden(params, row))
+        return 0;
+    if (row->kind == FST_KIND_INT)
+        return snprintf(text, size, "%d", int_value(params, row));
+    if (row->kind == FST_KIND_REAL) {
+        double value = real_value(params, row);
+        return isnan(value) ? 0 : fst_number_write(text, size, value);
+    }
+    const char *name = row->names;
+    for (int i = int_value(params, row); i > 0 && *name; i--) {
+        name += strcspn(name, "|");
+        name += *name == '|';
+    }
+    return snprintf(text, size, "%.*s", (int)strcspn(name, "|"), name);
+}
+
+/* ---------------------------------------------------------------- checking a whole struct */
+
+static int choice_count(const char *names)
+{
+    int count = 1;
+    for (; *names; names++)
+        count += *names == '|';
+    return count;
+}
+
+/* Whether a field that a program filled in by hand is what fst_params_set() would have let pass. */
+static fst_status validate_row(const fst_params *params, const fst_param_info *row, fst_error *error)
+{
+    char shown[64];
+    if (row->kind == FST_KIND_CHOICE) {
+        int value = int_value(params, row);
+        if (value >= 0 && value < choice_count(row->names))
+            return FST_OK;
+        return fst_fail(error, FST_BAD_INPUT, row->key, "%s: no choice has the number %d (choices: %s)",
+                        row->key, value, row->names);
+    }
+    double value = row->kind == FST_KIND_INT ? int_value(params, row) : real_value(params, row);
+    if (isnan(value) && (isnan(row->initial) || is_overridden(params, row)))
+        return FST_OK;
+    if (value >= row->least && value <= row->greatest)
+        return FST_OK;
+    (void)fst_number_write(shown, sizeof shown, value);
+    return out_of_range(row, shown, error);
+}
+
+double fst_discarded_periods(const fst_params *params)
+{
+    static const double unless_told = 200.0;
+    const int short_run = params->run_discard == unless_told && params->run_periods <= unless_told;
+    return short_run ? 0.5 * params->run_periods : params->run_discard;
+}
+
+fst_status fst_params_validate(const fst_params *params, fst_error *error)
+{
+    if (params->cookie != FST_PARAMS_COOKIE)
+        return fst_fail(error, FST_BAD_INPUT, "fst_params",
+                        "the parameters were never initialised: begin with fst_default_params()");
+    for (int i = 0; i < ROW_COUNT; i++) {
+        fst_status status = validate_row(params, &rows[i], error);
+        if (status != FST_OK)
+            return status;
+    }
+    if (!(fst_discarded_periods(params) < params->run_periods))
+        return fst_fail(error, FST_BAD_INPUT, "run.discard",
+                        "run.discard = %g leaves nothing of run.periods = %g: make run.periods larger or "
+                        "run.discard smaller",
+                        params->run_discard, params->run_periods);
+    return FST_OK;
+}

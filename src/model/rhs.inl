@@ -1,0 +1,71 @@
+/* rhs.inl - the bead's equations of motion, over REAL.
+ *
+ * In components along the axes that turn with the magnet at omega (e: the vertical), with the contact point's
+ * velocity V = v - eps W x e, the magnetic force F, torque tau and friction -f per mass:
+ *
+ *     x' = v                                           - omega e x x
+ *     v' = F - f                                       - omega e x v
+ *     n' = W x n                                       - omega e x n
+ *     W' = 5/(2 eps^2) tau + 5/(2 eps) e x f           - omega e x W   [+ (W.n) W x n : farago2020]
+ *
+ * with f = V for viscous friction, in units of the friction rate, and f = 0 on a frictionless plate.
+ *
+ * A hard magnet has F = kappa eps^2 (n.grad)B and tau = kappa eps^2 n x B (paper, Eqs. (r), (sigz) and, with
+ * the gyroscopic term that it lacks, (nseconde)).  Magnetisable beads of energy -kappa eps^2 n.B - a B^2 - b
+ * (n.B)^2: F = s G n + 2 a G B and tau = s n x B with s = kappa eps^2 + 2 b (n.B). The last line is what
+ * Lagrange's equations give if psi' = W.n is taken for the derivative of a coordinate, as the paper does; it
+ * turns no energy over.
+ */
+
+/* What the magnet does to a bead of direction n: field, force per mass (its third component is what lifts the
+ * bead), and the strength s. */
+typedef struct FN(pull) {
+    REAL b[3], force[3], strength;
+} FN(pull);
+
+static inline void FN(magnetic_pull)(const FN(coefficients) * c, REAL x, REAL y, const REAL *n, FN(pull) * p)
+{
+    REAL gn[3];
+    FN(field_along)(c, x, y, n, p->b, gn);
+    p->strength = c->hard;
+    if (!c->magnetisable) {
+        for (int i = 0; i < 3; ++i)
+            p->force[i] = p->strength * gn[i];
+        return;
+    }
+    p->strength = p->strength + c->twice_b * (n[0] * p->b[0] + n[1] * p->b[1] + n[2] * p->b[2]);
+    const REAL b[3] = {p->b[0], p->b[1], p->b[2]};
+    REAL gb[3];
+    FN(field_along)(c, x, y, b, p->b, gb);
+    for (int i = 0; i < 3; ++i)
+        p->force[i] = p->strength * gn[i] + c->twice_a * gb[i];
+}
+
+/* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for whoever observes the state. */
+static inline void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy, FN(pull) * p)
+{
+    const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX;
+    FN(magnetic_pull)(c, y[FST_X], y[FST_Y], n, p);
+    const REAL *b = p->b;
+    const REAL torque = c->torque * p->strength;
+    const REAL friction_x = c->friction * (v[0] - c->eps * w[1]);
+    const REAL friction_y = c->friction * (v[1] + c->eps * w[0]);
+
+    dy[FST_X] = v[0] + omega * y[FST_Y];
+    dy[FST_Y] = v[1] - omega * y[FST_X];
+    dy[FST_VX] = (p->force[0] - friction_x) + omega * v[1];
+    dy[FST_VY] = (p->force[1] - friction_y) - omega * v[0];
+    const REAL wz = w[2] - omega; /* W x n - omega e x n = (W - omega e) x n */
+    dy[FST_NX] = w[1] * n[2] - wz * n[1];
+    dy[FST_NY] = wz * n[0] - w[0] * n[2];
+    dy[FST_NZ] = w[0] * n[1] - w[1] * n[0];
+    dy[FST_WX] = (torque * (n[1] * b[2] - n[2] * b[1]) - c->traction * friction_y) + omega * w[1];
+    dy[FST_WY] = (torque * (n[2] * b[0] - n[0] * b[2]) + c->traction * friction_x) - omega * w[0];
+    dy[FST_WZ] = torque * (n[0] * b[1] - n[1] * b[0]);
+    if (c->gyroscopic_term_lost) {
+        const REAL spin = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+        dy[FST_WX] = dy[FST_WX] + spin * (w[1] * n[2] - w[2] * n[1]);
+        dy[FST_WY] = dy[FST_WY] + spin * (w[2] * n[0] - w[0] * n[2]);
+        dy[FST_WZ] = dy[FST_WZ] + spin * (w[0] * n[1] - w[1] * n[0]);
+    }
+}

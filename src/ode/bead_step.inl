@@ -1,0 +1,69 @@
+/* bead_step.inl - the integrator's step applied to the bead, over REAL; the including file brings the bodies
+ * coefficients.inl, field.inl and rhs.inl first. */
+#include "ode/dop853_tableau.h"
+
+typedef struct FN(bead) {
+    FN(coefficients) coefficients;
+    FN(pull) pull[16]; /* at the stages, for whoever observes them */
+} FN(bead);
+
+#define STEP_DIM FST_STATE_SIZE
+#define STEP_NAME(name) FN(bead_##name)
+#define STEP_CONTEXT FN(bead)
+#define STEP_RHS(s, drive, j)                                                                                  \
+    FN(rhs)(&(s)->context.coefficients, drive, (s)->stage[(j)-1], (s)->k[(j)-1], &(s)->context.pull[(j)-1])
+
+#include "ode/dop853.inl"
+
+#undef STEP_DIM
+#undef STEP_NAME
+#undef STEP_CONTEXT
+#undef STEP_RHS
+
+/* Put the end's n back on the unit sphere; returns how far off it was, | |n| - 1 |. */
+static inline REAL FN(renormalise)(REAL *y)
+{
+    REAL *n = y + FST_NX;
+    const REAL norm = REAL_SQRT(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int i = 0; i < 3; ++i)
+        n[i] = n[i] / norm;
+    return REAL_ABS(norm - R(1.0));
+}
+
+/* The end of an accepted step: n is renormalised, and stage 13, the first of the next step, is evaluated. */
+static inline REAL FN(finish_step)(FN(bead_step) * s)
+{
+    const REAL drift = FN(renormalise)(s->end);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        s->stage[12][i] = s->end[i];
+    FN(rhs)(&s->context.coefficients, s->omega + s->h * s->ramp, s->end, s->k[12], &s->context.pull[12]);
+    return drift;
+}
+
+/* Make the end of the last step the start of the next, where the drive is `omega`. */
+static inline void FN(next_step)(FN(bead_step) * s, REAL omega)
+{
+    s->omega = omega;
+    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+        s->y[i] = s->stage[0][i] = s->end[i];
+        s->k[0][i] = s->k[12][i];
+    }
+    s->context.pull[0] = s->context.pull[12];
+}
+
+/* First stage of a trajectory that starts at s->y. */
+static inline void FN(begin_steps)(FN(bead_step) * s)
+{
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        s->stage[0][i] = s->y[i];
+    FN(rhs)(&s->context.coefficients, s->omega, s->y, s->k[0], &s->context.pull[0]);
+}
+
+/* The factor by which the step size may change after a step of this error (<= 1: accepted): 0.9 error^(-1/8)
+ * within [1/6, 6]. */
+static inline REAL FN(step_factor)(REAL error)
+{
+    const REAL eighth = REAL_SQRT(REAL_SQRT(REAL_SQRT(error)));
+    const REAL factor = R(0.9) / REAL_MAX(eighth, R(0.15));
+    return REAL_MAX(factor, R(1.0) / R(6.0));
+}

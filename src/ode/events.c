@@ -1,0 +1,184 @@
+/* events.c - zeros and extremes of functions of the state on the dense output. */
+#include "ode/flow.h"
+
+double fst_section_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    (void)flow;
+    (void)p;
+    return state[FST_X];
+}
+
+double fst_edge_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    (void)p;
+    const double edge = flow->groups.plate_radius;
+    return edge - sqrt(state[FST_X] * state[FST_X] + state[FST_Y] * state[FST_Y]);
+}
+
+double fst_load_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    (void)state;
+    return flow->step.context.coefficients.gravity - p->force[2];
+}
+
+double fst_flow_function_at(fst_flow *flow, double x, fst_state_function function)
+{
+    if (x == 1.0)
+        return function(flow, flow->step.end, &flow->step.context.pull[12]);
+    double state[FST_STATE_SIZE];
+    fst_flow_at(flow, x, state);
+    fst_pull_double p;
+    fst_magnetic_pull_double(&flow->step.context.coefficients, state[FST_X], state[FST_Y], state + FST_NX, &p);
+    return function(flow, state, &p);
+}
+
+void fst_flow_stage_range(const fst_flow *flow, fst_state_function function, double *least, double *greatest)
+{
+    /* Stages 1, 6 to 12 and 13 approximate the trajectory well enough to see where an extreme may lie. */
+    static const int stages[] = {0, 5, 6, 7, 8, 9, 10, 11, 12};
+    *least = INFINITY;
+    *greatest = -INFINITY;
+    for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i) {
+        const int j = stages[i];
+        const double value = function(flow, flow->step.stage[j], &flow->step.context.pull[j]);
+        *least = value < *least ? value : *least;
+        *greatest = value > *greatest ? value : *greatest;
+    }
+}
+
+double fst_flow_locate(fst_flow *flow, fst_state_function function, double lo, double hi, double f_lo,
+                       double f_hi)
+{
+    /* The Illinois variant of regula falsi, with a bisection wherever it does not halve the bracket in time. */
+    int side = 0;
+    for (int i = 0; i < 200 && hi - lo > 1e-16; ++i) {
+        double x = i % 8 == 7 ? 0.5 * (lo + hi) : (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
+        if (!(x > lo && x < hi))
+            x = 0.5 * (lo + hi);
+        if (x == lo || x == hi)
+            break;
+        const double f = fst_flow_function_at(flow, x, function);
+        if (f == 0)
+            return x;
+        if ((f < 0) == (f_lo < 0)) {
+            lo = x, f_lo = f;
+            if (side < 0)
+                f_hi *= 0.5;
+            side = -1;
+        } else {
+            hi = x, f_hi = f;
+            if (side > 0)
+                f_lo *= 0.5;
+            side = 1;
+        }
+    }
+    return fabs(f_lo) < fabs(f_hi) ? lo : hi;
+}
+
+/* A bracketed minimum search: best point x, second best w, third v, in [lo, hi]. */
+typedef struct minimum {
+    double lo, hi, x, w, v, fx, fw, fv;
+} minimum;
+
+/* The next point to try: the vertex of the parabola through x, w, v where it falls inside and moves less than
+ * half the step before last, else a golden section (R. P. Brent, 1973). */
+static double next_trial(const minimum *m, double *last, double *before_last)
+{
+    const double golden = 0.381966011250105151795;
+    double p = 0, q = 0;
+    if (m->w != m->x && m->v != m->x && m->v != m->w) {
+        const double r = (m->x - m->w) * (m->fx - m->fv);
+        q = (m->x - m->v) * (m->fx - m->fw);
+        p = (m->x - m->v) * q - (m->x - m->w) * r;
+        q = 2.0 * (q - r);
+        if (q > 0)
+            p = -p;
+        q = fabs(q);
+    }
+    const double allowed = *before_last;
+    *before_last = *last;
+    if (q > 0 && fabs(p) < fabs(0.5 * q * allowed) && p > q * (m->lo - m->x) && p < q * (m->hi - m->x)) {
+        *last = p / q;
+    } else {
+        *before_last = m->x < 0.5 * (m->lo + m->hi) ? m->hi - m->x : m->lo - m->x;
+        *last = golden * *before_last;
+    }
+    return m->x + *last;
+}
+
+static void take_trial(minimum *m, double u, double fu)
+{
+    if (fu <= m->fx) {
+        if (u < m->x)
+            m->hi = m->x;
+        else
+            m->lo = m->x;
+        m->v = m->w, m->fv = m->fw;
+        m->w = m->x, m->fw = m->fx;
+        m->x = u, m->fx = fu;
+        return;
+    }
+    if (u < m->x)
+        m->lo = u;
+    else
+        m->hi = u;
+    if (fu <= m->fw || m->w == m->x) {
+        m->v = m->w, m->fv = m->fw;
+        m->w = u, m->fw = fu;
+    } else if (fu <= m->fv || m->v == m->x || m->v == m->w) {
+        m->v = u, m->fv = fu;
+    }
+}
+
+double fst_flow_extreme(fst_flow *flow, fst_state_function function, double sign, double lo, double hi,
+                        double *value)
+{
+    const double start = lo + 0.381966011250105151795 * (hi - lo);
+    const double f_start = -sign * fst_flow_function_at(flow, start, function);
+    minimum m = {lo, hi, start, start, start, f_start, f_start, f_start};
+    double last = 0, before_last = 0;
+    for (int i = 0; i < 60 && m.hi - m.lo > 1e-7; ++i) {
+        double u = next_trial(&m, &last, &before_last);
+        /* Points closer than this to the best one cannot be told apart by their values. */
+        if (fabs(u - m.x) < 2e-8)
+            u = m.x + (u < m.x ? -2e-8 : 2e-8);
+        if (u <= m.lo || u >= m.hi)
+            break;
+        take_trial(&m, u, -sign * fst_flow_function_at(flow, u, function));
+    }
+    *value = -sign * m.fx;
+    return m.x;
+}
+
+int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double lo, double *x)
+{
+    double least, greatest;
+    fst_flow_stage_range(flow, function, &least, &greatest);
+    if (least - 0.5 * (greatest - least) > 0)
+        return 0;
+    enum { PIECES = 16 };
+    double at[PIECES + 1], f[PIECES + 1];
+    for (int i = 0; i <= PIECES; ++i) {
+        at[i] = i == PIECES ? 1.0 : lo + (1.0 - lo) * i / PIECES;
+        f[i] = fst_flow_function_at(flow, at[i], function);
+    }
+    if (f[0] < 0) {
+        *x = lo;
+        return 1;
+    }
+    for (int i = 1; i <= PIECES; ++i) {
+        if (f[i] < 0) {
+            *x = fst_flow_locate(flow, function, at[i - 1], at[i], f[i - 1], f[i]);
+            return 1;
+        }
+        if (i < PIECES && f[i] <= f[i - 1] && f[i] <= f[i + 1]) { /* a dip: it may go below zero in between */
+            double bottom;
+            const double place = fst_flow_extreme(flow, function, -1.0, at[i - 1], at[i + 1], &bottom);
+            if (bottom < 0) {
+                *x = fst_flow_locate(flow, function, at[i - 1], place, f[i - 1], bottom);
+                return 1;
+            }
+        }
+    }
+    return 0;
+}

@@ -1,0 +1,38 @@
+/* marks.h - snapshots along a run, thinned so that their number stays bounded however long the run is. */
+#ifndef FST_STUDY_MARKS_H
+#define FST_STUDY_MARKS_H
+
+#include "study/quadrature.h"
+
+/* A snapshot: everything accumulated up to one moment. */
+typedef struct fst_mark {
+    fst_twofold t;
+    double integrals[FST_Q_COUNT];
+    double big_phi;   /* unwrapped Phi */
+    double small_phi; /* unwrapped phi */
+    double energy;    /* kinetic and magnetic, per mass */
+    double state[FST_STATE_SIZE];
+    double half_distance; /* section marks: from the state half a return ago, its image under S2 */
+    double full_distance; /* section marks: from the state a whole return ago */
+    double activity;      /* period marks: greatest speed in the turning frame since the mark before */
+} fst_mark;
+
+enum { FST_MARKS = 32 };
+
+/* The first mark, every stride-th one after it, and the latest. */
+typedef struct fst_mark_series {
+    fst_mark kept[FST_MARKS + 1];
+    int count;
+    int64_t stride, offered;
+    fst_mark latest;
+} fst_mark_series;
+
+void fst_marks_begin(fst_mark_series *series);
+
+/* Offer the next mark of an evenly spaced series. */
+void fst_marks_offer(fst_mark_series *series, const fst_mark *mark);
+
+/* Snapshot at the fraction x of the flow's last step. */
+void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x);
+
+#endif

@@ -1,0 +1,198 @@
+#include "study/quadrature.h"
+
+#include <string.h>
+
+#include "ode/dop853_tableau.h"
+
+/* Stages 1, 6 to 13: those that carry weight in the step and its dense output, in the order of their nodes. */
+enum { ON_PATH = 9 };
+static const int ON_PATH_STAGE[ON_PATH] = {0, 6, 7, 5, 9, 8, 10, 11, 12};
+static const double ON_PATH_NODE[ON_PATH] = {0.0, DOP_C7, DOP_C8, DOP_C6, DOP_C10, DOP_C9, DOP_C11, 1.0, 1.0};
+
+static void see_stage(const fst_flow *flow, int stage, fst_seen_double *seen)
+{
+    const fst_bead_step_double *s = &flow->step;
+    static const double node[16] = {
+        [5] = DOP_C6, [6] = DOP_C7, [7] = DOP_C8,   [8] = DOP_C9,   [9] = DOP_C10, [10] = DOP_C11,
+        [11] = 1.0,   [12] = 1.0,   [13] = DOP_C14, [14] = DOP_C15, [15] = DOP_C16};
+    const double omega = s->omega + (s->h * node[stage]) * s->ramp;
+    fst_see_double(&s->context.coefficients, omega, s->stage[stage], &s->context.pull[stage], seen);
+}
+
+static void fill_stage(fst_quadrature *q, const fst_flow *flow, int stage, double *tracked)
+{
+    fst_seen_double seen;
+    see_stage(flow, stage, &seen);
+    fst_integrands_double(&flow->step.context.coefficients, flow->step.stage[stage], &seen, q->r_reference,
+                          q->b_reference, q->stage[stage]);
+    if (!tracked)
+        return;
+    tracked[FST_TRACK_R] = seen.r;
+    tracked[FST_TRACK_B] = seen.b_norm;
+    tracked[FST_TRACK_GAP] = seen.gap2;
+    tracked[FST_TRACK_SLIP] = seen.slip2;
+    tracked[FST_TRACK_LOAD] = seen.load;
+}
+
+/* The plane in which phi turns: (-n_z, n_alpha), scaled by r so that no direction is needed on the axis. */
+static void small_phi_point(const double *y, double *x_out, double *y_out)
+{
+    const double r = sqrt(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y]);
+    *x_out = -y[FST_NZ] * r;
+    *y_out = y[FST_X] * y[FST_NY] - y[FST_Y] * y[FST_NX];
+}
+
+/* Follow phi over the fractions [x0, x1] of the last step, bisecting where n comes close to e_r. */
+static void follow_small_phi(fst_flow *flow, fst_winding *phi, double x0, double x1, const double *state)
+{
+    double u, w;
+    small_phi_point(state, &u, &w);
+    const double middle = 0.5 * (x0 + x1);
+    if (x1 - x0 > 1e-9 && fst_winding_is_doubtful(phi, u, w)) {
+        double between[FST_STATE_SIZE];
+        fst_flow_at(flow, middle, between);
+        follow_small_phi(flow, phi, x0, middle, between);
+        follow_small_phi(flow, phi, middle, x1, state);
+        return;
+    }
+    fst_winding_advance(phi, u, w);
+}
+
+void fst_quadrature_begin(fst_quadrature *q, const fst_flow *flow)
+{
+    memset(q, 0, sizeof *q);
+    for (int i = 0; i < FST_TRACK_COUNT; ++i) {
+        q->extreme[i].least = INFINITY;
+        q->extreme[i].greatest = -INFINITY;
+    }
+    small_phi_point(flow->step.end, &q->small_phi.x, &q->small_phi.y);
+    q->small_phi_start = q->small_phi;
+}
+
+void fst_quadrature_set_references(fst_quadrature *q, const fst_flow *flow)
+{
+    fst_seen_double seen;
+    see_stage(flow, 0, &seen);
+    q->r_reference = seen.r;
+    q->b_reference = seen.b_norm;
+}
+
+void fst_quadrature_step(fst_quadrature *q, fst_flow *flow)
+{
+    static const double weight[12] = {[0] = DOP_B1, [5] = DOP_B6,  [6] = DOP_B7,   [7] = DOP_B8,
+                                      [8] = DOP_B9, [9] = DOP_B10, [10] = DOP_B11, [11] = DOP_B12};
+    for (int i = 0; i < FST_Q_COUNT; ++i)
+        q->total[i] = fst_twofold_add(q->total[i], q->increment[i]);
+    for (int i = 0; i < ON_PATH; ++i)
+        fill_stage(q, flow, ON_PATH_STAGE[i], q->tracked[i]);
+    for (int i = 0; i < FST_Q_COUNT; ++i) {
+        double sum = 0.0;
+        for (int j = 0; j < 12; ++j)
+            if (weight[j] != 0.0)
+                sum += weight[j] * q->stage[j][i];
+        q->increment[i] = flow->step.h * sum;
+    }
+    q->has_dense = 0;
+    q->small_phi_start = q->small_phi;
+    follow_small_phi(flow, &q->small_phi, 0.0, 1.0, flow->step.end);
+}
+
+void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integrals[FST_Q_COUNT], double *phi)
+{
+    double part[FST_Q_COUNT];
+    if (x == 1.0) {
+        memcpy(part, q->increment, sizeof part);
+        *phi = fst_winding_angle(&q->small_phi);
+    } else {
+        if (!q->has_dense) {
+            static const double zero[FST_Q_COUNT];
+            fst_flow_make_dense(flow);
+            for (int stage = 13; stage < 16; ++stage)
+                fill_stage(q, flow, stage, NULL);
+            fst_bead_dense_coefficients_double(FST_Q_COUNT, flow->step.h, zero, q->increment, &q->stage[0][0],
+                                               FST_Q_COUNT, &q->dense[0][0]);
+            q->has_dense = 1;
+        }
+        fst_bead_evaluate_dense_double(FST_Q_COUNT, &q->dense[0][0], FST_Q_COUNT, x, part);
+        fst_winding small_phi = q->small_phi_start;
+        double state[FST_STATE_SIZE];
+        fst_flow_at(flow, x, state);
+        follow_small_phi(flow, &small_phi, 0.0, x, state);
+        *phi = fst_winding_angle(&small_phi);
+    }
+    for (int i = 0; i < FST_Q_COUNT; ++i) {
+        const fst_twofold sum = fst_twofold_add(q->total[i], part[i]);
+        integrals[i] = sum.high;
+    }
+}
+
+/* ------------------------------------------------------------------ extremes */
+
+static double tracked_value(const fst_flow *flow, const double *state, const fst_pull_double *p, int which)
+{
+    fst_seen_double seen;
+    fst_see_double(&flow->step.context.coefficients, 0.0, state, p, &seen);
+    switch (which) {
+    case FST_TRACK_R:
+        return seen.r;
+    case FST_TRACK_B:
+        return seen.b_norm;
+    case FST_TRACK_GAP:
+        return seen.gap2;
+    case FST_TRACK_SLIP:
+        return seen.slip2;
+    default:
+        return seen.load;
+    }
+}
+
+#define TRACKED_FUNCTION(name, which)                                                                          \
+    static double name(const fst_flow *flow, const double *state, const fst_pull_double *p)                    \
+    {                                                                                                          \
+        return tracked_value(flow, state, p, which);                                                           \
+    }
+TRACKED_FUNCTION(tracked_r, FST_TRACK_R)
+TRACKED_FUNCTION(tracked_b, FST_TRACK_B)
+TRACKED_FUNCTION(tracked_gap, FST_TRACK_GAP)
+TRACKED_FUNCTION(tracked_slip, FST_TRACK_SLIP)
+TRACKED_FUNCTION(tracked_load, FST_TRACK_LOAD)
+
+static const fst_state_function TRACKED[FST_TRACK_COUNT] = {tracked_r, tracked_b, tracked_gap, tracked_slip,
+                                                            tracked_load};
+
+/* The greatest sign * value of one quantity in the last step, if it may beat the record.  The stages show
+ * roughly where it lies; between them it may rise above the best one by no more than about a quarter of the
+ * fall to the neighbours, taken here as three tenths. */
+static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record)
+{
+    int best = 0;
+    for (int i = 1; i < ON_PATH; ++i)
+        if (sign * q->tracked[i][which] > sign * q->tracked[best][which])
+            best = i;
+    const int before = best > 0 ? best - 1 : 0, after = best < ON_PATH - 1 ? best + 1 : ON_PATH - 1;
+    const double top = sign * q->tracked[best][which];
+    const double fall_before = top - sign * q->tracked[before][which];
+    const double fall_after = top - sign * q->tracked[after][which];
+    const double fall = fall_before > fall_after ? fall_before : fall_after;
+    const double end = sign * q->tracked[ON_PATH - 1][which]; /* the end lies on the trajectory exactly */
+    if (end > record)
+        record = end;
+    if (top + 0.3 * fall <= record)
+        return record;
+    double lo = ON_PATH_NODE[before], hi = ON_PATH_NODE[after];
+    if (hi - lo < 0.05)
+        lo = ON_PATH_NODE[before > 0 ? before - 1 : 0];
+    double value;
+    (void)fst_flow_extreme(flow, TRACKED[which], sign, lo, hi, &value);
+    return sign * value > record ? sign * value : record;
+}
+
+void fst_quadrature_track(fst_quadrature *q, fst_flow *flow)
+{
+    for (int i = 0; i < FST_TRACK_COUNT; ++i) {
+        fst_extreme *e = &q->extreme[i];
+        e->greatest = best_in_step(q, flow, i, 1.0, e->greatest);
+        if (i != FST_TRACK_GAP && i != FST_TRACK_SLIP)
+            e->least = -best_in_step(q, flow, i, -1.0, -e->least);
+    }
+}

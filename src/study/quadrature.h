@@ -1,0 +1,42 @@
+/* quadrature.h - time integrals and extremes along a trajectory, with the integrator's own stages. */
+#ifndef FST_STUDY_QUADRATURE_H
+#define FST_STUDY_QUADRATURE_H
+
+#include "ode/flow.h"
+
+/* Extremes that a run locates. */
+enum { FST_TRACK_R, FST_TRACK_B, FST_TRACK_GAP, FST_TRACK_SLIP, FST_TRACK_LOAD, FST_TRACK_COUNT };
+
+typedef struct fst_extreme {
+    double least, greatest;
+} fst_extreme;
+
+typedef struct fst_quadrature {
+    fst_twofold total[FST_Q_COUNT];  /* integrals up to the start of the last step */
+    double increment[FST_Q_COUNT];   /* and over it */
+    double r_reference, b_reference; /* r and |B| when the window began: deviations are taken from them */
+    double stage[16][FST_Q_COUNT];   /* integrands at the stages */
+    double dense[8][FST_Q_COUNT];
+    int has_dense;
+    double tracked[9][FST_TRACK_COUNT]; /* tracked quantities at the stages that lie on the trajectory */
+    fst_extreme extreme[FST_TRACK_COUNT];
+    fst_winding small_phi_start, small_phi; /* phi = atan2(n_alpha, -n_z), unwrapped */
+} fst_quadrature;
+
+/* Begin at the flow's present state. */
+void fst_quadrature_begin(fst_quadrature *q, const fst_flow *flow);
+
+/* Take deviations of r and |B| from their values at the start of the flow's last step, before it is taken in.
+ */
+void fst_quadrature_set_references(fst_quadrature *q, const fst_flow *flow);
+
+/* Take in the flow's last step. */
+void fst_quadrature_step(fst_quadrature *q, fst_flow *flow);
+
+/* The extremes met in the last step; call it only where extremes count. */
+void fst_quadrature_track(fst_quadrature *q, fst_flow *flow);
+
+/* The integrals up to the fraction x of the last step, and phi there. */
+void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integrals[FST_Q_COUNT], double *phi);
+
+#endif

@@ -1,0 +1,188 @@
+/* regime.c - locked, librating, counter-rotating, corotating, chaotic, or undecided. */
+#include "study/regime.h"
+
+#include <stdio.h>
+
+#define TWO_PI 6.283185307179586476925287
+
+/* Thresholds, scaled.  docs/regimes.md says why these. */
+static const double AT_REST = 1e-8;  /* greatest |d(state)/dt| of a locked bead, or run.rtol if larger */
+static const double NOISE = 100.0;   /* times run.rtol: slower motion may be the integrator's noise */
+static const double CLOSED = 1e-6;   /* greatest distance of successive section states of a closed orbit */
+static const double STEADY = 0.01;   /* relative change of the half distance over half the window: S1 */
+static const double RELAXING = 1e-2; /* below this, distances that halve over half the window are relaxing */
+static const double STILL_FALLING = 0.95; /* activity of the last half over the first: below, it dies out */
+static const double GROWTH = 10.0;        /* exponent times duration: e^10 of growth is chaos */
+static const double SIGNIFICANT = 3.0;    /* exponent over its standard error */
+static const double ONE_WAY = 5.0; /* |<alpha'>| over its standard error: below, the bead circles neither way */
+enum {
+    LEAST_PERIODS = 4,        /* whole drive periods without which nothing is decided */
+    LEAST_CROSSINGS = 6,      /* of the section: for regular turning */
+    LEAST_OPEN_CROSSINGS = 64 /* the same, where the orbit does not close */
+};
+
+static int turns_regularly(const fst_run_state *run)
+{
+    return !run->returns.irregular && run->returns.crossings >= LEAST_CROSSINGS;
+}
+
+const fst_mark_series *fst_window_of(const fst_run_state *run)
+{
+    return turns_regularly(run) && run->section_marks.offered >= 2 ? &run->section_marks : &run->period_marks;
+}
+
+#define REASON(...) (void)snprintf(result->reason, sizeof result->reason, __VA_ARGS__)
+
+/* Chaotic if the exponent across the flow is positive beyond its error; *positive tells. */
+static fst_status test_chaos(fst_run_state *run, fst_run_result *result, int *positive, fst_error *error)
+{
+    const double duration = fst_twofold_difference(run->flow->t, run->period_marks.kept[0].t);
+    double exponent, standard_error;
+    const fst_status status = fst_largest_exponent(run, run->window_start, duration, &exponent, &standard_error,
+                                                   &result->rhs_calls, error);
+    if (status != FST_OK)
+        return status;
+    result->largest_exponent = exponent;
+    result->largest_exponent_error = standard_error;
+    *positive = exponent > SIGNIFICANT * standard_error && exponent * duration > GROWTH;
+    if (*positive) {
+        result->regime = FST_REGIME_CHAOTIC;
+        REASON("the largest Lyapunov exponent is positive: %.4g +- %.2g", exponent, standard_error);
+    }
+    return FST_OK;
+}
+
+/* Phi turns regularly: with, against, or - where <alpha'> does not stand out of its error - neither. */
+static void set_direction(fst_run_result *result)
+{
+    const double error = isnan(result->mean_alpha_dot_error) ? 0.0 : result->mean_alpha_dot_error;
+    if (fabs(result->mean_alpha_dot) <= ONE_WAY * error + 1e-9 * result->omega)
+        REASON("Phi turns, but the bead circles neither way: <alpha'> = %.2g +- %.2g", result->mean_alpha_dot,
+               error);
+    else
+        result->regime = result->mean_alpha_dot < 0 ? FST_REGIME_COUNTER_ROTATING : FST_REGIME_COROTATING;
+}
+
+/* Phi turns regularly: which orbit closes, or is it chaotic, or open? */
+static fst_status decide_turning(fst_run_state *run, fst_run_result *result, fst_error *error)
+{
+    const fst_mark *middle = &run->section_marks.kept[run->section_marks.count / 2];
+    const fst_mark *last = &run->section_marks.latest;
+    const double half = last->half_distance, full = last->full_distance;
+    if (half < CLOSED) {
+        result->symmetry = FST_SYMMETRY_S2;
+        REASON("a closed orbit with the symmetry S2: successive half returns differ by %.2g", half);
+        set_direction(result);
+        return FST_OK;
+    }
+    const int half_is_steady = fabs(half - middle->half_distance) <= STEADY * half;
+    if (full < CLOSED && half_is_steady) {
+        result->symmetry = FST_SYMMETRY_S1;
+        REASON("a closed orbit: successive whole returns differ by %.2g, half returns by %.2g", full, half);
+        set_direction(result);
+        return FST_OK;
+    }
+    if (full < CLOSED ||
+        (full < RELAXING && (half < 0.5 * middle->half_distance || full < 0.5 * middle->full_distance))) {
+        REASON("Phi turns regularly and the orbit is still closing: half returns differ by %.2g, in the middle "
+               "of the "
+               "window by %.2g; whole ones by %.2g, %.2g; for the symmetry run longer",
+               half, middle->half_distance, full, middle->full_distance);
+        set_direction(result);
+        return FST_OK;
+    }
+    int chaotic;
+    const fst_status status = test_chaos(run, result, &chaotic, error);
+    if (status != FST_OK || chaotic)
+        return status;
+    if (run->returns.crossings < LEAST_OPEN_CROSSINGS) {
+        REASON("Phi turned regularly %lld times, but the orbit has not closed (whole returns differ by %.2g): "
+               "run longer",
+               (long long)(run->returns.crossings / 2), full);
+        return FST_OK;
+    }
+    REASON("Phi turns regularly on an orbit that does not close in one return (differing by %.2g); exponent "
+           "across "
+           "the flow %.3g +- %.2g, not positive",
+           full, result->largest_exponent, result->largest_exponent_error);
+    set_direction(result);
+    return FST_OK;
+}
+
+/* Greatest activity over the marks [from, to[. */
+static double activity_over(const fst_mark_series *marks, int from, int to)
+{
+    double greatest = 0.0;
+    for (int i = from; i < to; ++i)
+        greatest = marks->kept[i].activity > greatest ? marks->kept[i].activity : greatest;
+    return greatest;
+}
+
+/* Phi stays within one turn: librating, chaotic, or dying out towards a locked state. */
+static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst_error *error)
+{
+    const fst_mark_series *marks = &run->period_marks;
+    const int half = 1 + (marks->count - 1) / 2;
+    const double early = activity_over(marks, 1, half), late = activity_over(marks, half, marks->count);
+    if (late < STILL_FALLING * early) {
+        REASON("Phi is bounded and the motion is dying out (speed in the turning frame from %.2g to %.2g): run "
+               "longer to see whether it locks",
+               early, late);
+        return FST_OK;
+    }
+    if (late < NOISE * run->params->run_rtol) {
+        REASON("what motion is left (speed %.2g in the turning frame) may be the integrator's noise: lower "
+               "run.rtol",
+               late);
+        return FST_OK;
+    }
+    int chaotic;
+    const fst_status status = test_chaos(run, result, &chaotic, error);
+    if (status != FST_OK || chaotic)
+        return status;
+    result->regime = FST_REGIME_LIBRATING;
+    REASON("Phi stays within %.4g rad and the motion does not die out", run->greatest_phi - run->least_phi);
+    return FST_OK;
+}
+
+/* Greatest component of d(state)/dt at the end.  Where nothing acts on n it may turn as it likes. */
+static double speed_at_end(const fst_run_state *run)
+{
+    const fst_coefficients_double *c = &run->flow->step.context.coefficients;
+    const int n_is_free = c->hard == 0.0 && c->twice_b == 0.0;
+    double speed = 0.0;
+    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+        const double component = fabs(run->flow->step.k[12][i]);
+        if (component > speed && !(n_is_free && i >= FST_NX && i <= FST_NZ))
+            speed = component;
+    }
+    return speed;
+}
+
+fst_status fst_decide_regime(fst_run_state *run, fst_run_result *result, fst_error *error)
+{
+    result->regime = FST_REGIME_UNDECIDED;
+    if (run->period_marks.offered <= LEAST_PERIODS) {
+        REASON("too short: nothing is decided on less than %d whole drive periods after the discard",
+               LEAST_PERIODS);
+        return FST_OK;
+    }
+    const double speed = speed_at_end(run), at_rest = fmax(AT_REST, run->params->run_rtol);
+    if (speed < at_rest) {
+        result->regime = FST_REGIME_LOCKED;
+        REASON("at rest in the turning frame: |d(state)/dt| = %.2g", speed);
+        return FST_OK;
+    }
+    if (turns_regularly(run))
+        return decide_turning(run, result, error);
+    if (run->greatest_phi - run->least_phi < TWO_PI)
+        return decide_bounded(run, result, error);
+    int chaotic;
+    const fst_status status = test_chaos(run, result, &chaotic, error);
+    if (status == FST_OK && !chaotic)
+        REASON("Phi turns irregularly (%lld crossings of the section), but the exponent %.3g +- %.2g is not "
+               "positive "
+               "beyond its error: run longer",
+               (long long)run->returns.crossings, result->largest_exponent, result->largest_exponent_error);
+    return status;
+}

@@ -1,0 +1,67 @@
+/* run_state.h - what a run carries along, shared by the files of fst_run(). */
+#ifndef FST_STUDY_RUN_STATE_H
+#define FST_STUDY_RUN_STATE_H
+
+#include "study/marks.h"
+
+/* Returns of the bead to the section X = 0 (Phi = pi/2 or -pi/2). */
+typedef struct fst_returns {
+    int side;                          /* sign of X where the bead is; 0 before the first step */
+    int64_t crossings;                 /* since the discard */
+    int last_half;                     /* sign of Y at the last crossing */
+    int last_direction;                /* sign of Phi' there */
+    int irregular;                     /* a crossing broke the alternation of halves or the direction */
+    int64_t since_break;               /* crossings since the last break */
+    double section[2][FST_STATE_SIZE]; /* the last two section states, on the side Y > 0 (images under S2) */
+} fst_returns;
+
+typedef struct fst_run_state {
+    const fst_params *params;
+    const fst_run_options *options;
+    fst_model *model;
+    fst_flow *flow;
+    fst_quadrature q;
+    fst_returns returns;
+    fst_mark_series section_marks; /* one mark a whole return */
+    fst_mark_series period_marks;  /* one mark a whole drive period */
+    double drive_period, t_discard, t_end;
+    int64_t next_period; /* index of the next whole drive period to mark */
+    int64_t next_sample;
+    double activity;                     /* greatest speed in the turning frame since the last period mark */
+    double least_phi, greatest_phi;      /* range of Phi since the discard */
+    double window_start[FST_STATE_SIZE]; /* state at the first period mark, for the exponent */
+    int in_window;
+    int ended; /* an event ended the run: ejected or lifted */
+    fst_regime end_regime;
+    double end_fraction; /* where in the last step */
+    /* a ramp */
+    double ramp_rate;
+    int ramp_piece;
+    fst_mark piece_start, piece_first, piece_last; /* marks of the present piece */
+    int piece_returns;
+} fst_run_state;
+
+/* Crossings of the section in the last step: marks and statistics of the returns. */
+void fst_returns_step(fst_run_state *run);
+
+/* Decide regime and symmetry and fill in the result from what the run carries; reads docs/regimes.md's
+ * criteria. */
+fst_status fst_run_conclude(fst_run_state *run, fst_run_result *result, fst_error *error);
+
+/* Every number of a result set to NAN, the rest to zero. */
+void fst_result_clear(fst_run_result *result);
+
+/* Means over [first, last]: what both the result and a ramp's pieces need. */
+void fst_means_between(const fst_run_state *run, const fst_mark *first, const fst_mark *last,
+                       fst_ramp_point *means);
+
+/* Largest Lyapunov exponent across the flow over `duration` from `state`: mean over blocks and its standard
+ * error. Tangent vectors along the flow and along |n| are projected out. */
+fst_status fst_largest_exponent(const fst_run_state *run, const double state[FST_STATE_SIZE], double duration,
+                                double *exponent, double *standard_error, uint64_t *rhs_calls,
+                                fst_error *error);
+
+/* A ramp's bookkeeping after each step, and the piece that ends with the run. */
+fst_status fst_ramp_step(fst_run_state *run, fst_error *error);
+
+#endif

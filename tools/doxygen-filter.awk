@@ -1,0 +1,86 @@
+# Turn the public headers' plain comments into Doxygen's, on the way to the API reference:
+#   the first comment of a file       documents the file,
+#   a comment that starts its line    documents what follows,
+#   a comment behind code             documents what stands before it;
+# and rulers between sections are left out.  Where a struct takes its fields from a .def table, the rows are written
+# out as fields with their docs.  Within comments, signs that Doxygen would read as markup are made plain.
+
+function plain(text)
+{
+    gsub(/&/, "\\&amp;", text)
+    gsub(/</, "\\&lt;", text)
+    gsub(/>/, "\\&gt;", text)
+    gsub(/[\\@#%]/, "\\\\&", text)
+    gsub(/'/, "\\&#39;", text)
+    gsub(/"/, "\\&quot;", text)
+    return text
+}
+
+# From a place inside a comment: its text goes out plain, up to its end.
+function inside(text,    end)
+{
+    end = index(text, "*/")
+    if (end == 0) {
+        in_comment = 1
+        return plain(text)
+    }
+    in_comment = 0
+    return plain(substr(text, 1, end - 1)) substr(text, end)
+}
+
+# One row of a .def table, FST_KIND(group, name, ... "doc") or FST_RESULT(name, "unit", "doc"), as a field.
+function put_field(row,    words, strings, count, kind, name, i, doc)
+{
+    count = split(row, strings, "\"")
+    split(strings[1], words, /[(, ]+/)
+    kind = words[1]
+    name = kind == "FST_RESULT" ? words[2] : words[2] "_" words[3]
+    # Odd pieces lie between the strings; the first string of these two kinds is not the doc.
+    for (i = kind == "FST_RESULT" || kind == "FST_CHOICE" ? 4 : 2; i <= count; i += 2)
+        doc = doc strings[i]
+    if (kind == "FST_RESULT")
+        doc = doc " [" strings[2] "]"
+    print (kind == "FST_REAL" || kind == "FST_RESULT" ? "double " : "int ") name "; /**< " plain(doc) " */"
+}
+
+function put_table(file,    line, row)
+{
+    while ((getline line < file) > 0) {
+        if (line ~ /^FST_/)
+            row = line
+        else if (row != "")
+            row = row line
+        if (row != "" && line ~ /"\)$/) {
+            put_field(row)
+            row = ""
+        }
+    }
+    close(file)
+}
+
+in_comment { print inside($0); next }
+
+/^#include <festoon\/.*\.def>/ {
+    folder = FILENAME
+    sub(/[^\/]*$/, "", folder)
+    match($0, /\/.*\.def/)
+    put_table(folder substr($0, RSTART + 1, RLENGTH - 1))
+    next
+}
+
+/^\/\* -----/ { print ""; next }
+
+/\/\*/ {
+    start = index($0, "/*")
+    code = substr($0, 1, start - 1)
+    if (!seen_comment++)
+        mark = "/** @file\n *"
+    else if (code ~ /^[ \t]*$/)
+        mark = "/**"
+    else
+        mark = "/**<"
+    print code mark inside(substr($0, start + 2))
+    next
+}
+
+{ print }

@@ -1,0 +1,80 @@
+#!/bin/sh
+# Install the Debian packages that a make target needs and the machine lacks.
+#
+#   tools/install-packages.sh SET        SET: build demo test bench docs format ci
+#
+# With nothing missing it costs a look into dpkg's database.  Otherwise it says what is missing and installs it,
+# as root or by a sudo that asks nothing; failing both, it prints the command to run and ends with status 1.
+set -eu
+
+build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansson-dev libhdf5-dev"
+demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
+test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3"
+bench_packages="$build_packages libgsl-dev libsundials-dev"
+docs_packages="$build_packages doxygen"
+format_packages="clang-format"
+ci_packages="$test_packages clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev librsvg2-bin"
+
+case "${1-}" in
+build) wanted=$build_packages ;;
+demo) wanted=$demo_packages ;;
+test) wanted=$test_packages ;;
+bench) wanted=$bench_packages ;;
+docs) wanted=$docs_packages ;;
+format) wanted=$format_packages ;;
+ci) wanted=$ci_packages ;;
+*)
+    echo "usage: $0 build|demo|test|bench|docs|format|ci" >&2
+    exit 2
+    ;;
+esac
+
+if ! command -v dpkg-query >/dev/null 2>&1; then
+    echo "$0: this is no Debian system; the packages' Debian names are: $wanted" >&2
+    exit 0
+fi
+
+# One query for all; packages that dpkg never heard of are complained about on standard error.
+# shellcheck disable=SC2086 # the lists are meant to be split
+installed=$(dpkg-query -W -f '${db:Status-Abbrev}${binary:Package}\n' $wanted 2>/dev/null |
+    sed -n 's/^ii *\([^:]*\).*/\1/p')
+missing=
+for package in $wanted; do
+    case "
+$installed
+" in
+    *"
+$package
+"*) ;;
+    *) missing="$missing $package" ;;
+    esac
+done
+if [ -z "$missing" ]; then
+    exit 0
+fi
+missing=${missing# }
+
+if [ "$(id -u)" -eq 0 ]; then
+    as_root=
+elif sudo -n true 2>/dev/null; then
+    as_root="sudo -n"
+else
+    echo "These Debian packages are missing. Install them and try again:" >&2
+    echo "    sudo apt-get install --no-install-recommends $missing" >&2
+    exit 1
+fi
+
+install_missing() {
+    # shellcheck disable=SC2086
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing
+}
+
+echo "Installing the missing Debian packages: $missing"
+# The package lists are fetched only where there are none, or where those at hand have grown stale.
+if ! ls /var/lib/apt/lists/*_Packages* >/dev/null 2>&1; then
+    $as_root apt-get update -q
+    install_missing
+elif ! install_missing; then
+    $as_root apt-get update -q
+    install_missing
+fi
