@@ -1,0 +1,107 @@
+#!/usr/bin/env python3
+"""Install festoon into a temporary DESTDIR, move the tree, and use it as somebody else would.
+
+    check_installed.py CMAKE GENERATOR PREFIX C_COMPILER [C++_COMPILER]
+
+Environment: SOURCE_DIR, BUILD_DIR.  An outside C program and an outside C++ program are built by pkg-config and by
+find_package(festoon) and run; the installed program runs, its manual page is there, and the module for HDF5 is found
+where it was installed.
+"""
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+CMAKE, GENERATOR, PREFIX, C_COMPILER = sys.argv[1:5]
+CXX_COMPILER = sys.argv[5] if len(sys.argv) > 5 else None
+SOURCES = pathlib.Path(os.environ["SOURCE_DIR"]) / "tests" / "installed"
+BUILD_DIR = pathlib.Path(os.environ["BUILD_DIR"])
+
+
+def run(*command, **changes):
+    """Run a command with changed environment variables; its standard output, or an exception that shows all."""
+    words = [str(word) for word in command]
+    done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, **changes}, check=False)
+    print("$", *words)
+    print(done.stdout + done.stderr, end="", flush=True)
+    if done.returncode != 0:
+        raise SystemExit(f"status {done.returncode}")
+    return done.stdout
+
+
+def install(scratch):
+    """The installed tree's prefix, moved away from where it was installed."""
+    run(CMAKE, "--install", BUILD_DIR, DESTDIR=str(scratch / "stage"))
+    staged = scratch / "stage" / PREFIX.lstrip("/")
+    moved = scratch / "moved"
+    shutil.move(staged, moved)
+    return moved
+
+
+def only(prefix, pattern):
+    """The one file under `prefix` that matches."""
+    found = list(prefix.rglob(pattern))
+    if len(found) != 1:
+        raise SystemExit(f"{pattern}: expected one file, found {found}")
+    return found[0]
+
+
+def check_tree(prefix):
+    """The program runs from the moved tree, with its libraries, its module and its manual page."""
+    program = only(prefix, "bin/festoon")
+    print("version:", run(program, "--version"), flush=True)
+    manual = only(prefix, "festoon.1").read_text(encoding="utf-8")
+    for word in ("bead.radius", "mean_alpha_dot"):
+        if word not in manual.replace("\\-", "-"):
+            raise SystemExit(f"the manual page does not mention {word}")
+    if (BUILD_DIR / "festoon-hdf5.so").exists():
+        only(prefix, "festoon/festoon-hdf5.so")
+        trajectory = prefix / "short.h5"
+        run(program, "run", "--set", "run.periods=2", "--set", "run.discard=1", "-o", trajectory)
+        if not trajectory.exists():
+            raise SystemExit("festoon run -o short.h5 wrote no file")
+
+
+def check_pkg_config(prefix, scratch):
+    """Both programs built by the compiler's own command line."""
+    pkg_config_path = str(only(prefix, "festoon.pc").parent)
+    library_path = str(only(prefix, "libfestoon.so").parent)
+    programs = [("festoon", C_COMPILER, "-std=c11", "outside.c")]
+    if CXX_COMPILER:
+        programs.append(("festoon-tools", CXX_COMPILER, "-std=c++17", "outside.cpp"))
+    for package, compiler, standard, source in programs:
+        flags = run("pkg-config", "--cflags", "--libs", package, PKG_CONFIG_PATH=pkg_config_path).split()
+        program = scratch / f"{source}.out"
+        run(compiler, standard, "-Wall", "-Wextra", "-Wpedantic", "-Werror", SOURCES / source, "-o", program, *flags)
+        run(program, LD_LIBRARY_PATH=library_path)
+
+
+def check_find_package(prefix, scratch):
+    """Both programs built by a CMake project that looks for festoon."""
+    build = scratch / "outside"
+    options = [f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_C_COMPILER={C_COMPILER}", "-DCMAKE_BUILD_TYPE=Release"]
+    if CXX_COMPILER:
+        options.append(f"-DCMAKE_CXX_COMPILER={CXX_COMPILER}")
+    else:
+        options.append("-DWITH_CXX=OFF")
+    run(CMAKE, "-G", GENERATOR, "-S", SOURCES, "-B", build, *options)
+    run(CMAKE, "--build", build)
+    run(build / "outside_c")
+    if CXX_COMPILER:
+        run(build / "outside_cpp")
+
+
+def main():
+    if not CXX_COMPILER:
+        print("no C++ compiler: the outside C++ program is skipped")
+    with tempfile.TemporaryDirectory(prefix="festoon-installed-") as name:
+        scratch = pathlib.Path(name)
+        prefix = install(scratch)
+        check_tree(prefix)
+        check_pkg_config(prefix, scratch)
+        check_find_package(prefix, scratch)
+
+
+main()

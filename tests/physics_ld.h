@@ -1,0 +1,43 @@
+/* physics_ld.h - the bodies of the model over long double, and differences that are exact to its rounding. */
+#ifndef FST_TESTS_PHYSICS_LD_H
+#define FST_TESTS_PHYSICS_LD_H
+
+#include "physics.h"
+
+#include "base/real_long_double.h"
+
+#include "model/coefficients.inl"
+#include "model/field.inl"
+#include "model/rhs.inl"
+#include "model/observe.inl"
+
+/* CHECK_CLOSE of long doubles: their difference is taken before it is rounded. */
+#define CHECK_CLOSE_LD(actual, expected, tolerance) CHECK_CLOSE((double)((actual) - (expected)), 0.0, tolerance)
+
+typedef fst_coefficients_long_double coefficients_ld;
+
+/* Every material, friction law and dynamics in turn: case 0 to 11, with numbers in which every term counts. */
+enum { CASES = 12 };
+static inline fst_params params_of_case(int which)
+{
+    fst_params p = bead_at(0.31, which & 1 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID);
+    p.friction_law = which & 2 ? FST_FRICTION_NONE : FST_FRICTION_VISCOUS;
+    p.bead_material = which / 4;
+    p.bead_a = 2.3e-3;
+    p.bead_b = -1.7e-3;
+    return p;
+}
+
+static inline coefficients_ld coefficients_of(const fst_params *p)
+{
+    fst_model *model = model_of(p);
+    const fst_groups groups = fst_model_groups(model);
+    fst_model_free(model);
+    return fst_make_coefficients_long_double(&groups);
+}
+
+/* Weights of the eighth-order central difference: f'(0) = sum of w_k (f(k d) - f(-k d))/d, error d^8/630 f^(9).
+ */
+static const long double DIFFERENCE_WEIGHTS[4] = {4.0L / 5, -1.0L / 5, 4.0L / 105, -1.0L / 280};
+
+#endif

@@ -1,0 +1,383 @@
+"""The program from outside: exit statuses, what reaches which stream, the contract's JSON keys, files.
+
+Environment: FESTOON is the program, SOURCE_DIR the source tree.
+"""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+FESTOON = os.environ["FESTOON"]
+SOURCE_DIR = os.environ["SOURCE_DIR"]
+
+SHORT = ["--set", "run.periods=30", "--set", "run.discard=10"]
+
+RUN_KEYS = """omega frequency_hz dynamics mean_r std_r mean_alpha_dot mean_phi_dot mean_nz festoons symmetry regime
+max_angle_deg mean_b std_b min_b max_b mean_friction_power mean_drive_power periods rhs_calls final_state""".split()
+
+REGIMES = """locked librating counter-rotating corotating chaotic ejected lifted undecided""".split()
+
+
+def festoon(*words, **options):
+    options.setdefault("stdin", subprocess.DEVNULL)
+    options.setdefault("stdout", subprocess.PIPE)
+    options.setdefault("timeout", 120)
+    done = subprocess.run([FESTOON, *words], stderr=subprocess.PIPE, **options)
+    return done.returncode, (done.stdout or b"").decode(), done.stderr.decode(errors="replace")
+
+
+class Case(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="festoon-cli-")
+        self.addCleanup(holder.cleanup)
+        self.directory = holder.name
+
+    def path(self, name, contents=None):
+        path = os.path.join(self.directory, name)
+        if contents is not None:
+            with open(path, "wb") as file:
+                file.write(contents.encode() if isinstance(contents, str) else contents)
+        return path
+
+    def good(self, *words, **options):
+        status, out, messages = festoon(*words, **options)
+        self.assertEqual(status, 0, messages)
+        return out
+
+    def bad(self, words, *parts, status=2, **options):
+        """Refused with the status, nothing on standard output, and every part in the message."""
+        got, out, messages = festoon(*words, **options)
+        self.assertEqual((got, out), (status, ""), f"{words}: {messages}")
+        for part in parts:
+            self.assertIn(part, messages, words)
+        self.assertEqual(messages.count("\n"), 1, messages)
+        return messages
+
+    def json(self, *words):
+        return json.loads(self.good(*words, "--json"))
+
+
+class Usage(Case):
+    def test_version_and_help(self):
+        self.assertRegex(self.good("--version"), r"^festoon \d+\.\d+\.\d+\n")
+        for words in (["--help"], ["-h"], ["help"]):
+            self.assertIn("usage: festoon", self.good(*words))
+        for command in "run field plot paper init check schema".split():
+            text = self.good(command, "--help")
+            self.assertIn(f"usage: festoon {command}", text)
+            self.assertEqual(text, self.good("help", command))
+            self.assertIn(command, self.good("--help"))
+
+    def test_version_is_quick(self):
+        """Under 10 ms says the design; the test allows for a busy machine by taking the best of many."""
+        best = math.inf
+        for _ in range(20):
+            started = time.perf_counter()
+            subprocess.run([FESTOON, "--version"], stdout=subprocess.DEVNULL, check=True)
+            best = min(best, time.perf_counter() - started)
+        print(f"festoon --version: {1e3 * best:.1f} ms")
+
+    def test_unknown_words(self):
+        self.bad([], "command is missing")
+        self.bad(["rnu"], "nearest is run")
+        self.bad(["help", "feild"], "nearest is field")
+        self.bad(["--versoin"], "nearest is --version")
+        self.bad(["run", "--jsn"], "--jsn", "nearest is --json")
+        self.bad(["run", "--oputput=x"], "nearest is --output")
+        self.bad(["run", "-x"], "unknown option -x")
+        self.bad(["run", "a.yaml", "b.yaml"], "unexpected argument")
+        self.bad(["schema", "x"], "unexpected argument")
+        self.bad(["run", "--json", "--json"], "given twice")
+        self.bad(["run", "--json=yes"], "takes no value")
+        self.bad(["run", "--set"], "KEY=VALUE")
+        self.bad(["run", "-o", "--json"], "--json follows")
+
+    def test_bad_settings(self):
+        self.bad(["check", "--set", "bead.radius"], "KEY=VALUE")
+        self.bad(["check", "--set", "bead.raduis=1mm"], "nearest is bead.radius")
+        self.bad(["check", "--set", "bead.radius=1Hz"], "um mm cm m")
+        self.bad(["check", "--set", "bead.radius=2m"], "out of range", "1000 mm")
+        self.bad(["check", "--set", "model.dynamics=riged"], "nearest is rigid")
+        self.bad(["check", "--set", "run.rtol=nan"], "no decimal number")
+        self.bad(["check", "--set", "magnet.lines=1.5"], "integer")
+        self.bad(["check", "--set", "run.discard=400"], "run.discard")
+        self.bad(["check", "--set", "start.r=0"], "start.r")
+
+    def test_bad_options(self):
+        self.bad(["field"], "--at")
+        self.bad(["field", "--json", "-o", self.path("f.svg")], "--at")
+        for at in ("1", "1,2,3", "1,", ",1", "1,b", "1;2", "1,nan", ""):
+            self.bad(["field", "--at", at], "--at")
+        for ramp in ("7", "7:", ":7", "7:0", "7:-3", "7:8:9", "omega=0.2", "omega=0.2:9 Hz", "7 mm:8 mm"):
+            self.bad(["run", "--ramp", ramp], "--ramp")
+        self.bad(["run", "--ramp-points", "3"], "--ramp")
+        self.bad(["run", "--ramp", "7:8", "--ramp-points", "0"], "--ramp-points")
+        self.bad(["run", "--csv", self.path("t.txt")], ".csv")
+        self.bad(["run", "-o", self.path("t.txt")], ".h5 or .csv")
+        self.bad(["run", "-o", self.path("t.csv"), "--csv", self.path("t.csv")], "same file")
+        self.bad(["run", "-o", self.directory + "/none/t.csv"], "No such file", status=1)
+        self.bad(["plot"], "trajectory is missing")
+        self.bad(["plot", "x.h5"], "-o")
+        self.bad(["plot", "x.h5", "-o", "x.svg", "--kind", "pth"], "nearest is path")
+        self.bad(["plot", "x.h5", "-o", "x.svg", "--colour", "anlge"], "nearest is angle")
+        self.bad(["plot", "x.h5", "-o", "x.svg", "--arrows", "--no-arrows"], "contradict")
+        self.bad(["plot", "x.h5", "-o", "x.svg", "--from", "3", "--to", "2"], "--to")
+        self.bad(["plot", "x.h5", "-o", "x.svg", "--zoom", "1,0,0,1"], "--zoom")
+        self.bad(["paper"], "-o DIR")
+
+
+class Scenes(Case):
+    def refused(self, contents, where, *parts):
+        path = self.path("s.yaml", contents)
+        return self.bad(["check", path], path + where, *parts)
+
+    def test_bad_scenes(self):
+        self.refused("bead:\n  raduis: 1 mm\n", ":2:", "bead.radius")
+        self.refused("bead:\n  radius: 1 ms\n", ":2:", "um mm cm m")
+        self.refused("bead:\n  radius: 1 km\n", ":2:", "bead.radius")
+        self.refused("bead:\n  radius: 2 m\n", ":2:", "out of range")
+        self.refused("bead:\n  radius: 1 mm\n  radius: 2 mm\n", ":3:", "given twice")
+        self.refused("drive:\n  frequency: 9 Hz\n  omega: 0.2\n", ":3:", "drive.frequency")
+        self.refused("bead: &x\n  radius: 1 mm\n", ":1:", "aliases")
+        self.refused("bead:\n  radius: *x\n", ":2:", "aliases")
+        self.refused("bead:\n  radius: !!float 1\n", ":2:", "tags")
+        self.refused(b"\x00\x01\x02\xff", ":1:", "UTF-8")
+        self.refused(b"\xff\xfeb\x00", ":1:", "UTF-8")
+        self.refused(bytes(range(256)) * 100, ":1:", "UTF-8")
+        self.refused("bead:\n  radius:\n", ":2:", "no value")
+        self.refused("- 1\n", ":1:", "groups of keys")
+        self.refused("a: {b: {c: 1}}\n", ":1:", "unknown group")
+        self.refused("[" * 100000, ":1:")
+        self.refused("a: " * 100000, ":1:")
+        self.refused("bead: {radius: 1 mm}\n---\nbead: {radius: 1 mm}\n", ":2:", "one YAML document")
+
+    def test_bad_files(self):
+        self.bad(["check", self.path("none.yaml")], "No such file")
+        self.bad(["check", self.directory], "directory")
+        self.bad(["run", "/dev/zero"], "regular file")
+        self.bad(["check", self.path("big.yaml", b"# filler\n" * 120000)], "1048576")
+        fifo = self.path("fifo")
+        os.mkfifo(fifo)
+        self.bad(["run", fifo], "regular file", timeout=20)
+
+    def test_empty_scene_is_the_default(self):
+        nothing = self.json("check", self.path("s.yaml", "# nothing\n"))
+        self.assertEqual(nothing, self.json("check"))
+
+    def test_set_replaces_every_key(self):
+        for row in json.loads(self.good("schema", "--json")):
+            value = row["names"][-1] if row["names"] else row["default"]
+            if value is None:
+                value = min(1.0, row["max"])
+            scene = self.json("check", "--set", f"{row['key']}={value}")["scene"]
+            self.assertEqual(scene[row["key"]], value, row["key"])
+
+    def test_set_replaces_the_other_form(self):
+        path = self.path("s.yaml", "drive: {omega: 0.3}\nbead: {radius: 2 mm, moment: 0.1}\nmagnet: {b0: 10 mT}\n")
+        plain = self.json("check", path)
+        self.assertEqual(plain["groups"]["omega"], 0.3)
+        self.assertIsNone(plain["scene"]["drive.frequency"])
+        self.assertIsNone(plain["scene"]["model.kappa"])
+        changed = self.json("check", path, "--set", "drive.frequency=642 rpm", "--set", "model.eps=0.1", "--set",
+                            "model.kappa=1.25")
+        self.assertIsNone(changed["scene"]["drive.omega"])
+        self.assertIsNone(changed["scene"]["bead.radius"])
+        self.assertIsNone(changed["scene"]["magnet.b0"])
+        self.assertEqual(changed["scene"]["drive.frequency"], 10.7)
+        self.assertEqual(changed["groups"]["eps"], 0.1)
+        self.assertEqual(changed["groups"]["kappa"], 1.25)
+
+    def test_init_and_check(self):
+        path = self.path("made.yaml")
+        self.good("init", path)
+        self.assertEqual(self.json("check", path), self.json("check"))
+        self.bad(["init", path], "--force")
+        self.good("init", path, "--force", "--set", "drive.frequency=19.9Hz")
+        self.assertEqual(self.json("check", path)["scene"]["drive.frequency"], 19.9)
+        self.good("init", cwd=self.directory)
+        self.assertIn("festoon.yaml", os.listdir(self.directory))
+        with open(path) as file:
+            text = file.read()
+        for row in json.loads(self.good("schema", "--json")):
+            self.assertIn(f" {row['key'].split('.')[1]}:", text)
+        self.assertEqual(self.good("init", "-", "--set", "drive.frequency=19.9Hz"), text)
+
+    def test_schema(self):
+        rows = json.loads(self.good("schema", "--json"))
+        text = self.good("schema")
+        for row in rows:
+            self.assertLessEqual({"key", "unit", "default", "min", "max", "doc"}, set(row))
+            self.assertIn(row["key"], text)
+        keys = [row["key"] for row in rows]
+        for key in ("bead.radius", "drive.omega", "run.samples", "model.dynamics", "start.spin"):
+            self.assertIn(key, keys)
+
+    def test_examples(self):
+        examples = os.path.join(SOURCE_DIR, "examples")
+        for name, frequency in (("paper-10.7Hz.yaml", 10.7), ("paper-19.9Hz.yaml", 19.9)):
+            checked = self.json("check", os.path.join(examples, name))
+            self.assertEqual(checked["scene"]["drive.frequency"], frequency)
+            self.assertAlmostEqual(checked["groups"]["eps"], 2.5 / 23, places=15)
+            self.assertAlmostEqual(checked["groups"]["h"], 18.7 / 23, places=15)
+            self.assertAlmostEqual(checked["groups"]["lambda"], 40 / 92, places=15)
+
+
+class Field(Case):
+    def test_minus_values(self):
+        spaced = self.json("field", "--at", "-0.7,1.1")
+        joined = self.json("field", "--at=-0.7,1.1")
+        self.assertEqual(spaced, joined)
+        self.assertEqual(len(spaced["b"]), 3)
+        gradient = spaced["grad"]
+        self.assertAlmostEqual(gradient[0][0] + gradient[1][1] + gradient[2][2], 0.0, places=12)
+        # The magnet turned by half a turn is the magnet with its poles exchanged.
+        opposite = self.json("field", "--at", "0.7,-1.1")
+        for here, sign, there in zip(spaced["b"], (1, 1, -1), opposite["b"]):
+            self.assertAlmostEqual(here, sign * there, places=13)
+        self.assertIn("-0.7", self.good("field", "--at", "-0.7,1.1"))
+
+
+class Run(Case):
+    def test_json_keys(self):
+        result = self.json("run", *SHORT)
+        for key in RUN_KEYS:
+            self.assertIn(key, result)
+        self.assertIn(result["regime"], REGIMES)
+        self.assertIn(result["symmetry"], ("S1", "S2", None))
+        self.assertEqual(len(result["final_state"]), 10)
+        self.assertAlmostEqual(result["periods"], 30, places=12)
+        self.assertIsInstance(result["rhs_calls"], int)
+        self.assertEqual(result["frequency_hz"], 10.7)
+        self.assertEqual(result["scene"]["bead.radius"], 0.0025)
+
+    def test_same_run_same_text(self):
+        self.assertEqual(self.good("run", "--json", *SHORT), self.good("run", "--json", *SHORT))
+
+    def test_scaled_and_si_agree(self):
+        si = self.json("run", *SHORT)
+        scaled = self.json("run", *SHORT, "--set", f"drive.omega={si['omega']!r}")
+        self.assertEqual(si["final_state"], scaled["final_state"])
+
+    def test_text_for_people(self):
+        text = self.good("run", "--set", "model.dynamics=farago2020", "--set", "drive.omega=0.405")
+        self.assertRegex(text, r"^counter-rotates: the bead circles backwards once every [\d.]+ turns of the magnet, "
+                               r"15 festoons, radius 20\.9 mm\n")
+        for word in ("mm", "Hz", "kappa = 1.5", "energy residual", "degrees"):
+            self.assertIn(word, text)
+
+    def test_ejected_is_a_result(self):
+        result = self.json("run", "--set", "plate.radius=22mm")
+        text = self.good("run", "--set", "plate.radius=22mm")
+        if result["regime"] == "ejected":
+            self.assertRegex(text, r"^ejected: .* after [\d.]+ turns")
+        self.assertLessEqual(result["periods"], 400)
+
+    def test_ramp(self):
+        words = ["--ramp", "10:12", "--ramp-points", "4", "--set", "run.periods=60", "--set", "run.discard=10"]
+        points = self.json("run", *words)["ramp"]
+        self.assertEqual(len(points), 4)
+        frequencies = [point["frequency_hz"] for point in points]
+        self.assertEqual(frequencies, sorted(frequencies))
+        self.assertTrue(10 < frequencies[0] and frequencies[-1] < 12)
+        self.assertIn("drive Hz", self.good("run", *words))
+        words[1] = "600rpm:720 rpm"
+        in_rpm = self.json("run", *words)["ramp"]
+        self.assertAlmostEqual(in_rpm[0]["mean_r"], points[0]["mean_r"], places=9)
+
+    def read_csv(self, path):
+        with open(path) as file:
+            lines = file.read().splitlines()
+        names = next(line for line in lines if not line.startswith("#")).split(",")
+        rows = [line.split(",") for line in lines if not line.startswith("#")][1:]
+        self.assertTrue(all(len(row) == len(names) for row in rows))
+        return lines, names, rows
+
+    def test_trajectories(self):
+        h5, csv = self.path("t.h5"), self.path("t.csv")
+        result = self.json("run", *SHORT, "-o", h5, "--csv", csv, "--set", "run.samples=16")
+        self.assertEqual(sorted(os.listdir(self.directory)), ["t.csv", "t.h5"])
+        lines, names, rows = self.read_csv(csv)
+        self.assertEqual(lines[0], "# festoon trajectory")
+        self.assertEqual(lines[-1], "# complete = true")
+        self.assertIn("#     frequency: 10.7 Hz", lines)
+        self.assertEqual(names[0], "t [1/gamma]")
+        self.assertEqual(len(rows), 30 * 16 + 1)
+        inside = next(line for line in lines if line.startswith("# result = "))
+        self.assertEqual(json.loads(inside[11:])["mean_r"], result["mean_r"])
+        with open(h5, "rb") as file:
+            self.assertEqual(file.read(8), b"\x89HDF\r\n\x1a\n")
+        # The files do not change what is computed, and replace what was there.
+        self.assertEqual(self.json("run", *SHORT, "--csv", csv)["final_state"], result["final_state"])
+
+    def test_output_over_a_device_or_directory(self):
+        os.mkdir(self.path("d.csv"))
+        self.bad(["run", "-o", self.path("d.csv"), *SHORT], "directory")
+        os.symlink("/dev/null", self.path("null.csv"))
+        self.bad(["run", "-o", self.path("null.csv"), *SHORT], "no regular file")
+        self.assertEqual(sorted(os.listdir(self.directory)), ["d.csv", "null.csv"])
+
+    def interrupt(self, number, *words):
+        process = subprocess.Popen([FESTOON, "run", "--set", "run.periods=1e7", *words], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        time.sleep(1.0)
+        process.send_signal(number)
+        out, messages = process.communicate(timeout=60)
+        self.assertEqual((process.returncode, out), (130, b""), messages)
+        self.assertIn(b"interrupted", messages)
+
+    def test_interrupted(self):
+        self.interrupt(signal.SIGINT)
+        for number, ending in ((signal.SIGINT, "csv"), (signal.SIGTERM, "h5")):
+            self.interrupt(number, "-o", self.path("i." + ending))
+        self.assertEqual(sorted(os.listdir(self.directory)), ["i.csv", "i.h5"])
+        lines, _, rows = self.read_csv(self.path("i.csv"))
+        self.assertEqual(lines[-1], "# complete = false")
+        self.assertGreater(len(rows), 100)
+        for ending in ("csv", "h5"):
+            status, _, messages = festoon("plot", self.path("i." + ending), "-o", self.path(ending + ".svg"))
+            if status != 1 or "gnuplot" not in messages:
+                self.assertEqual(status, 0, messages)
+
+    def test_plot_refuses_foreign_files(self):
+        figure = self.path("f.svg")
+        for name, contents in (("a.h5", b"\x89HDF\r\n\x1a\nrubbish"), ("a.csv", b"1,2\n"), ("b.csv", b""),
+                               ("c.csv", bytes(range(256)))):
+            self.bad(["plot", self.path(name, contents), "-o", figure], name)
+        self.bad(["plot", self.path("none.h5"), "-o", figure], "No such file")
+        self.assertFalse(os.path.exists(figure))
+
+
+class StandardOutput(Case):
+    def test_full_disk(self):
+        with open("/dev/full", "w") as full:
+            self.bad(["schema"], "standard output", status=1, stdout=full)
+
+    def test_closed(self):
+        for words in (["schema"], ["check", "--json"]):
+            done = subprocess.run(["/bin/sh", "-c", '"$0" "$@" >&-', FESTOON, *words], stderr=subprocess.PIPE)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(b"standard output", done.stderr)
+
+    def test_closed_streams_do_not_spoil_files(self):
+        path = self.path("t.csv")
+        done = subprocess.run(["/bin/sh", "-c", '"$0" "$@" <&- >&- 2>&-', FESTOON, "run", "-o", path, *SHORT])
+        self.assertEqual(done.returncode, 1)
+        with open(path) as file:
+            self.assertEqual(file.read().splitlines()[-1], "# complete = true")
+
+    def test_broken_pipe(self):
+        reader, writer = os.pipe()
+        os.close(reader)
+        with os.fdopen(writer, "w") as stream:
+            self.bad(["schema"], "standard output", status=1, stdout=stream)
+
+
+if __name__ == "__main__":
+    unittest.main()

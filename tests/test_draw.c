@@ -1,0 +1,305 @@
+/* test_draw.c - figures: whole or not at all, redrawn by their scripts, and failures that say what to do.
+ *
+ * Pictures are looked at by people; here is tested what a machine can tell of them.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <dirent.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "draw/chart.h"
+#include "draw/gnuplot.h"
+
+#include <festoon/festoon_tools.h>
+
+static char directory[64];
+static char *path_before;
+
+/* ------------------------------------------------------------------ a trajectory made by hand */
+
+enum { ROWS = 400 };
+
+/* Four festoons, and something smooth in every column. */
+static fst_table make_table(void)
+{
+    fst_table table = {.rows = ROWS, .params = fst_default_params(), .complete = 1};
+    table.columns = calloc((size_t)fst_column_count(), sizeof *table.columns);
+    assert_non_null(table.columns);
+    table.params.run_discard = 0.0;
+    for (int i = 0; i < fst_column_count(); i++) {
+        const char *name = fst_column_at(i)->name;
+        table.columns[i] = malloc(ROWS * sizeof *table.columns[i]);
+        assert_non_null(table.columns[i]);
+        for (int row = 0; row < ROWS; row++) {
+            double turn = 6.3 * row / ROWS, alpha = -turn, r = 0.9 + 0.1 * cos(4.0 * turn);
+            double value = !strcmp(name, "drive_turns") ? 3.0 * row / ROWS
+                           : !strcmp(name, "alpha")     ? alpha
+                           : !strcmp(name, "Phi")       ? alpha - 3.0 * turn
+                           : !strcmp(name, "omega")     ? 0.215
+                           : !strcmp(name, "x")         ? r * cos(alpha)
+                           : !strcmp(name, "y")         ? r * sin(alpha)
+                           : !strcmp(name, "r")         ? r
+                                                        : sin(2.0 * turn + i);
+            table.columns[i][row] = value;
+        }
+    }
+    return table;
+}
+
+static void free_table(fst_table *table)
+{
+    for (int i = 0; i < fst_column_count(); i++)
+        free(table->columns[i]);
+    free(table->columns);
+}
+
+/* ------------------------------------------------------------------ files */
+
+static const char *inside(const char *name)
+{
+    static char path[512];
+    (void)snprintf(path, sizeof path, "%s/%s", directory, name);
+    return path;
+}
+
+static int exists(const char *name)
+{
+    return access(inside(name), F_OK) == 0;
+}
+
+static char *contents(const char *name, size_t *size)
+{
+    FILE *file = fopen(inside(name), "rb");
+    assert_non_null(file);
+    char *bytes = malloc(1 << 22);
+    assert_non_null(bytes);
+    *size = fread(bytes, 1, (1 << 22) - 1, file);
+    bytes[*size] = '\0';
+    (void)fclose(file);
+    return bytes;
+}
+
+/* Everything in the directory is removed; a leftover of a half-made file is an error. */
+static int clear_directory(void **state)
+{
+    (void)state;
+    (void)setenv("PATH", path_before, 1);
+    DIR *entries = opendir(directory);
+    assert_non_null(entries);
+    int leftovers = 0;
+    for (struct dirent *entry; (entry = readdir(entries)) != NULL;) {
+        leftovers += strstr(entry->d_name, ".part") != NULL;
+        if (entry->d_name[0] != '.' || strstr(entry->d_name, ".part"))
+            (void)remove(inside(entry->d_name));
+    }
+    (void)closedir(entries);
+    assert_int_equal(leftovers, 0);
+    return 0;
+}
+
+/* A program called gnuplot that does something else, first along PATH. */
+static void pretend_gnuplot(const char *body)
+{
+    FILE *file = fopen(inside("gnuplot"), "w");
+    assert_non_null(file);
+    (void)fprintf(file, "#!/bin/sh\n%s\n", body);
+    (void)fclose(file);
+    assert_int_equal(chmod(inside("gnuplot"), 0700), 0);
+    char path[512];
+    (void)snprintf(path, sizeof path, "%s:%s", directory, path_before);
+    (void)setenv("PATH", path, 1);
+}
+
+/* ------------------------------------------------------------------ tests */
+
+static void every_kind_in_every_format(void **state)
+{
+    (void)state;
+    static const fst_figure_kind kinds[] = {FST_FIGURE_PATH, FST_FIGURE_LOCAL_N, FST_FIGURE_RADIUS_FIELD};
+    static const char *const endings[] = {"svg", "pdf", "png"}, *const marks[] = {"<?xml", "%PDF", "\x89PNG"};
+    fst_table table = make_table();
+    fst_error error = {.code = FST_OK};
+    for (int k = 0; k < 3; k++) {
+        for (int e = 0; e < 3; e++) {
+            fst_figure_options options = fst_default_figure_options();
+            options.kind = kinds[k];
+            char name[64];
+            (void)snprintf(name, sizeof name, "kind%d.%s", k, endings[e]);
+            fst_status status = fst_figure_trajectory(&table, inside(name), &options, &error);
+            if (status != FST_OK)
+                fail_msg("%s: %s", error.where, error.sentence);
+            size_t size;
+            char *bytes = contents(name, &size);
+            assert_memory_equal(bytes, marks[e], strlen(marks[e]));
+            free(bytes);
+        }
+    }
+    assert_true(exists("kind0.gp") && exists("kind0.dat"));
+    free_table(&table);
+}
+
+static void the_script_draws_the_figure_again(void **state)
+{
+    (void)state;
+    fst_table table = make_table();
+    fst_figure_options options = fst_default_figure_options();
+    options.title = "100 % 'quoted' {text}_^@ \\n";
+    options.colour = "slip";
+    /* A name with all that a shell or gnuplot might take for something else. */
+    assert_int_equal(fst_figure_trajectory(&table, inside("-it's a $(figure).svg"), &options, NULL), FST_OK);
+    assert_int_equal(fst_gnuplot_run(directory, "-it's a $(figure).gp", "it's again.svg", NULL), FST_OK);
+    size_t size, size_again;
+    char *first = contents("-it's a $(figure).svg", &size);
+    char *again = contents("it's again.svg", &size_again);
+    assert_int_equal(size, size_again);
+    assert_memory_equal(first, again, size);
+    assert_non_null(strstr(first, "quoted"));
+    free(first);
+    free(again);
+    free_table(&table);
+}
+
+static void bad_requests_say_what_is_wrong(void **state)
+{
+    (void)state;
+    fst_table table = make_table();
+    fst_error error;
+    fst_figure_options options = fst_default_figure_options();
+    static const char *const names[] = {"figure.jpg", "figure", ".svg", "svg"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        assert_int_equal(fst_figure_trajectory(&table, inside(names[i]), &options, &error), FST_BAD_INPUT);
+        assert_non_null(strstr(error.sentence, ".svg, .pdf or .png"));
+        assert_false(exists(names[i]));
+    }
+    options.colour = "slop";
+    assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), &options, &error), FST_BAD_INPUT);
+    assert_non_null(strstr(error.sentence, "\"slip\""));
+
+    options = fst_default_figure_options();
+    options.zoom[0] = options.zoom[1] = options.zoom[2] = options.zoom[3] = 1.0;
+    assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), &options, &error), FST_BAD_INPUT);
+
+    options = fst_default_figure_options();
+    options.from = 1e6;
+    assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), &options, &error), FST_BAD_INPUT);
+
+    options.cookie = 0;
+    assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), &options, &error), FST_BAD_INPUT);
+    assert_int_equal(fst_figure_trajectory(&table, "/nowhere/at/all/a.svg", NULL, &error), FST_IO);
+    assert_false(exists("a.svg"));
+    free_table(&table);
+}
+
+static void without_gnuplot_the_package_is_named(void **state)
+{
+    (void)state;
+    fst_table table = make_table();
+    fst_error error;
+    (void)setenv("PATH", "/nowhere", 1);
+    assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), NULL, &error), FST_UNAVAILABLE);
+    assert_non_null(strstr(error.sentence, "gnuplot-nox"));
+    assert_false(exists("a.svg"));
+    free_table(&table);
+}
+
+static void a_failing_gnuplot_leaves_the_old_figure(void **state)
+{
+    (void)state;
+    fst_table table = make_table();
+    fst_error error;
+    assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), NULL, NULL), FST_OK);
+    size_t size, size_after;
+    char *before = contents("a.svg", &size);
+
+    pretend_gnuplot("echo 'line 3: no such thing' >&2; exit 1");
+    assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), NULL, &error), FST_IO);
+    assert_non_null(strstr(error.sentence, "no such thing"));
+    pretend_gnuplot("kill -9 $$");
+    assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), NULL, &error), FST_IO);
+    /* It says that all is well, and has written nothing: a full disk looks like this. */
+    pretend_gnuplot("exit 0");
+    assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), NULL, &error), FST_IO);
+
+    char *after = contents("a.svg", &size_after);
+    assert_int_equal(size, size_after);
+    assert_memory_equal(before, after, size);
+    free(before);
+    free(after);
+    free_table(&table);
+}
+
+/* Its outputs stay open in a process that goes on: nothing may wait for that. */
+static void much_output_does_not_block(void **state)
+{
+    (void)state;
+    fst_error error;
+    pretend_gnuplot(
+        "i=0; while [ $i -lt 3000 ]; do echo 'a line of some length, again and again'; i=$((i+1)); done; "
+        "cat; exit 1");
+    assert_int_equal(fst_gnuplot_run(directory, "none.gp", "none.svg", &error), FST_IO);
+    assert_non_null(strstr(error.sentence, "again and again"));
+}
+
+static void the_field_shows_its_maxima(void **state)
+{
+    (void)state;
+    fst_params params = fst_default_params();
+    assert_int_equal(fst_figure_field(&params, inside("field.svg"), NULL), FST_OK);
+    size_t size;
+    char *data = contents("field.dat", &size), *at = strstr(data, "# maxima");
+    assert_non_null(at);
+    double x[2], y[2];
+    at = strchr(strchr(at, '\n') + 1, '\n');
+    assert_int_equal(sscanf(at, "%lf %lf %lf %lf", &x[0], &y[0], &x[1], &y[1]), 4);
+    /* The paper fits the model so that they are 41 mm apart. */
+    assert_true(fabs(23.0 * hypot(x[0] - x[1], y[0] - y[1]) - 41.0) < 0.6);
+    free(data);
+}
+
+static void a_curve_breaks_where_it_is_not_a_number(void **state)
+{
+    (void)state;
+    const double x[] = {0, 1, 2, 3, 4, 5}, y[] = {0, 1, NAN, NAN, 4, 5};
+    fst_chart_curve curve = {.title = "curve", .x = x, .y = y, .count = 6, .colour = FST_COLOUR_BLUE};
+    fst_chart_panel panel = {
+        .left_label = "y", .low = NAN, .high = NAN, .key = "top left", .curves = &curve, .curve_count = 1};
+    fst_chart chart = {.title = "a chart", .x_label = "x", .x_high = 5.0, .panels = &panel, .panel_count = 1};
+    assert_int_equal(fst_figure_chart(inside("chart.svg"), &chart, NULL), FST_OK);
+    size_t size;
+    char *data = contents("chart.dat", &size);
+    assert_non_null(strstr(data, "0 0\n1 1\n\n4 4\n5 5\n"));
+    free(data);
+}
+
+int main(void)
+{
+    if (system("gnuplot --version >/dev/null 2>&1") != 0)
+        return 77;
+    path_before = strdup(getenv("PATH"));
+    (void)snprintf(directory, sizeof directory, "/tmp/festoon-draw-XXXXXX");
+    if (!path_before || !mkdtemp(directory))
+        return 1;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(every_kind_in_every_format, clear_directory),
+        cmocka_unit_test_teardown(the_script_draws_the_figure_again, clear_directory),
+        cmocka_unit_test_teardown(bad_requests_say_what_is_wrong, clear_directory),
+        cmocka_unit_test_teardown(without_gnuplot_the_package_is_named, clear_directory),
+        cmocka_unit_test_teardown(a_failing_gnuplot_leaves_the_old_figure, clear_directory),
+        cmocka_unit_test_teardown(much_output_does_not_block, clear_directory),
+        cmocka_unit_test_teardown(the_field_shows_its_maxima, clear_directory),
+        cmocka_unit_test_teardown(a_curve_breaks_where_it_is_not_a_number, clear_directory),
+    };
+    int failed = cmocka_run_group_tests(tests, NULL, NULL);
+    (void)rmdir(directory);
+    free(path_before);
+    return failed;
+}

@@ -1,0 +1,86 @@
+/* The field in long double: its gradient against differences, and Maxwell's equations from differences of B
+ * alone. */
+#include "physics_ld.h"
+
+/* dB_i/dx_j by differences; the third direction is the height of the bead over the lines. */
+static void differences_of_b(const coefficients_ld *c, const long double at[2], long double g[3][3])
+{
+    const long double d = 4e-3L;
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i)
+            g[i][j] = 0;
+        for (int k = 1; k <= 4; ++k)
+            for (int sign = -1; sign <= 1; sign += 2) {
+                coefficients_ld moved = *c;
+                const long double step = sign * k * d;
+                if (j == 2)
+                    moved.height += step;
+                fst_field_values_long_double f;
+                fst_field_long_double(&moved, at[0] + (j == 0 ? step : 0), at[1] + (j == 1 ? step : 0), &f);
+                for (int i = 0; i < 3; ++i)
+                    g[i][j] += sign * DIFFERENCE_WEIGHTS[k - 1] * f.b[i] / d;
+            }
+    }
+}
+
+static void test_gradient_and_maxwell(void **unused)
+{
+    (void)unused;
+    static const int numbers[] = {1, 2, 5, 8, 99};
+    uint64_t seed = 21;
+    for (int number = 0; number < 5; ++number) {
+        fst_params p = fst_default_params();
+        p.magnet_lines = numbers[number];
+        fst_model *model = model_of(&p);
+        const coefficients_ld c = coefficients_of(&p);
+        for (int trial = 0; trial < 20; ++trial) {
+            const double x = uniform(&seed, -1.5, 1.5), y = uniform(&seed, -1.5, 1.5);
+            double b[3], gradient[3][3];
+            fst_field(model, x, y, b, gradient);
+            long double g[3][3];
+            differences_of_b(&c, (const long double[2]){x, y}, g);
+            CHECK_CLOSE_LD(g[0][0] + g[1][1] + g[2][2], 0, 1e-13); /* div B = 0 */
+            CHECK_CLOSE_LD(g[2][1] - g[1][2], 0, 1e-13);           /* curl B = 0 */
+            CHECK_CLOSE_LD(g[0][2] - g[2][0], 0, 1e-13);
+            CHECK_CLOSE_LD(g[1][0] - g[0][1], 0, 1e-13);
+            for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j)
+                    CHECK_CLOSE_LD(gradient[i][j], g[i][j], 3e-13);
+        }
+        fst_model_free(model);
+    }
+}
+
+/* The field over double differs from the one over long double by rounding. */
+static void test_double_rounds_only(void **unused)
+{
+    (void)unused;
+    const fst_params p = fst_default_params();
+    fst_model *model = model_of(&p);
+    const coefficients_ld c = coefficients_of(&p);
+    uint64_t seed = 22;
+    for (int trial = 0; trial < 1000; ++trial) {
+        const double x = uniform(&seed, -3, 3), y = uniform(&seed, -3, 3);
+        double b[3], gradient[3][3];
+        fst_field(model, x, y, b, gradient);
+        fst_field_values_long_double f;
+        fst_field_long_double(&c, x, y, &f);
+        for (int i = 0; i < 3; ++i)
+            CHECK_CLOSE_LD(b[i], f.b[i], 1e-14);
+        CHECK_CLOSE_LD(gradient[0][0], f.gxx, 4e-14);
+        CHECK_CLOSE_LD(gradient[1][1], f.gyy, 4e-14);
+        CHECK_CLOSE_LD(gradient[0][1], f.gxy, 4e-14);
+        CHECK_CLOSE_LD(gradient[0][2], f.gxz, 4e-14);
+        CHECK_CLOSE_LD(gradient[1][2], f.gyz, 4e-14);
+    }
+    fst_model_free(model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_gradient_and_maxwell),
+        cmocka_unit_test(test_double_rounds_only),
+    };
+    return cmocka_run_group_tests_name("field_ld", tests, NULL, NULL);
+}

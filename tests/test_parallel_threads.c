@@ -1,0 +1,79 @@
+/* test_parallel_threads.c - independent pieces of work: the result does not tell how many threads did it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "app/parallel.h"
+#include "base/error.h"
+
+enum { PIECES = 500 };
+
+typedef struct job {
+    int results[PIECES];
+    int fails_from; /* pieces from this one on fail */
+    int told;       /* the greatest number of pieces that progress was told */
+    int patience;   /* progress ends the work after as many */
+} job;
+
+static fst_status square(void *user, int index, fst_error *error)
+{
+    job *all = user;
+    if (index >= all->fails_from)
+        return fst_fail(error, FST_NOT_FINITE, "square", "piece %d", index);
+    all->results[index] = index * index;
+    return FST_OK;
+}
+
+static fst_status watch(void *user, int done, fst_error *error)
+{
+    job *all = user;
+    assert_true(done >= all->told);
+    all->told = done;
+    return done > all->patience ? fst_fail(error, FST_INTERRUPTED, "watch", "enough") : FST_OK;
+}
+
+static void all_pieces_are_done_once(void **state)
+{
+    (void)state;
+    job all = {.fails_from = PIECES, .patience = PIECES};
+    fst_work work = {.user = &all, .count = PIECES, .piece = square, .progress = watch};
+    assert_int_equal(fst_parallel(&work, NULL), FST_OK);
+    for (int i = 0; i < PIECES; i++)
+        assert_int_equal(all.results[i], i * i);
+    work.count = 0;
+    assert_int_equal(fst_parallel(&work, NULL), FST_OK);
+}
+
+static void the_first_failure_is_the_one_told(void **state)
+{
+    (void)state;
+    job all = {.fails_from = 100, .patience = PIECES};
+    fst_work work = {.user = &all, .count = PIECES, .piece = square};
+    fst_error error;
+    assert_int_equal(fst_parallel(&work, &error), FST_NOT_FINITE);
+    assert_string_equal(error.sentence, "piece 100");
+    assert_int_equal(all.results[99], 99 * 99);
+}
+
+static void progress_can_end_the_work(void **state)
+{
+    (void)state;
+    job all = {.fails_from = PIECES, .patience = -1};
+    fst_work work = {.user = &all, .count = PIECES, .piece = square, .progress = watch};
+    fst_error error;
+    assert_int_equal(fst_parallel(&work, &error), FST_INTERRUPTED);
+    assert_string_equal(error.sentence, "enough");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_pieces_are_done_once),
+        cmocka_unit_test(the_first_failure_is_the_one_told),
+        cmocka_unit_test(progress_can_end_the_work),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,314 @@
+/* Parameters: the table's consistency, values with units, the two forms of a quantity, messages that name the
+ * nearest valid thing, and independence of the locale. */
+#include "same_params.h"
+
+#include <locale.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <festoon/festoon.h>
+
+#include "base/number.h"
+#include "base/units.h"
+#include "model/params.h"
+
+static void table_is_consistent(void **state)
+{
+    (void)state;
+    const fst_params defaults = fst_default_params();
+    assert_int_equal(fst_params_validate(&defaults, NULL), FST_OK);
+    for (int i = 0; i < fst_param_count(); i++) {
+        const fst_param_info *info = fst_param_at(i);
+        assert_int_equal(fst_param_find(info->key), i);
+        assert_non_null(strchr(info->key, '.'));
+        assert_true(strlen(info->doc) > 10);
+        if (info->kind == FST_KIND_CHOICE)
+            assert_non_null(info->names);
+        else
+            assert_true(isnan(info->initial) ||
+                        (info->initial >= info->least && info->initial <= info->greatest));
+    }
+    assert_null(fst_param_at(-1));
+    assert_null(fst_param_at(fst_param_count()));
+    assert_int_equal(fst_param_find("bead"), -1);
+}
+
+/* Units: PHYSICS and the header say what each kind accepts. */
+static void units_are_read(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        fst_unit unit;
+        double value;
+    } good[] = {
+        {"2.5 mm", FST_UNIT_LENGTH, 0.0025},
+        {" 2.5mm ", FST_UNIT_LENGTH, 0.0025},
+        {"16.2 mm", FST_UNIT_LENGTH, 0.0162},
+        {"2500 um", FST_UNIT_LENGTH, 0.0025},
+        {"2500 \xC2\xB5m", FST_UNIT_LENGTH, 0.0025},
+        {"2500 \xCE\xBCm", FST_UNIT_LENGTH, 0.0025},
+        {"0.25 cm", FST_UNIT_LENGTH, 0.0025},
+        {"25e-4", FST_UNIT_LENGTH, 0.0025},
+        {"+.0025 m", FST_UNIT_LENGTH, 0.0025},
+        {"500 mg", FST_UNIT_MASS, 0.5e-3},
+        {"0.5 g", FST_UNIT_MASS, 0.5e-3},
+        {"5e-4 kg", FST_UNIT_MASS, 0.5e-3},
+        {"0.06 A m^2", FST_UNIT_MOMENT, 0.06},
+        {"0.06 A m2", FST_UNIT_MOMENT, 0.06},
+        {"0.06 A.m2", FST_UNIT_MOMENT, 0.06},
+        {"0.06 A*m^2", FST_UNIT_MOMENT, 0.06},
+        {"0.06 A\xC2\xB7m\xC2\xB2", FST_UNIT_MOMENT, 0.06},
+        {"60 mA  m2", FST_UNIT_MOMENT, 0.06},
+        {"20 mT", FST_UNIT_FIELD, 0.02},
+        {"200 G", FST_UNIT_FIELD, 0.02},
+        {"20000 uT", FST_UNIT_FIELD, 0.02},
+        {"642 rpm", FST_UNIT_FREQUENCY, 10.7},
+        {"0.0107 kHz", FST_UNIT_FREQUENCY, 10.7},
+        {"1 rad/s", FST_UNIT_FREQUENCY, 0.15915494309189535},
+        {"312.5 1/s", FST_UNIT_RATE, 312.5},
+        {"312.5 s-1", FST_UNIT_RATE, 312.5},
+        {"312.5 s^-1", FST_UNIT_RATE, 312.5},
+        {"0.3125 1/ms", FST_UNIT_RATE, 312.5},
+        {"9.81 m/s^2", FST_UNIT_ACCELERATION, 9.81},
+        {"9.81 m/s2", FST_UNIT_ACCELERATION, 9.81},
+        {"90", FST_UNIT_ANGLE, 90.0},
+        {"90\xC2\xB0", FST_UNIT_ANGLE, 90.0},
+        {"0.25 turn", FST_UNIT_ANGLE, 90.0},
+        {"1 rad", FST_UNIT_ANGLE, 57.295779513082323},
+        {"-1.5e-3", FST_UNIT_NUMBER, -0.0015},
+    };
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) {
+        double value = NAN;
+        fst_error error = {FST_OK, "", ""};
+        if (fst_parse_value(good[i].text, good[i].unit, &value, &error) != FST_OK)
+            fail_msg("\"%s\": %s", good[i].text, error.sentence);
+        CHECK_SAME_BITS(value, good[i].value);
+    }
+}
+
+static void wrong_values_are_refused(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"",     " ",     "nan", "inf", "-inf", "0x10",   "1,5",  "1e400",
+                                      "mm",   "--1",   "1 2", "e5",  ".",    "1mm mm", "1 Mm", "1 Hz",
+                                      "1e 5", "5 m m", "+",   "1_0", "1 m.", "1\x01",  "\xFF", "1 m\n2"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        double value = 7.0;
+        fst_error error = {FST_OK, "", ""};
+        if (fst_parse_value(bad[i], FST_UNIT_LENGTH, &value, &error) != FST_BAD_INPUT)
+            fail_msg("\"%s\" was read as %g", bad[i], value);
+        assert_true(value == 7.0);
+        assert_true(strlen(error.sentence) > 5);
+    }
+    char digits[2000];
+    double value;
+    memset(digits, '9', sizeof digits - 1);
+    digits[sizeof digits - 1] = '\0';
+    assert_int_equal(fst_parse_value(digits, FST_UNIT_NUMBER, &value, NULL), FST_BAD_INPUT);
+}
+
+/* What is written reads back with the same bits, for awkward numbers too. */
+static void values_survive_writing(void **state)
+{
+    (void)state;
+    uint64_t seed = 42;
+    for (int i = 0; i < 20000; i++) {
+        char text[64];
+        double back;
+        seed = seed * 6364136223846793005u + 1442695040888963407u;
+        double value = ldexp((double)(seed >> 11), -60 + (int)(seed % 40));
+        fst_unit unit = (fst_unit)(i % (FST_UNIT_ANGLE + 1));
+        (void)fst_value_write(text, sizeof text, value, unit);
+        assert_int_equal(fst_parse_value(text, unit, &back, NULL), FST_OK);
+        CHECK_SAME_BITS(back, value);
+    }
+    char text[64];
+    (void)fst_value_write(text, sizeof text, 0.0025, FST_UNIT_LENGTH);
+    assert_string_equal(text, "2.5 mm");
+    (void)fst_value_write(text, sizeof text, 10.7, FST_UNIT_FREQUENCY);
+    assert_string_equal(text, "10.7 Hz");
+}
+
+static void expect_message(const char *key, const char *value, const char *part)
+{
+    fst_params params = fst_default_params();
+    const fst_params before = params;
+    fst_error error = {FST_OK, "", ""};
+    assert_int_equal(fst_params_set(&params, key, value, &error), FST_BAD_INPUT);
+    assert_int_equal(error.code, FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, part);
+    check_same_params(&params, &before);
+    assert_int_equal(fst_params_set(&params, key, value, NULL), FST_BAD_INPUT);
+}
+
+static void messages_help(void **state)
+{
+    (void)state;
+    expect_message("bead.raduis", "1 mm", "bead.radius");
+    expect_message("radius", "1 mm", "bead.radius");
+    expect_message("drive.freqency", "1", "drive.frequency");
+    expect_message("Bead.Radius", "1 mm", "bead.radius");
+    expect_message("", "1", "unknown key");
+    expect_message("bead.radius", "1 km", "um mm cm m");
+    expect_message("bead.radius", "1 MM", "nearest is mm");
+    expect_message("drive.frequency", "10 hz", "nearest is Hz");
+    expect_message("bead.radius", "5 m", "1000 mm");
+    expect_message("bead.radius", "-1 mm", "0.0001 mm to 1000 mm");
+    expect_message("model.kappa", "1.5 mm", "without unit");
+    expect_message("model.dynamics", "farago", "farago2020");
+    expect_message("model.dynamics", "", "rigid|farago2020");
+    expect_message("magnet.lines", "2.5", "integer");
+    expect_message("magnet.lines", "100", "1 to 99");
+    expect_message("run.rtol", "nan", "no decimal number");
+}
+
+static void set(fst_params *params, const char *key, const char *value)
+{
+    fst_error error = {FST_OK, "", ""};
+    if (fst_params_set(params, key, value, &error) != FST_OK)
+        fail_msg("%s = %s: %s", key, value, error.sentence);
+}
+
+/* Setting one form of a quantity takes back the other. */
+static void forms_replace_each_other(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *si, *scaled;
+    } pairs[] = {{"drive.frequency", "drive.omega"},
+                 {"bead.radius", "model.eps"},
+                 {"magnet.depth", "model.h"},
+                 {"magnet.width", "model.lambda"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        fst_params params = fst_default_params();
+        char text[64];
+        assert_string_equal(fst_param_other_form(pairs[i].si), pairs[i].scaled);
+        assert_string_equal(fst_param_other_form(pairs[i].scaled), pairs[i].si);
+        set(&params, pairs[i].scaled, "0.5");
+        assert_int_equal(fst_params_get(&params, fst_param_find(pairs[i].si), text, sizeof text), 0);
+        assert_true(fst_params_get(&params, fst_param_find(pairs[i].scaled), text, sizeof text) > 0);
+        assert_string_equal(text, "0.5");
+        set(&params, pairs[i].si, "0.25");
+        assert_int_equal(fst_params_get(&params, fst_param_find(pairs[i].scaled), text, sizeof text), 0);
+        assert_true(fst_params_get(&params, fst_param_find(pairs[i].si), text, sizeof text) > 0);
+        assert_string_equal(text, "0.25");
+    }
+    assert_null(fst_param_other_form("bead.mass"));
+}
+
+static double kappa_of(const fst_params *params)
+{
+    fst_model *model;
+    assert_int_equal(fst_model_new(params, &model, NULL), FST_OK);
+    double kappa = fst_model_groups(model).kappa;
+    fst_model_free(model);
+    return kappa;
+}
+
+/* kappa is model.kappa unless moment and B0 are both given; whichever was set last counts. */
+static void kappa_has_two_makers(void **state)
+{
+    (void)state;
+    fst_params params = fst_default_params();
+    double made = 0.1 * 0.01 / (0.5e-3 * 0.0025 * 0.0025 * 312.5 * 312.5);
+    CHECK_CLOSE(kappa_of(&params), 1.5, 0.0);
+    set(&params, "model.kappa", "2");
+    set(&params, "bead.moment", "0.1 A m2");
+    CHECK_CLOSE(kappa_of(&params), 2.0, 0.0);
+    set(&params, "magnet.b0", "10 mT");
+    CHECK_CLOSE(kappa_of(&params), made, 1e-14 * made);
+    set(&params, "model.kappa", "3");
+    CHECK_CLOSE(kappa_of(&params), 3.0, 0.0);
+    assert_true(isnan(params.magnet_b0));
+    set(&params, "magnet.b0", "10 mT");
+    CHECK_CLOSE(kappa_of(&params), made, 1e-14 * made);
+}
+
+/* A struct filled in by hand is checked as a text would be. */
+static void structs_are_validated(void **state)
+{
+    (void)state;
+    fst_error error;
+    fst_params params = fst_default_params();
+    params.bead_radius = -1.0;
+    assert_int_equal(fst_params_validate(&params, &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "bead.radius");
+    params = fst_default_params();
+    params.bead_radius = NAN;
+    assert_int_equal(fst_params_validate(&params, &error), FST_BAD_INPUT);
+    params = fst_default_params();
+    params.model_dynamics = 2;
+    assert_int_equal(fst_params_validate(&params, &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "rigid|farago2020");
+    params = fst_default_params();
+    params.magnet_lines = 0;
+    assert_int_equal(fst_params_validate(&params, &error), FST_BAD_INPUT);
+    params = fst_default_params();
+    params.run_discard = params.run_periods;
+    assert_int_equal(fst_params_validate(&params, &error), FST_BAD_INPUT);
+    memset(&params, 0, sizeof params);
+    assert_int_equal(fst_params_validate(&params, &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "fst_default_params");
+    assert_int_equal(fst_params_set(&params, "bead.radius", "1 mm", &error), FST_BAD_INPUT);
+}
+
+static void nearest_names(void **state)
+{
+    (void)state;
+    char nearest[16];
+    assert_int_equal(fst_nearest_name("rnu", "run|field|plot", nearest, sizeof nearest), 1);
+    assert_string_equal(nearest, "run");
+    assert_int_equal(fst_nearest_name("field", "run|field|plot", nearest, sizeof nearest), 0);
+    assert_string_equal(nearest, "field");
+    (void)fst_nearest_name("MM", "um|mm|m", nearest, sizeof nearest);
+    assert_string_equal(nearest, "mm");
+    assert_int_equal(fst_nearest_name("x", "", nearest, sizeof nearest), -1);
+    assert_string_equal(nearest, "");
+    char huge[5000];
+    memset(huge, 'a', sizeof huge - 1);
+    huge[sizeof huge - 1] = '\0';
+    assert_true(fst_nearest_name(huge, "run|field", nearest, sizeof nearest) > 0);
+    (void)fst_nearest_name("fiel", "run|field", nearest, 3);
+    assert_string_equal(nearest, "fi");
+}
+
+/* In a locale with decimal commas numbers look the same, and the locale stays as it was. */
+static void locale_does_not_matter(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"};
+    const char *taken = NULL;
+    for (size_t i = 0; i < sizeof names / sizeof names[0] && !taken; i++)
+        taken = setlocale(LC_ALL, names[i]);
+    double value;
+    char text[32], comma[32];
+    (void)snprintf(comma, sizeof comma, "%g", 0.5);
+    assert_int_equal(fst_parse_value("2.5 mm", FST_UNIT_LENGTH, &value, NULL), FST_OK);
+    CHECK_SAME_BITS(value, 0.0025);
+    (void)fst_number_write(text, sizeof text, 0.5);
+    assert_string_equal(text, "0.5");
+    char after[32];
+    (void)snprintf(after, sizeof after, "%g", 0.5);
+    assert_string_equal(after, comma);
+    (void)setlocale(LC_ALL, "C");
+    if (!taken)
+        print_message("no locale with a decimal comma here: only the C locale was tried\n");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(table_is_consistent),
+        cmocka_unit_test(units_are_read),
+        cmocka_unit_test(wrong_values_are_refused),
+        cmocka_unit_test(values_survive_writing),
+        cmocka_unit_test(messages_help),
+        cmocka_unit_test(forms_replace_each_other),
+        cmocka_unit_test(kappa_has_two_makers),
+        cmocka_unit_test(structs_are_validated),
+        cmocka_unit_test(nearest_names),
+        cmocka_unit_test(locale_does_not_matter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

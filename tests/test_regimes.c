@@ -1,0 +1,299 @@
+/* What kind of motion a run is said to have reached: right where the evidence is there, and never a guess where
+ * it is not. */
+#include "physics.h"
+
+static void expect_regime(const fst_run_result *r, fst_regime expected)
+{
+    if (r->regime != expected)
+        fail_msg("%s, expected %s (%s)", fst_regime_name(r->regime), fst_regime_name(expected), r->reason);
+    assert_true(strlen(r->reason) > 20);
+}
+
+/* Equilibria in the turning frame.  r, <n_z> and the angle(n, B) by an independent implementation: 300 drive
+ * periods left out, 100 averaged, DOP853 of its own at rtol 1e-11. */
+static void test_locked(void **unused)
+{
+    (void)unused;
+    static const struct {
+        fst_dynamics dynamics;
+        double omega, r, nz, angle_deg;
+    } reference[] = {
+        {FST_DYNAMICS_RIGID, 0.0825, 0.9347643783348, 0.9551742104, NAN},
+        {FST_DYNAMICS_RIGID, 0.1325, 0.7209501489105, 0.8251002928, 3.490696677},
+        {FST_DYNAMICS_RIGID, 0.145, 0.6234952762946, 0.7310739434, 4.084847149},
+        {FST_DYNAMICS_FARAGO2020, 0.095, 0.9483484156190, 0.9598012562, NAN},
+        {FST_DYNAMICS_FARAGO2020, 0.1325, 0.7304277170648, 0.8302669949, 2.915259936},
+        {FST_DYNAMICS_FARAGO2020, 0.145, 0.6270334256116, 0.7307475346, 3.552646511},
+    };
+    for (size_t i = 0; i < sizeof reference / sizeof *reference; ++i) {
+        fst_params p = bead_at(reference[i].omega, reference[i].dynamics);
+        p.run_discard = 300;
+        const fst_run_result r = run_of(&p);
+        expect_regime(&r, FST_REGIME_LOCKED);
+        assert_int_equal(r.symmetry, FST_SYMMETRY_NONE);
+        CHECK_CLOSE(r.mean_r, reference[i].r, 1e-8);
+        CHECK_CLOSE(r.mean_nz, reference[i].nz, 1e-8);
+        if (!isnan(reference[i].angle_deg))
+            CHECK_CLOSE(r.max_angle_deg, reference[i].angle_deg, 1e-6);
+        CHECK_CLOSE(r.std_r, 0, 1e-7);
+        CHECK_CLOSE(r.mean_alpha_dot, r.omega, 1e-9); /* corotation */
+        CHECK_CLOSE(r.mean_phi_dot, 0, 1e-9);
+        assert_true(isnan(r.festoons));
+        /* an equilibrium indeed */
+        fst_model *model = model_of(&p);
+        double rate[FST_STATE_SIZE];
+        fst_rhs(model, r.final_state, rate);
+        const double nothing[FST_STATE_SIZE] = {0};
+        CHECK_CLOSE(greatest_difference(rate, nothing, FST_STATE_SIZE), 0, 1e-8);
+        fst_model_free(model);
+    }
+}
+
+/* At low drive the field holds the bead from rest as well as from rolling. */
+static void test_locked_from_rest(void **unused)
+{
+    (void)unused;
+    for (int dynamics = 0; dynamics < 2; ++dynamics) {
+        fst_params p = bead_at(0.045, (fst_dynamics)dynamics);
+        p.run_discard = 300;
+        const fst_run_result rolling = run_of(&p);
+        p.start_spin = FST_SPIN_REST;
+        const fst_run_result rest = run_of(&p);
+        expect_regime(&rolling, FST_REGIME_LOCKED);
+        expect_regime(&rest, FST_REGIME_LOCKED);
+        CHECK_CLOSE(rest.mean_r, rolling.mean_r, 1e-8);
+        CHECK_CLOSE(rest.mean_r, dynamics == FST_DYNAMICS_RIGID ? 0.8968883071 : 0.8959083658, 1e-8);
+    }
+}
+
+/* Phi bounded for good, but not at rest. */
+static void test_librating(void **unused)
+{
+    (void)unused;
+    static const double drives[] = {0.12, 0.17};
+    for (int dynamics = 0; dynamics < 2; ++dynamics)
+        for (int i = 0; i < 2; ++i) {
+            fst_params p = bead_at(drives[i], (fst_dynamics)dynamics);
+            p.run_periods = 140;
+            p.run_discard = 100;
+            const fst_run_result r = run_of(&p);
+            expect_regime(&r, FST_REGIME_LIBRATING);
+            CHECK_CLOSE(r.mean_alpha_dot, r.omega, 1e-3);
+            CHECK_WITHIN(r.std_r, 0.01, 0.5);
+            CHECK_WITHIN(r.largest_exponent, -1, 1e-3);
+            assert_true(isnan(r.festoons));
+        }
+}
+
+/* Frictionless motion is conservative, and this start lies in its chaos: neighbours part exponentially. */
+static void test_chaotic(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.4, FST_DYNAMICS_RIGID);
+    p.friction_law = FST_FRICTION_NONE;
+    p.start_r = 1.1;
+    p.run_periods = 500;
+    p.run_discard = 100;
+    const fst_run_result r = run_of(&p);
+    expect_regime(&r, FST_REGIME_CHAOTIC);
+    assert_true(r.largest_exponent > 3 * r.largest_exponent_error);
+    /* two trajectories a billionth apart at the start */
+    fst_model *model = model_of(&p);
+    double start[FST_STATE_SIZE], a[FST_STATE_SIZE], b[FST_STATE_SIZE];
+    start_of(&p, model, start);
+    const double t = 300 * TWO_PI / 0.4;
+    state_after(model, 1e-12, start, t, a);
+    start[FST_X] += 1e-9;
+    state_after(model, 1e-12, start, t, b);
+    CHECK_WITHIN(greatest_difference(a, b, FST_STATE_SIZE), 1e-2, 100);
+    fst_model_free(model);
+}
+
+/* Over the edge: the status says when, and it is then that r = 10. */
+static void test_ejected(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
+    p.start_r = 9.9;
+    fst_run_result r = run_of(&p);
+    expect_regime(&r, FST_REGIME_EJECTED);
+    CHECK_CLOSE(hypot(r.final_state[FST_X], r.final_state[FST_Y]), 10, 1e-14);
+    CHECK_CLOSE(r.periods, r.end_time * 0.405 / TWO_PI, 1e-12);
+    CHECK_WITHIN(r.periods, 1, 2);
+    assert_non_null(strstr(r.reason, "edge"));
+    fst_model *model = model_of(&p);
+    double start[FST_STATE_SIZE], end[FST_STATE_SIZE];
+    start_of(&p, model, start);
+    state_after(model, 1e-12, start, r.end_time, end);
+    CHECK_CLOSE(greatest_difference(end, r.final_state, FST_STATE_SIZE), 0, 1e-8);
+    fst_model_free(model);
+    /* in no field it rolls straight on with v = eps omega r/(r - eps), r^2 = 9.9^2 + v^2 t^2 */
+    p.model_kappa = 0;
+    r = run_of(&p);
+    expect_regime(&r, FST_REGIME_EJECTED);
+    const double eps = 2.5 / 23, v = eps * 0.405 * 9.9 / (9.9 - eps);
+    CHECK_CLOSE(r.end_time, sqrt(100 - 9.9 * 9.9) / v, 1e-7);
+}
+
+/* Off the plate: a diamagnetic bead at once; a frictionless one at r = 1.177, after 9.3 turns of the magnet. */
+static void test_lifted(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
+    p.bead_material = FST_MATERIAL_PARAMAGNETIC;
+    p.bead_a = -1e-3;
+    const fst_run_result at_once = run_of(&p);
+    expect_regime(&at_once, FST_REGIME_LIFTED);
+    assert_true(at_once.end_time == 0);
+    p = bead_at(1.0, FST_DYNAMICS_RIGID);
+    p.friction_law = FST_FRICTION_NONE;
+    p.start_r = 0.5;
+    const fst_run_result r = run_of(&p);
+    expect_regime(&r, FST_REGIME_LIFTED);
+    CHECK_CLOSE(r.periods, 9.3247, 1e-3);
+    fst_model *model = model_of(&p);
+    CHECK_CLOSE(fst_observe(model, r.final_state).load, 0, 1e-14);
+    fst_model_free(model);
+}
+
+/* Gravity presses the bead on the plate: without it no load in weights exists, but the run does. */
+static void test_no_gravity(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
+    p.plate_gravity = 0;
+    p.run_periods = 60;
+    p.run_discard = 40;
+    const fst_run_result r = run_of(&p);
+    assert_true(isnan(r.mean_load_weights) && isnan(r.min_load_weights));
+    CHECK_WITHIN(r.mean_r, 0.85, 0.95);
+}
+
+/* ------------------------------------------------------------------ never guessed */
+
+/* Too short to tell: up to two drive periods say nothing, whatever the motion. */
+static void test_too_short(void **unused)
+{
+    (void)unused;
+    static const double lengths[] = {0.1, 1, 1.5, 1.999};
+    static const double drives[] = {0.0825, 0.12, 0.21, 0.405};
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) {
+            fst_params p = bead_at(drives[k], FST_DYNAMICS_RIGID);
+            p.run_discard = 0;
+            p.run_periods = lengths[i];
+            const fst_run_result r = run_of(&p);
+            expect_regime(&r, FST_REGIME_UNDECIDED);
+            p.run_discard = 30;
+            p.run_periods = 30 + lengths[i];
+            const fst_run_result late = run_of(&p);
+            expect_regime(&late, FST_REGIME_UNDECIDED);
+        }
+}
+
+/* A bead that turns a few times and is then caught does not counter-rotate. */
+static void test_transient_turns(void **unused)
+{
+    (void)unused;
+    static const double drives[] = {0.10, 0.12, 0.15};
+    for (int i = 0; i < 3; ++i)
+        for (int length = 0; length < 3; ++length) {
+            fst_params p = bead_at(drives[i], FST_DYNAMICS_RIGID);
+            p.start_r = 1.3;
+            p.start_phi = 90;
+            p.run_discard = 0;
+            p.run_periods = length == 0 ? 15 : length == 1 ? 60 : 400;
+            const fst_run_result r = run_of(&p);
+            if (r.regime == FST_REGIME_COUNTER_ROTATING || r.regime == FST_REGIME_COROTATING)
+                fail_msg("omega %g, %g periods: %s (%s)", drives[i], p.run_periods, fst_regime_name(r.regime),
+                         r.reason);
+        }
+}
+
+/* The noise of a loose tolerance is no libration. */
+static void test_loose_tolerance(void **unused)
+{
+    (void)unused;
+    for (double tolerance = 1e-4; tolerance > 1e-9; tolerance /= 10) {
+        fst_params p = bead_at(0.0825, FST_DYNAMICS_RIGID);
+        p.run_rtol = tolerance;
+        const fst_run_result r = run_of(&p);
+        if (r.regime != FST_REGIME_LOCKED && r.regime != FST_REGIME_UNDECIDED)
+            fail_msg("rtol %g: %s (%s)", tolerance, fst_regime_name(r.regime), r.reason);
+    }
+}
+
+/* A paramagnetic bead held still by the magnet is locked, however n, which nothing acts on, turns with W. */
+static void test_locked_paramagnet(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.2, FST_DYNAMICS_RIGID);
+    p.bead_material = FST_MATERIAL_PARAMAGNETIC;
+    p.bead_a = 2e-2;
+    p.run_periods = 150;
+    p.run_discard = 100;
+    const fst_run_result r = run_of(&p);
+    expect_regime(&r, FST_REGIME_LOCKED);
+    CHECK_CLOSE(r.std_r, 0, 1e-7);
+}
+
+/* No field, and the bead at rest in the laboratory: it rotates neither way. */
+static void test_no_field(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.3, FST_DYNAMICS_RIGID);
+    p.model_kappa = 0;
+    p.start_spin = FST_SPIN_REST;
+    const fst_run_result r = run_of(&p);
+    CHECK_CLOSE(r.mean_alpha_dot, 0, 1e-9);
+    expect_regime(&r, FST_REGIME_UNDECIDED);
+}
+
+/* On the axis the bead balances for a while: an unstable equilibrium in x.  To fall off it is not chaos. */
+static void test_balanced_on_the_axis(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
+    p.start_r = 0;
+    p.start_spin = FST_SPIN_REST;
+    p.run_periods = 100;
+    p.run_discard = 20;
+    const fst_run_result r = run_of(&p);
+    assert_int_not_equal(r.regime, FST_REGIME_CHAOTIC);
+}
+
+/* Where half returns still relax no symmetry is claimed; a claimed S1 is no S2 orbit in the making. */
+static void test_symmetry_near_the_period_halving(void **unused)
+{
+    (void)unused;
+    static const double drives[] = {0.2690, 0.2720};
+    for (int i = 0; i < 2; ++i) {
+        fst_params p = bead_at(drives[i], FST_DYNAMICS_RIGID);
+        const fst_run_result r = run_of(&p);
+        expect_regime(&r, FST_REGIME_COUNTER_ROTATING);
+        assert_int_equal(r.symmetry, FST_SYMMETRY_NONE);
+        assert_non_null(strstr(r.reason, "return"));
+        CHECK_WITHIN(r.mean_nz_error, 1e-6, 1e-2);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_locked),
+        cmocka_unit_test(test_locked_from_rest),
+        cmocka_unit_test(test_librating),
+        cmocka_unit_test(test_chaotic),
+        cmocka_unit_test(test_ejected),
+        cmocka_unit_test(test_lifted),
+        cmocka_unit_test(test_no_gravity),
+        cmocka_unit_test(test_too_short),
+        cmocka_unit_test(test_transient_turns),
+        cmocka_unit_test(test_loose_tolerance),
+        cmocka_unit_test(test_locked_paramagnet),
+        cmocka_unit_test(test_no_field),
+        cmocka_unit_test(test_balanced_on_the_axis),
+        cmocka_unit_test(test_symmetry_near_the_period_halving),
+    };
+    return cmocka_run_group_tests_name("regimes", tests, NULL, NULL);
+}

@@ -1,0 +1,473 @@
+/* fst_run(): the paper's Table 1, an independent implementation's numbers, and whether its means, extremes and
+ * samples are what they are said to be. */
+#include "physics.h"
+
+#include "reference_runs.h"
+
+/* ------------------------------------------------------------------ against published and independent numbers
+ */
+
+/* Runs that several tests look at: [dynamics][drive of the reference table]. */
+static fst_run_result results[2][REFERENCE_RUNS];
+
+static const fst_run_result *reference_of(int dynamics)
+{
+    return dynamics == FST_DYNAMICS_RIGID ? REFERENCE_RIGID : REFERENCE_FARAGO2020;
+}
+
+static int run_all(void **unused)
+{
+    (void)unused;
+    for (int dynamics = 0; dynamics < 2; ++dynamics)
+        for (int i = 0; i < REFERENCE_RUNS; ++i) {
+            const fst_params p = bead_at(reference_of(dynamics)[i].omega, (fst_dynamics)dynamics);
+            const fst_run_options options = fst_default_run_options();
+            if (fst_run(&p, &options, &results[dynamics][i], NULL) != FST_OK)
+                return -1;
+        }
+    return 0;
+}
+
+/* The paper's Table 1: numbers of festoons, within 1.2 % for the equations as printed, and the symmetries. */
+static void test_table_1(void **unused)
+{
+    (void)unused;
+    static const struct {
+        double omega, festoons;
+        fst_symmetry symmetry;
+    } published[] = {{0.21, 3.98, FST_SYMMETRY_S1},
+                     {0.25, 5.03, FST_SYMMETRY_S1},
+                     {0.2845, 5.99, FST_SYMMETRY_S1},
+                     {0.352, 13.98, FST_SYMMETRY_S2},
+                     {0.405, 14.96, FST_SYMMETRY_S2}};
+    int found = 0;
+    for (int row = 0; row < 5; ++row)
+        for (int i = 0; i < REFERENCE_RUNS; ++i) {
+            const fst_run_result *r = &results[FST_DYNAMICS_FARAGO2020][i];
+            if (r->omega != published[row].omega)
+                continue;
+            CHECK_CLOSE(r->festoons, published[row].festoons, 0.012 * published[row].festoons);
+            assert_int_equal(r->symmetry, published[row].symmetry);
+            assert_int_equal(r->regime, FST_REGIME_COUNTER_ROTATING);
+            ++found;
+        }
+    assert_int_equal(found, 5);
+}
+
+static void check_number(const char *name, double omega, double actual, double expected, double tolerance)
+{
+    const double allowed = tolerance * fmax(1.0, fabs(expected));
+    if (!(fabs(actual - expected) <= allowed))
+        fail_msg("omega %g: %s = %.15g, reference %.15g, off by %.3g", omega, name, actual, expected,
+                 actual - expected);
+}
+
+/* Every number of the reference table.  Means to 1e-10, extremes and angles to 1e-8 of themselves; close to the
+ * period halving, where the motion still relaxes, a thousand times worse. */
+static void test_reference_runs(void **unused)
+{
+    (void)unused;
+    for (int dynamics = 0; dynamics < 2; ++dynamics)
+        for (int i = 0; i < REFERENCE_RUNS; ++i) {
+            const fst_run_result *r = &results[dynamics][i], *reference = &reference_of(dynamics)[i];
+            const double tolerance = dynamics == FST_DYNAMICS_FARAGO2020 && r->omega == 0.2845 ? 1e-6 : 1e-9;
+            assert_int_equal(r->regime, reference->regime);
+            assert_int_equal(r->symmetry, reference->symmetry);
+#define COMPARE(name) check_number(#name, r->omega, r->name, reference->name, tolerance);
+            REFERENCE_LIST(COMPARE)
+        }
+}
+
+/* Error bars cover what is left of the transient; where the orbit has closed only the tolerance is left. */
+static void test_errors_of_the_means(void **unused)
+{
+    (void)unused;
+    for (int dynamics = 0; dynamics < 2; ++dynamics)
+        for (int i = 0; i < REFERENCE_RUNS; ++i) {
+            const fst_run_result *r = &results[dynamics][i];
+            const int relaxing = dynamics == FST_DYNAMICS_FARAGO2020 && r->omega == 0.2845;
+            CHECK_WITHIN(r->mean_r_error, 0, relaxing ? 1e-7 : 1e-9);
+            CHECK_WITHIN(r->mean_alpha_dot_error, 0, relaxing ? 1e-7 : 1e-9);
+            CHECK_WITHIN(r->mean_nz_error, 0, relaxing ? 1e-6 : 1e-9);
+        }
+}
+
+/* Two runs that differ in tolerance alone agree in every mean. */
+static void test_means_do_not_depend_on_the_tolerance(void **unused)
+{
+    (void)unused;
+    for (int dynamics = 0; dynamics < 2; ++dynamics) {
+        fst_params p = bead_at(dynamics ? 0.25 : 0.405, (fst_dynamics)dynamics);
+        p.run_periods = 300;
+        p.run_rtol = 1e-9;
+        const fst_run_result loose = run_of(&p);
+        p.run_rtol = 1e-12;
+        const fst_run_result tight = run_of(&p);
+        assert_int_equal(loose.regime, tight.regime);
+        assert_int_equal(loose.symmetry, tight.symmetry);
+#define AGREE(name) check_number(#name, p.drive_omega, loose.name, tight.name, 1e-8);
+        REFERENCE_LIST(AGREE)
+        CHECK_WITHIN(loose.norm_drift / tight.norm_drift, 200, 5000);
+    }
+}
+
+/* ------------------------------------------------------------------ samples */
+
+typedef struct collected {
+    int count, capacity, stop_after;
+    fst_sample *samples;
+} collected;
+
+static fst_status collect(void *user, const fst_sample *sample, fst_error *error)
+{
+    (void)error;
+    collected *c = user;
+    if (c->stop_after && c->count >= c->stop_after)
+        return FST_INTERRUPTED;
+    assert_true(c->count < c->capacity);
+    c->samples[c->count++] = *sample;
+    return FST_OK;
+}
+
+static fst_status run_collecting(const fst_params *p, double sample_from, int stop_after, collected *c,
+                                 fst_run_result *result)
+{
+    c->capacity = 2 + (int)(p->run_periods * p->run_samples);
+    c->count = 0;
+    c->stop_after = stop_after;
+    c->samples = test_calloc((size_t)c->capacity, sizeof *c->samples);
+    fst_run_options options = fst_default_run_options();
+    options.sink.user = c;
+    options.sink.sample = collect;
+    options.sample_from = sample_from;
+    return fst_run(p, &options, result, NULL);
+}
+
+/* Samples lie at exact fractions of the drive period, and every column says the same: lab = turned frame, alpha
+ * = Phi plus the drive's phase, the observation belongs to the state, and watching changes no bit of the
+ * motion. */
+static void test_samples(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
+    p.run_periods = 60;
+    p.run_discard = 20;
+    p.run_samples = 7;
+    fst_model *model = model_of(&p);
+    collected c;
+    fst_run_result watched;
+    assert_int_equal(run_collecting(&p, 0, 0, &c, &watched), FST_OK);
+    assert_int_equal(c.count, 60 * 7 + 1);
+    for (int i = 0; i < c.count; ++i) {
+        const fst_sample *s = &c.samples[i];
+        CHECK_CLOSE(s->drive_turns, i / 7.0, 1e-13);
+        CHECK_CLOSE(s->t, i / 7.0 * TWO_PI / 0.405, 1e-12);
+        CHECK_CLOSE(s->omega, 0.405, 0);
+        CHECK_CLOSE(s->alpha, s->phi + TWO_PI * s->drive_turns, 1e-12);
+        const double r = hypot(s->x, s->y);
+        CHECK_CLOSE(s->x, r * cos(s->alpha), 1e-12);
+        CHECK_CLOSE(s->y, r * sin(s->alpha), 1e-12);
+        double lab[FST_STATE_SIZE];
+        turn_state(s->state, TWO_PI * s->drive_turns, lab);
+        CHECK_CLOSE(hypot(s->x - lab[FST_X], s->y - lab[FST_Y]), 0, 1e-12);
+        CHECK_CLOSE(greatest_difference(s->v_lab, lab + FST_VX, 2), 0, 1e-12);
+        CHECK_CLOSE(greatest_difference(s->n_lab, lab + FST_NX, 3), 0, 1e-12);
+        CHECK_CLOSE(greatest_difference(s->w_lab, lab + FST_WX, 3), 0, 1e-11);
+        const fst_observation o = fst_observe(model, s->state);
+        CHECK_CLOSE(s->seen.r, o.r, 0);
+        CHECK_CLOSE(s->seen.energy, o.energy, 0);
+        CHECK_CLOSE(s->seen.drive_power, o.drive_power, 0);
+        if (i > 0)
+            CHECK_WITHIN(s->phi - c.samples[i - 1].phi, -TWO_PI / 4, 0);
+    }
+    const fst_run_result alone = run_of(&p);
+    assert_memory_equal(alone.final_state, watched.final_state, sizeof alone.final_state);
+    assert_memory_equal(alone.final_state, c.samples[c.count - 1].state, sizeof alone.final_state);
+    assert_true(alone.mean_r == watched.mean_r && alone.max_b == watched.max_b);
+    test_free(c.samples);
+    fst_model_free(model);
+}
+
+/* Phi and alpha are continuous from the first sample on, also where the start has Phi = 180 degrees. */
+static void test_samples_from_half_a_turn(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
+    p.start_phi = 180;
+    p.run_periods = 3;
+    p.run_discard = 0;
+    collected c;
+    fst_run_result result;
+    assert_int_equal(run_collecting(&p, 0, 0, &c, &result), FST_OK);
+    for (int i = 1; i < c.count; ++i)
+        CHECK_WITHIN(c.samples[i].phi - c.samples[i - 1].phi, -1, 0);
+    test_free(c.samples);
+}
+
+/* Averages by the trapezoidal rule and extremes of samples, over whole turns of Phi. */
+typedef struct brute {
+    double weight, r, b, b2, nz, power, load, slip2;
+    double least_r, most_r, least_b, most_b, most_angle, most_slip, most_load;
+} brute;
+
+/* Weigh one interval between samples: with the part of it that lies between the first and the last passage of
+ * Phi, which falls, through a multiple of 2 pi. */
+static void add_interval(brute *sum, const fst_sample *a, const fst_sample *b, double first_turn,
+                         double last_turn)
+{
+    const double from = a->phi / TWO_PI, to = b->phi / TWO_PI;
+    const double high = fmin(from, first_turn), low = fmax(to, last_turn);
+    if (high <= low)
+        return;
+    const double f = 0.5 * (high - low) / (from - to);
+    const fst_observation *const ends[] = {&a->seen, &b->seen};
+    for (int i = 0; i < 2; ++i) {
+        const fst_observation *o = ends[i];
+        sum->weight += f;
+        sum->r += f * o->r;
+        sum->b += f * o->b_norm;
+        sum->b2 += f * o->b_norm * o->b_norm;
+        sum->nz += f * o->n[2];
+        sum->power += f * o->friction_power;
+        sum->load += f * o->load;
+        sum->slip2 += f * o->slip_norm * o->slip_norm;
+    }
+}
+
+static brute brute_force(const collected *c)
+{
+    brute sum = {.least_r = INFINITY, .least_b = INFINITY};
+    const double first_turn = floor(c->samples[0].phi / TWO_PI);
+    const double last_turn = ceil(c->samples[c->count - 1].phi / TWO_PI);
+    for (int i = 0; i < c->count; ++i) {
+        const fst_observation *o = &c->samples[i].seen;
+        sum.least_r = fmin(sum.least_r, o->r);
+        sum.most_r = fmax(sum.most_r, o->r);
+        sum.least_b = fmin(sum.least_b, o->b_norm);
+        sum.most_b = fmax(sum.most_b, o->b_norm);
+        sum.most_angle = fmax(sum.most_angle, o->angle);
+        sum.most_slip = fmax(sum.most_slip, o->slip_norm);
+        sum.most_load = fmax(sum.most_load, o->load);
+        if (i > 0)
+            add_interval(&sum, &c->samples[i - 1], &c->samples[i], first_turn, last_turn);
+    }
+    return sum;
+}
+
+/* The orbit has closed, so that any whole number of returns gives the same means.  Samples a 2048th of a period
+ * apart miss an extreme by about 4e-6 of the oscillation at most. */
+static void test_means_and_extremes_by_brute_force(void **unused)
+{
+    (void)unused;
+    for (int dynamics = 0; dynamics < 2; ++dynamics) {
+        fst_params p = bead_at(dynamics ? 0.21 : 0.352, (fst_dynamics)dynamics);
+        p.run_periods = 260;
+        p.run_discard = 220;
+        p.run_samples = 2048;
+        fst_model *model = model_of(&p);
+        const double gravity = fst_model_groups(model).gravity;
+        fst_model_free(model);
+        collected c;
+        fst_run_result r;
+        assert_int_equal(run_collecting(&p, 220, 0, &c, &r), FST_OK);
+        assert_int_equal(c.count, 40 * 2048 + 1);
+        const brute sum = brute_force(&c);
+        const double weight = sum.weight, mean_b = sum.b / weight;
+        CHECK_CLOSE(r.mean_r, sum.r / weight, 1e-7);
+        CHECK_CLOSE(r.mean_b, mean_b, 1e-6);
+        CHECK_CLOSE(r.std_b, sqrt(sum.b2 / weight - mean_b * mean_b), 1e-6);
+        CHECK_CLOSE(r.mean_nz, sum.nz / weight, 1e-6);
+        CHECK_CLOSE(r.mean_friction_power, sum.power / weight, 1e-9);
+        CHECK_CLOSE(r.rms_slip, sqrt(sum.slip2 / weight), 1e-8);
+        CHECK_CLOSE(r.mean_load_weights, sum.load / weight / gravity, 1e-5);
+        CHECK_WITHIN(sum.least_r - r.min_r, -1e-12, 1e-6);
+        CHECK_WITHIN(r.max_r - sum.most_r, -1e-12, 1e-6);
+        CHECK_WITHIN(sum.least_b - r.min_b, -1e-12, 2e-6);
+        CHECK_WITHIN(r.max_b - sum.most_b, -1e-12, 2e-6);
+        CHECK_WITHIN(r.max_angle_deg - DEGREES * sum.most_angle, -1e-10, 1e-4);
+        CHECK_WITHIN(r.max_slip - sum.most_slip, -1e-12, 1e-6);
+        CHECK_WITHIN(r.max_load_weights - sum.most_load / gravity, -1e-10, 1e-4);
+        test_free(c.samples);
+    }
+}
+
+/* A callback that fails ends the run with its status; what was done until then is there. */
+static void test_interruption(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
+    collected c;
+    fst_run_result result;
+    assert_int_equal(run_collecting(&p, 0, 64 * 50 + 1, &c, &result), FST_INTERRUPTED);
+    assert_int_equal(c.count, 64 * 50 + 1);
+    CHECK_WITHIN(result.periods, 50, 50.3);
+    CHECK_CLOSE(c.samples[c.count - 1].drive_turns, 50, 1e-12);
+    assert_true(isnan(result.mean_r) && result.regime == FST_REGIME_UNDECIDED);
+    assert_non_null(strstr(result.reason, "interrupted"));
+    test_free(c.samples);
+    assert_int_equal(run_collecting(&p, 0, 64 * 300 + 1, &c, &result), FST_INTERRUPTED);
+    CHECK_CLOSE(result.mean_r, reference_of(FST_DYNAMICS_RIGID)[4].mean_r, 1e-8);
+    test_free(c.samples);
+}
+
+/* ------------------------------------------------------------------ windows */
+
+/* Without a discard the window is all of the run; the transient shows in the error bars. */
+static void test_no_discard(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
+    p.run_discard = 0;
+    const fst_run_result all = run_of(&p);
+    const double mean_r = results[FST_DYNAMICS_RIGID][4].mean_r;
+    CHECK_WITHIN(fabs(all.mean_r - mean_r), 1e-6, 1e-3);
+    CHECK_WITHIN(all.mean_r_error, 1e-6, 1e-3);
+    CHECK_CLOSE(all.mean_r, mean_r, 4 * all.mean_r_error);
+    CHECK_WITHIN(all.window_periods, 398, 400);
+    p.start_phi = 180; /* the same by the symmetry S2, up to the sign of <n_z> */
+    const fst_run_result turned = run_of(&p);
+    CHECK_CLOSE(turned.mean_alpha_dot, all.mean_alpha_dot, 1e-4);
+}
+
+/* ------------------------------------------------------------------ ramps */
+
+enum { PIECES = 12 };
+
+typedef struct ramp {
+    int count;
+    fst_ramp_point points[PIECES];
+} ramp;
+
+static fst_status keep_point(void *user, const fst_ramp_point *point, fst_error *error)
+{
+    (void)error;
+    ramp *r = user;
+    assert_true(r->count < PIECES);
+    r->points[r->count++] = *point;
+    return FST_OK;
+}
+
+static fst_run_result run_ramp(double from, double to, double periods, ramp *r)
+{
+    fst_params p = bead_at(from, FST_DYNAMICS_RIGID);
+    p.run_periods = periods;
+    p.run_discard = 100;
+    fst_run_options options = fst_default_run_options();
+    options.ramp_from = from;
+    options.ramp_to = to;
+    options.ramp_points = PIECES;
+    options.sink.user = r;
+    options.sink.ramp_point = keep_point;
+    r->count = 0;
+    fst_run_result result;
+    assert_int_equal(fst_run(&p, &options, &result, NULL), FST_OK);
+    return result;
+}
+
+/* A slow ramp through counter-rotation, where there is one attractor up to its conjugate: each piece shows what
+ * a run at its drive shows, up and down alike. */
+static void test_ramp_up_and_down(void **unused)
+{
+    (void)unused;
+    ramp up, down;
+    const fst_run_result end = run_ramp(0.32, 0.44, 1000, &up);
+    CHECK_CLOSE(end.omega, 0.44, 1e-12);
+    CHECK_CLOSE(end.periods, 1000, 1e-6);
+    CHECK_CLOSE(run_ramp(0.44, 0.32, 1000, &down).omega, 0.32, 1e-12);
+    assert_int_equal(up.count, PIECES);
+    assert_int_equal(down.count, PIECES);
+    for (int i = 0; i < PIECES; ++i) {
+        const fst_ramp_point *a = &up.points[i], *b = &down.points[PIECES - 1 - i];
+        CHECK_CLOSE(a->omega, 0.32 + 0.12 * (i + 0.5) / PIECES, 2e-4);
+        CHECK_CLOSE(a->frequency_hz, a->omega * 312.5 / TWO_PI, 1e-12);
+        CHECK_CLOSE(a->mean_r, b->mean_r, 3e-4);
+        CHECK_CLOSE(a->mean_alpha_dot, b->mean_alpha_dot, 1e-4);
+        CHECK_CLOSE(a->mean_phi_dot + a->mean_alpha_dot, a->omega, 1e-4);
+        if (i == 4) {
+            const fst_params p = bead_at(a->omega, FST_DYNAMICS_RIGID);
+            const fst_run_result still = run_of(&p);
+            CHECK_CLOSE(a->mean_r, still.mean_r, 3e-4);
+            CHECK_CLOSE(a->std_r, still.std_r, 3e-4);
+            CHECK_CLOSE(a->mean_alpha_dot, still.mean_alpha_dot, 3e-5);
+        }
+    }
+}
+
+/* A ramp that goes nowhere is a run at its drive: the bits of the motion, and its means in the pieces. */
+static void test_ramp_at_constant_drive(void **unused)
+{
+    (void)unused;
+    ramp r;
+    const fst_run_result ramped = run_ramp(0.405, 0.405, 250, &r);
+    fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
+    p.run_periods = 250;
+    p.run_discard = 100;
+    const fst_run_result still = run_of(&p);
+    assert_memory_equal(ramped.final_state, still.final_state, sizeof still.final_state);
+    const fst_run_result almost = run_ramp(0.405, 0.405 * (1 + 1e-12), 250, &r);
+    CHECK_CLOSE(greatest_difference(almost.final_state, still.final_state, FST_STATE_SIZE), 0, 1e-7);
+    assert_int_equal(r.count, PIECES);
+    CHECK_CLOSE(r.points[PIECES - 1].mean_r, still.mean_r, 1e-8);
+}
+
+/* Up and down across the loss of counter-rotation the bead remembers where it came from: between 0.095 and
+ * 0.165 it is bound to the magnet, above 0.19 it counter-rotates, whichever way it came. */
+static void test_ramp_through_the_transition(void **unused)
+{
+    (void)unused;
+    ramp up, down;
+    (void)run_ramp(0.10, 0.30, 800, &up);
+    (void)run_ramp(0.30, 0.10, 800, &down);
+    assert_int_equal(up.count, PIECES);
+    assert_int_equal(down.count, PIECES);
+    CHECK_CLOSE(up.points[0].mean_alpha_dot, up.points[0].omega, 1e-3);
+    CHECK_CLOSE(down.points[PIECES - 1].mean_alpha_dot, down.points[PIECES - 1].omega, 1e-3);
+    CHECK_WITHIN(up.points[PIECES - 1].mean_alpha_dot, -0.07, -0.05);
+    CHECK_WITHIN(down.points[0].mean_alpha_dot, -0.07, -0.05);
+}
+
+/* ------------------------------------------------------------------ bad input */
+
+static void test_bad_options(void **unused)
+{
+    (void)unused;
+    fst_params p = fst_default_params();
+    fst_run_result result;
+    fst_error error = {FST_OK, "", ""};
+    fst_run_options options;
+    memset(&options, 0, sizeof options);
+    assert_int_equal(fst_run(&p, &options, &result, &error), FST_BAD_INPUT);
+    options = fst_default_run_options();
+    options.ramp_from = 0.3;
+    assert_int_equal(fst_run(&p, &options, &result, &error), FST_BAD_INPUT);
+    options.ramp_to = -0.3;
+    assert_int_equal(fst_run(&p, &options, &result, &error), FST_BAD_INPUT);
+    options = fst_default_run_options();
+    p.start_r = 11;
+    assert_int_equal(fst_run(&p, &options, &result, &error), FST_BAD_INPUT);
+    p = fst_default_params();
+    p.run_discard = 400;
+    assert_int_equal(fst_run(&p, &options, &result, &error), FST_BAD_INPUT);
+    assert_non_null(strstr(error.sentence, "run.discard"));
+    assert_true(isnan(result.mean_r));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_table_1),
+        cmocka_unit_test(test_reference_runs),
+        cmocka_unit_test(test_errors_of_the_means),
+        cmocka_unit_test(test_means_do_not_depend_on_the_tolerance),
+        cmocka_unit_test(test_samples),
+        cmocka_unit_test(test_samples_from_half_a_turn),
+        cmocka_unit_test(test_means_and_extremes_by_brute_force),
+        cmocka_unit_test(test_interruption),
+        cmocka_unit_test(test_no_discard),
+        cmocka_unit_test(test_ramp_up_and_down),
+        cmocka_unit_test(test_ramp_at_constant_drive),
+        cmocka_unit_test(test_ramp_through_the_transition),
+        cmocka_unit_test(test_bad_options),
+    };
+    return cmocka_run_group_tests_name("run", tests, run_all, NULL);
+}
