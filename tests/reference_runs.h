@@ -14,13 +14,14 @@
 #include <festoon/festoon.h>
 
 /* The numbers that the table holds. */
+/* clang-format off */
 #define REFERENCE_LIST(X)                                                                                      \
-    X(mean_r)                                                                                                  \
-    X(std_r) X(min_r) X(max_r) X(mean_alpha_dot) X(mean_phi_dot) X(mean_nz) X(festoons) X(max_angle_deg)       \
-        X(mean_b) X(std_b) X(min_b) X(max_b) X(mean_friction_power) X(mean_drive_power)           \
-            X(tilt_deg) X(mean_load_weights) X(min_load_weights) X(max_load_weights) X(period)                 \
-                X(eq21_centrifugal) X(eq21_magnetic) X(eq21_magnetic_printed) X(eq21_friction) X(eq21_spin)    \
-                    X(eq22_magnetic) X(eq22_friction) X(mean_v_alpha) X(eq23_magnetic)
+    X(mean_r) X(std_r) X(min_r) X(max_r) X(mean_alpha_dot) X(mean_phi_dot) X(mean_nz) X(festoons)              \
+    X(max_angle_deg) X(mean_b) X(std_b) X(min_b) X(max_b) X(mean_friction_power) X(mean_drive_power)           \
+    X(tilt_deg) X(mean_load_weights) X(min_load_weights) X(max_load_weights) X(period)                         \
+    X(eq21_centrifugal) X(eq21_magnetic) X(eq21_magnetic_printed) X(eq21_friction) X(eq21_spin)                \
+    X(eq22_magnetic) X(eq22_friction) X(mean_v_alpha) X(eq23_magnetic)
+/* clang-format on */
 
 enum { REFERENCE_RUNS = 7 };
 
