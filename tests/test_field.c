@@ -1,4 +1,4 @@
-/* The magnet's field: what Maxwell, superposition and symmetry demand of it (PHYSICS: field of the lines). */
+/* The magnet's field: what Maxwell, superposition and symmetry demand of it. */
 #include "physics.h"
 
 typedef struct field_at {

@@ -218,7 +218,7 @@ static void test_starts_that_do_not_exist(void **unused)
     expect_no_start(p);
 }
 
-/* The paper's numbers in SI give the groups of PHYSICS, and moment and B0 give kappa = mu B0/(m R^2 gamma^2).
+/* The paper's numbers in SI give the published groups, and moment and B0 give kappa = mu B0/(m R^2 gamma^2).
  */
 static void test_groups(void **unused)
 {

@@ -33,7 +33,7 @@ static void table_is_consistent(void **state)
     assert_int_equal(fst_param_find("bead"), -1);
 }
 
-/* Units: PHYSICS and the header say what each kind accepts. */
+/* Units: the header says what each kind accepts. */
 static void units_are_read(void **state)
 {
     (void)state;

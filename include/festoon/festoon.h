@@ -161,7 +161,7 @@ typedef struct fst_groups {
     double h;       /* height of the bead's centre over the lines */
     double lambda;  /* spacing of the lines */
     double kappa;   /* magnetic strength; 0 for a paramagnetic bead */
-    double a, b;    /* isotropic and uniaxial magnetisability (PHYSICS of the README: materials) */
+    double a, b;    /* isotropic and uniaxial magnetisability, energy -a B^2 - b (n.B)^2 (params.def) */
     double omega;   /* drive */
     double gravity; /* g/(l gamma^2) */
     double plate_radius;
@@ -193,7 +193,8 @@ FST_API fst_status fst_start_state(const fst_params *params, const fst_model *mo
                                    double state[FST_STATE_SIZE], fst_error *error);
 
 /* The magnet's field at the height of the bead's centre, in the magnet's frame: b[3], grad[i][j] =
- * dB_i/dx_j (symmetric, traceless).  PHYSICS: a bar of `lines` lines of dipoles, each two point charges. */
+ * dB_i/dx_j (symmetric, traceless), scaled.  Paper, section Modelling: lines of dipoles, each two point
+ * charges. */
 FST_API void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
 
 /* d(state)/dt in the turning frame, at the drive omega of the model. */
@@ -240,7 +241,8 @@ FST_API fst_flow_options fst_default_flow_options(void);
 typedef struct fst_flow fst_flow;
 
 /* A trajectory from `state` at t = 0 by Dormand and Prince's method of order 8(5,3) with its 7th-order dense
- * output.  The bits of the trajectory depend on the model, the options and the state alone. */
+ * output.  The bits of the trajectory depend on the model, the options, the state and the times that
+ * it was made to land on (t_end of fst_flow_advance), and on nothing else; events do not disturb it. */
 FST_API fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
                                 const double state[FST_STATE_SIZE], fst_flow **flow, fst_error *error);
 FST_API void fst_flow_free(fst_flow *flow);

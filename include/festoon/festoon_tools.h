@@ -37,7 +37,7 @@ FST_API fst_status fst_scene_write(const char *path, const fst_params *params, i
 /* ------------------------------------------------------------------ JSON */
 
 /* One JSON document each, 17 significant digits, undefined numbers null, a newline at the end; free() it.
- * NULL: no memory.  The keys are those of CONTRACT (README, "JSON"). */
+ * NULL: no memory.  The keys are those of run.def and of params.def. */
 FST_API char *fst_run_json(const fst_params *params, const fst_run_result *result, const fst_ramp_point *ramp,
                            size_t ramp_count);
 FST_API char *fst_schema_json(void);

@@ -23,7 +23,13 @@ enum {
 
 static int turns_regularly(const fst_run_state *run)
 {
-    return !run->returns.irregular && run->returns.crossings >= LEAST_CROSSINGS;
+    if (run->returns.irregular || run->returns.crossings < LEAST_CROSSINGS)
+        return 0;
+    /* Turning that stopped within the window is not regular: the last crossing may lie two returns back. */
+    const fst_mark_series *marks = &run->section_marks;
+    const double turning = fst_twofold_difference(marks->latest.t, marks->kept[0].t);
+    const double since = fst_twofold_difference(run->flow->t, marks->latest.t);
+    return since * (double)(marks->offered - 1) <= 2.0 * turning;
 }
 
 const fst_mark_series *fst_window_of(const fst_run_state *run)

@@ -47,6 +47,9 @@ void fst_returns_step(fst_run_state *run)
     const double f_start = start[FST_X] != 0.0 && sign_of(start[FST_X]) == before ? start[FST_X] : 0.0;
     const double x =
         f_start == 0.0 ? 0.0 : fst_flow_locate(run->flow, fst_section_function, 0.0, 1.0, f_start, end[FST_X]);
+    const fst_twofold discard = {run->t_discard, 0.0};
+    if (fst_twofold_difference(fst_flow_time(run->flow, x), discard) < 0)
+        return;
     fst_mark mark;
     fst_mark_take(&mark, &run->q, run->flow, x);
     const int half = sign_of(mark.state[FST_Y]);

@@ -174,7 +174,7 @@ static fst_status one_step(fst_run_state *run, double t_limit, fst_error *error)
     fst_returns_step(run);
     watch_motion(run);
     status = push_samples(run, 1.0, error);
-    if (status == FST_OK && run->ramp_rate != 0.0)
+    if (status == FST_OK && run->is_ramp)
         status = fst_ramp_step(run, error);
     return status == FST_OK ? report_progress(run, error) : status;
 }
@@ -209,7 +209,8 @@ static void set_times(fst_run_state *run, const fst_groups *g)
     run->drive_period = TWO_PI / g->omega;
     run->t_discard = fst_discarded_periods(run->params) * run->drive_period;
     run->t_end = run->params->run_periods * run->drive_period;
-    if (isnan(o->ramp_from) || o->ramp_from == o->ramp_to)
+    run->is_ramp = !isnan(o->ramp_from);
+    if (!run->is_ramp)
         return;
     /* The discard runs at the first frequency; the rest of the periods are counted at the ramp's mean. */
     const double turns = run->params->run_periods - fst_discarded_periods(run->params);

@@ -34,7 +34,8 @@ typedef struct fst_run_state {
     int ended; /* an event ended the run: ejected or lifted */
     fst_regime end_regime;
     double end_fraction; /* where in the last step */
-    /* a ramp */
+    /* a ramp; its rate is 0 where both ends are the same */
+    int is_ramp;
     double ramp_rate;
     int ramp_piece;
     fst_mark piece_start, piece_first, piece_last; /* marks of the present piece */
