@@ -1,6 +1,14 @@
 # What the tools need (the physics in libfestoon needs the C library alone).  POSIX threads, libyaml and jansson are
 # required; HDF5 and gnuplot are optional, and a program without them says so in `festoon --version`.
 
+# libfestoon itself needs the C library alone; what seeks orbits loads LAPACK as a module.
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(LAPACKE QUIET IMPORTED_TARGET lapacke)
+set(FESTOON_HAVE_LAPACK ${LAPACKE_FOUND})
+if(NOT FESTOON_HAVE_LAPACK)
+    message(STATUS "LAPACKE not found (liblapacke-dev): festoon will seek no orbits")
+endif()
+
 set(FESTOON_HAVE_HDF5 OFF)
 if(NOT FESTOON_TOOLS)
     return()
@@ -8,7 +16,6 @@ endif()
 
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
-find_package(PkgConfig REQUIRED)
 pkg_check_modules(YAML REQUIRED IMPORTED_TARGET yaml-0.1)
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
 

@@ -30,6 +30,9 @@ if(FESTOON_TOOLS)
     endif()
 endif()
 
+if(FESTOON_HAVE_LAPACK)
+    install(TARGETS festoon_lapack_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/festoon")
+endif()
 install(TARGETS ${exported_libraries} EXPORT festoonTargets
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(EXPORT festoonTargets NAMESPACE festoon:: DESTINATION "${package_dir}")

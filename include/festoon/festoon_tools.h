@@ -48,6 +48,24 @@ FST_API char *fst_scene_json(const fst_params *params);
 /* The field at (x, y): `x`, `y`, `b` (3), `grad` (3 x 3), in the magnet's frame, scaled. */
 FST_API char *fst_field_json(const fst_model *model, double x, double y);
 
+/* `orbit`; `others` (NULL: none asked for) are further patterns with the same number of festoons. */
+FST_API char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst_orbit *others,
+                             size_t count);
+FST_API char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list);
+FST_API char *fst_branch_json(const fst_params *params, const fst_branch *branch);
+FST_API char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *lyapunov);
+
+/* The JSON of a branch as a file, whole or not at all. */
+FST_API fst_status fst_branch_write(const char *path, const fst_params *params, const fst_branch *branch,
+                                    fst_error *error);
+
+/* A branch read back from the JSON above: points and specials.  FST_BAD_INPUT: the file is none. */
+FST_API fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *error);
+
+/* Pairs (parameter, observable) from a file of one or more documents that `run --json` printed; free(*dots). */
+FST_API fst_status fst_run_dots_read(const char *path, const char *key, const char *observable, double **dots,
+                                     size_t *count, fst_error *error);
+
 /* ------------------------------------------------------------------ trajectories */
 
 /* A file that a run streams into; `format` by the ending: .h5 (HDF5, with the scene and the result inside) or
@@ -107,6 +125,13 @@ FST_API fst_figure_options fst_default_figure_options(void);
  * names the package). */
 FST_API fst_status fst_figure_trajectory(const fst_table *table, const char *out,
                                          const fst_figure_options *options, fst_error *error);
+
+/* Draw a branch: `observable` ("mean_r", "mean_alpha_dot", "mean_nz", "festoons", "min_r", "period") over the
+ * parameter, stable parts solid, unstable ones dashed, special points labelled, `dots` (pairs of abscissa and
+ * ordinate, may be NULL) on top; or, with "multipliers", the multipliers in the complex plane with the unit
+ * circle. */
+FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *observable, const double *dots,
+                                     size_t dot_count, const char *out, fst_error *error);
 
 /* The map of the magnet's field on the plane of the bead's centre (the paper's Fig. portrait). */
 FST_API fst_status fst_figure_field(const fst_params *params, const char *out, fst_error *error);

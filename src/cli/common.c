@@ -49,6 +49,7 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
         if (status != FST_OK)
             return status;
     }
+    params->run_discard = fst_run_discard(params); /* what is echoed is what is done */
     return FST_OK;
 }
 

@@ -1,4 +1,5 @@
 /* plot.c - festoon plot: figures of a trajectory. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/command.h"
@@ -24,6 +25,9 @@ static const option options[] = {
     {"from", '\0', "P", "first drive period shown"},
     {"to", '\0', "P", "last drive period shown"},
     {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
+    {"observable", '\0', "NAME",
+     "of a branch: mean_r, mean_alpha_dot, mean_nz, festoons, min_r, period, multipliers"},
+    {"runs", '\0', "FILE", "dots over a branch, from documents of festoon run --json"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -84,6 +88,35 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     return status;
 }
 
+/* A branch is a JSON file. */
+static int is_branch(const char *path)
+{
+    const size_t length = strlen(path);
+    return length > 5 && strcmp(path + length - 5, ".json") == 0;
+}
+
+static fst_status plot_branch(const arguments *given, const char *path, const char *to, fst_error *error)
+{
+    fst_branch branch;
+    const char *observable = option_value(given, "observable"), *runs = option_value(given, "runs");
+    double *dots = NULL;
+    size_t dot_count = 0;
+    if (!observable)
+        observable = "mean_r";
+    fst_status status = fst_branch_read(path, &branch, error);
+    if (status != FST_OK)
+        return status;
+    if (runs)
+        status = fst_run_dots_read(runs, branch.key, observable, &dots, &dot_count, error);
+    if (status == FST_OK)
+        status = fst_figure_branch(&branch, observable, dots, dot_count, to, error);
+    if (status == FST_OK)
+        (void)fprintf(stderr, "wrote %s\n", to);
+    free(dots);
+    fst_branch_free(&branch);
+    return status;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     (void)out;
@@ -94,6 +127,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "tell where the figure goes: -o FIG.svg");
+    if (is_branch(path))
+        return plot_branch(given, path, to, error);
     fst_status status = read_figure(given, &figure, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);
@@ -108,8 +143,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command plot_command = {
     .name = "plot",
-    .synopsis = "FILE.(h5|csv) -o FIG.(svg|pdf|png) [options]",
-    .summary = "Draw a trajectory that run -o or run --csv wrote",
+    .synopsis = "FILE.(h5|csv|json) -o FIG.(svg|pdf|png) [options]",
+    .summary = "Draw a trajectory of run -o or run --csv, or a branch of branch -o",
     .details = "",
     .options = options,
     .most_operands = 1,

@@ -6,9 +6,9 @@
 #include <string.h>
 
 #include "io/json.h"
+#include "io/json_parts.h"
 
-/* JSON has no NaN and no infinity. */
-static json_t *number(double value)
+json_t *fst_json_number(double value)
 {
     return isfinite(value) ? json_real(value) : json_null();
 }
@@ -23,8 +23,7 @@ static json_t *count_of(uint64_t value)
     return json_integer((json_int_t)value);
 }
 
-/* The parameters by key, in SI; what was not given, or is overridden by its other form, is null. */
-static json_t *scene_object(const fst_params *params)
+json_t *fst_json_scene(const fst_params *params)
 {
     json_t *scene = json_object();
     for (int i = 0; i < fst_param_count(); i++) {
@@ -38,7 +37,7 @@ static json_t *scene_object(const fst_params *params)
             value = json_null();
         } else if (info->kind == FST_KIND_REAL) {
             memcpy(&real, (const char *)params + info->offset, sizeof real);
-            value = number(real);
+            value = fst_json_number(real);
         } else {
             value = info->kind == FST_KIND_INT ? json_integer(integer) : json_string(text);
         }
@@ -74,16 +73,16 @@ static json_t *groups_object(const fst_params *params)
         {"field_unit_t", g.field_unit},
     };
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
-        json_object_set_new(groups, numbers[i].name, number(numbers[i].value));
+        json_object_set_new(groups, numbers[i].name, fst_json_number(numbers[i].value));
     json_object_set_new(groups, "lines", json_integer(g.lines));
     return groups;
 }
 
-static json_t *number_array(const double *values, int count)
+json_t *fst_json_numbers(const double *values, int count)
 {
     json_t *array = json_array();
     for (int i = 0; i < count; i++)
-        json_array_append_new(array, number(values[i]));
+        json_array_append_new(array, fst_json_number(values[i]));
     return array;
 }
 
@@ -92,13 +91,13 @@ static json_t *ramp_array(const fst_ramp_point *ramp, size_t count)
     json_t *array = json_array();
     for (size_t i = 0; i < count; i++) {
         json_t *point = json_object();
-        json_object_set_new(point, "omega", number(ramp[i].omega));
-        json_object_set_new(point, "frequency_hz", number(ramp[i].frequency_hz));
-        json_object_set_new(point, "mean_r", number(ramp[i].mean_r));
-        json_object_set_new(point, "std_r", number(ramp[i].std_r));
-        json_object_set_new(point, "mean_alpha_dot", number(ramp[i].mean_alpha_dot));
-        json_object_set_new(point, "mean_phi_dot", number(ramp[i].mean_phi_dot));
-        json_object_set_new(point, "mean_nz", number(ramp[i].mean_nz));
+        json_object_set_new(point, "omega", fst_json_number(ramp[i].omega));
+        json_object_set_new(point, "frequency_hz", fst_json_number(ramp[i].frequency_hz));
+        json_object_set_new(point, "mean_r", fst_json_number(ramp[i].mean_r));
+        json_object_set_new(point, "std_r", fst_json_number(ramp[i].std_r));
+        json_object_set_new(point, "mean_alpha_dot", fst_json_number(ramp[i].mean_alpha_dot));
+        json_object_set_new(point, "mean_phi_dot", fst_json_number(ramp[i].mean_phi_dot));
+        json_object_set_new(point, "mean_nz", fst_json_number(ramp[i].mean_nz));
         json_array_append_new(array, point);
     }
     return array;
@@ -110,8 +109,7 @@ static const char *choice_text(const fst_params *params, const char *key, char *
     return text;
 }
 
-/* The text of a document, with a newline at its end; takes the reference. */
-static char *dump(json_t *document, size_t flags)
+char *fst_json_dump(json_t *document, size_t flags)
 {
     char *text = document ? json_dumps(document, flags | JSON_REAL_PRECISION(17)) : NULL;
     json_decref(document);
@@ -127,7 +125,7 @@ static char *dump(json_t *document, size_t flags)
     return longer;
 }
 
-static json_t *run_object(const fst_params *params, const fst_run_result *result)
+json_t *fst_json_run(const fst_params *params, const fst_run_result *result)
 {
     char dynamics[48];
     json_t *run = json_object();
@@ -140,19 +138,19 @@ static json_t *run_object(const fst_params *params, const fst_run_result *result
         const fst_result_info *info = fst_result_at(i);
         double value;
         memcpy(&value, (const char *)result + info->offset, sizeof value);
-        json_object_set_new(run, info->name, number(value));
+        json_object_set_new(run, info->name, fst_json_number(value));
     }
     json_object_set_new(run, "returns", json_integer(result->returns));
     json_object_set_new(run, "rhs_calls", count_of(result->rhs_calls));
     json_object_set_new(run, "steps_accepted", count_of(result->accepted));
     json_object_set_new(run, "steps_rejected", count_of(result->rejected));
-    json_object_set_new(run, "final_state", number_array(result->final_state, FST_STATE_SIZE));
+    json_object_set_new(run, "final_state", fst_json_numbers(result->final_state, FST_STATE_SIZE));
     return run;
 }
 
 char *fst_result_line(const fst_params *params, const fst_run_result *result)
 {
-    char *text = dump(run_object(params, result), JSON_COMPACT);
+    char *text = fst_json_dump(fst_json_run(params, result), JSON_COMPACT);
     if (text)
         text[strlen(text) - 1] = '\0';
     return text;
@@ -161,21 +159,21 @@ char *fst_result_line(const fst_params *params, const fst_run_result *result)
 char *fst_run_json(const fst_params *params, const fst_run_result *result, const fst_ramp_point *ramp,
                    size_t ramp_count)
 {
-    json_t *run = run_object(params, result);
+    json_t *run = fst_json_run(params, result);
     json_object_set_new(run, "groups", groups_object(params));
-    json_object_set_new(run, "scene", scene_object(params));
+    json_object_set_new(run, "scene", fst_json_scene(params));
     if (ramp_count)
         json_object_set_new(run, "ramp", ramp_array(ramp, ramp_count));
     json_object_set_new(run, "version", json_string(fst_version()));
-    return dump(run, JSON_INDENT(2));
+    return fst_json_dump(run, JSON_INDENT(2));
 }
 
 char *fst_scene_json(const fst_params *params)
 {
     json_t *document = json_object();
-    json_object_set_new(document, "scene", scene_object(params));
+    json_object_set_new(document, "scene", fst_json_scene(params));
     json_object_set_new(document, "groups", groups_object(params));
-    return dump(document, JSON_INDENT(2));
+    return fst_json_dump(document, JSON_INDENT(2));
 }
 
 char *fst_field_json(const fst_model *model, double x, double y)
@@ -183,13 +181,13 @@ char *fst_field_json(const fst_model *model, double x, double y)
     double b[3], grad[3][3];
     fst_field(model, x, y, b, grad);
     json_t *document = json_object(), *rows = json_array();
-    json_object_set_new(document, "x", number(x));
-    json_object_set_new(document, "y", number(y));
-    json_object_set_new(document, "b", number_array(b, 3));
+    json_object_set_new(document, "x", fst_json_number(x));
+    json_object_set_new(document, "y", fst_json_number(y));
+    json_object_set_new(document, "b", fst_json_numbers(b, 3));
     for (int i = 0; i < 3; i++)
-        json_array_append_new(rows, number_array(grad[i], 3));
+        json_array_append_new(rows, fst_json_numbers(grad[i], 3));
     json_object_set_new(document, "grad", rows);
-    return dump(document, JSON_INDENT(2));
+    return fst_json_dump(document, JSON_INDENT(2));
 }
 
 char *fst_schema_json(void)
@@ -210,9 +208,9 @@ char *fst_schema_json(void)
         json_object_set_new(row, "default",
                             choice    ? json_string(text)
                             : integer ? json_integer((json_int_t)info->initial)
-                                      : number(info->initial));
-        json_object_set_new(row, "min", choice ? json_null() : number(info->least));
-        json_object_set_new(row, "max", choice ? json_null() : number(info->greatest));
+                                      : fst_json_number(info->initial));
+        json_object_set_new(row, "min", choice ? json_null() : fst_json_number(info->least));
+        json_object_set_new(row, "max", choice ? json_null() : fst_json_number(info->greatest));
         json_object_set_new(row, "doc", json_string(info->doc));
         json_t *names = choice ? json_array() : json_null();
         for (const char *name = choice ? info->names : ""; *name; name += strspn(name, "|")) {
@@ -224,5 +222,5 @@ char *fst_schema_json(void)
         json_object_set_new(row, "other_form", text_or_null(fst_param_other_form(info->key)));
         json_array_append_new(schema, row);
     }
-    return dump(schema, JSON_INDENT(2));
+    return fst_json_dump(schema, JSON_INDENT(2));
 }

@@ -36,10 +36,12 @@ static void set_geometry(const fst_params *p, fst_groups *g)
     g->eps = isnan(p->model_eps) ? p->bead_radius / l : p->model_eps;
     g->h = isnan(p->model_h) ? (p->magnet_depth + p->bead_radius) / l : p->model_h;
     g->lines = p->magnet_lines;
-    if (!isnan(p->model_lambda))
+    if (p->magnet_lines == 1)
+        g->lambda = 0.0;
+    else if (!isnan(p->model_lambda))
         g->lambda = p->model_lambda;
     else
-        g->lambda = p->magnet_lines > 1 ? p->magnet_width / ((p->magnet_lines - 1) * l) : 0.0;
+        g->lambda = p->magnet_width / ((p->magnet_lines - 1) * l);
 }
 
 fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)

@@ -310,7 +310,7 @@ static fst_status validate_row(const fst_params *params, const fst_param_info *r
     return out_of_range(row, shown, error);
 }
 
-double fst_discarded_periods(const fst_params *params)
+double fst_run_discard(const fst_params *params)
 {
     static const double unless_told = 200.0;
     const int short_run = params->run_discard == unless_told && params->run_periods <= unless_told;
@@ -327,7 +327,7 @@ fst_status fst_params_validate(const fst_params *params, fst_error *error)
         if (status != FST_OK)
             return status;
     }
-    if (!(fst_discarded_periods(params) < params->run_periods))
+    if (!(fst_run_discard(params) < params->run_periods))
         return fst_fail(error, FST_BAD_INPUT, "run.discard",
                         "run.discard = %g leaves nothing of run.periods = %g: make run.periods larger or "
                         "run.discard smaller",

@@ -8,12 +8,9 @@
 #define FST_PARAMS_COOKIE 0xfe570001u
 #define FST_FLOW_OPTIONS_COOKIE 0xfe570002u
 #define FST_RUN_OPTIONS_COOKIE 0xfe570003u
+#define FST_BRANCH_OPTIONS_COOKIE 0xfe570004u
 
 /* The cookie, every value's range, and the ranges between values (run.discard < run.periods, ...). */
 fst_status fst_params_validate(const fst_params *params, fst_error *error);
-
-/* Drive periods that a run discards: run.discard, but of a run of up to 200 periods, with the discard left at
- * its default of 200, the first half. */
-double fst_discarded_periods(const fst_params *params);
 
 #endif

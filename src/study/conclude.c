@@ -78,28 +78,41 @@ void fst_means_between(const fst_run_state *run, const fst_mark *first, const fs
     means->mean_nz = mean(first, last, FST_Q_N_Z);
 }
 
-/* Standard error of a mean from the blocks between the kept marks, but no less than the integration's
- * tolerance; `pick` is the block's mean. */
+/* Error of a mean whose blocks drift the same way: the distance to where a geometric series through the means
+ * of the window's thirds would end. 0 where there is no such drift. */
+static double drift_error(const double *blocks, int count, double mean_value)
+{
+    const int third = count / 3;
+    double sums[3] = {0, 0, 0};
+    for (int i = 0; i < 3 * third; ++i)
+        sums[i / third] += (blocks[i] - mean_value) / third;
+    const double first_step = sums[1] - sums[0], second_step = sums[2] - sums[1];
+    if (third < 1 || !(first_step * second_step > 0))
+        return 0.0;
+    const double ratio = fmin(second_step / first_step, 0.995); /* 1 and above: it does not say where it ends */
+    return fabs(sums[2] + second_step * ratio / (1.0 - ratio));
+}
+
+/* Error of a mean from the blocks between the kept marks: their scatter, or what is left of a drift, or the
+ * integration's tolerance, whichever is largest; `pick` is the block's mean. */
 static double standard_error(const fst_run_state *run, const fst_mark_series *series,
                              double (*pick)(const fst_ramp_point *))
 {
-    const int blocks = series->count - 1;
-    if (blocks < 2)
+    const int count = series->count - 1;
+    if (count < 2)
         return NAN;
-    double sum = 0.0, sum2 = 0.0, first = 0.0;
-    for (int i = 0; i < blocks; ++i) {
+    double blocks[FST_MARKS], sum = 0.0, sum2 = 0.0;
+    for (int i = 0; i < count; ++i) {
         fst_ramp_point means;
         fst_means_between(run, &series->kept[i], &series->kept[i + 1], &means);
-        if (i == 0)
-            first = pick(&means);
-        const double d = pick(&means) - first;
-        sum += d;
-        sum2 += d * d;
+        blocks[i] = pick(&means);
+        sum += blocks[i] - blocks[0];
+        sum2 += (blocks[i] - blocks[0]) * (blocks[i] - blocks[0]);
     }
-    const double variance = (sum2 - sum * sum / blocks) / (blocks - 1);
-    const double error = variance > 0 ? sqrt(variance / blocks) : 0.0;
-    const double floor = run->params->run_rtol * fabs(first + sum / blocks);
-    return error > floor ? error : floor;
+    const double variance = (sum2 - sum * sum / count) / (count - 1), mean_value = blocks[0] + sum / count;
+    const double scatter = variance > 0 ? sqrt(variance / count) : 0.0;
+    return fmax(fmax(scatter, drift_error(blocks, count, mean_value)),
+                run->params->run_rtol * fabs(mean_value));
 }
 
 static double pick_r(const fst_ramp_point *p)
@@ -263,6 +276,12 @@ static void fill_end(fst_run_state *run, fst_run_result *result)
     result->rhs_calls += flow->rhs_calls;
 }
 
+void fst_fill_window(const fst_run_state *run, const fst_mark_series *series, fst_run_result *result)
+{
+    fill_means(run, series, result);
+    fill_extremes(run, result);
+}
+
 fst_status fst_run_conclude(fst_run_state *run, fst_run_result *result, fst_error *error)
 {
     fill_end(run, result);
@@ -291,8 +310,7 @@ fst_status fst_run_conclude(fst_run_state *run, fst_run_result *result, fst_erro
             run->params->run_periods, run->t_discard / run->drive_period);
         return FST_OK;
     }
-    fill_means(run, series, result);
-    fill_extremes(run, result);
+    fst_fill_window(run, series, result);
     result->returns = run->returns.crossings;
     const fst_status status = fst_decide_regime(run, result, error);
     if (status != FST_OK)

@@ -69,6 +69,16 @@ static void set_direction(fst_run_result *result)
         result->regime = result->mean_alpha_dot < 0 ? FST_REGIME_COUNTER_ROTATING : FST_REGIME_COROTATING;
 }
 
+/* The distances of successive returns fall from mark to mark over the second half of the window. */
+static int is_closing(const fst_mark_series *marks)
+{
+    const int from = marks->count / 2;
+    for (int i = from; i + 1 < marks->count; ++i)
+        if (!(marks->kept[i + 1].full_distance < marks->kept[i].full_distance))
+            return 0;
+    return marks->count - from >= 4;
+}
+
 /* Phi turns regularly: which orbit closes, or is it chaotic, or open? */
 static fst_status decide_turning(fst_run_state *run, fst_run_result *result, fst_error *error)
 {
@@ -89,7 +99,8 @@ static fst_status decide_turning(fst_run_state *run, fst_run_result *result, fst
         return FST_OK;
     }
     if (full < CLOSED ||
-        (full < RELAXING && (half < 0.5 * middle->half_distance || full < 0.5 * middle->full_distance))) {
+        (full < RELAXING && (half < 0.5 * middle->half_distance || full < 0.5 * middle->full_distance ||
+                             is_closing(&run->section_marks)))) {
         REASON("Phi turns regularly and the orbit is still closing: half returns differ by %.2g, in the middle "
                "of the "
                "window by %.2g; whole ones by %.2g, %.2g; for the symmetry run longer",

@@ -80,8 +80,8 @@ static fst_status push_samples(fst_run_state *run, double until, fst_error *erro
     for (;;) {
         const fst_twofold t = fst_twofold_times(period, (double)run->next_sample / run->params->run_samples);
         double x = run->flow->has_step ? fst_flow_fraction(run->flow, t) : (t.high == 0.0 ? 1.0 : 2.0);
-        const double slack = run->flow->has_step ? 1e-12 : 0.0;
-        if (x > until + (until == 1.0 ? slack : 0.0) || t.high > run->t_end * (1.0 + 1e-15))
+        const double slack = run->flow->has_step ? 1e-9 : 0.0; /* the rounding of times over a short step */
+        if (x > until + (until == 1.0 ? slack : 0.0) || t.high > run->t_end * (1.0 + 1e-12))
             return FST_OK;
         if (x > 1.0 - slack)
             x = 1.0;
@@ -207,13 +207,13 @@ static void set_times(fst_run_state *run, const fst_groups *g)
 {
     const fst_run_options *o = run->options;
     run->drive_period = TWO_PI / g->omega;
-    run->t_discard = fst_discarded_periods(run->params) * run->drive_period;
+    run->t_discard = fst_run_discard(run->params) * run->drive_period;
     run->t_end = run->params->run_periods * run->drive_period;
     run->is_ramp = !isnan(o->ramp_from);
     if (!run->is_ramp)
         return;
     /* The discard runs at the first frequency; the rest of the periods are counted at the ramp's mean. */
-    const double turns = run->params->run_periods - fst_discarded_periods(run->params);
+    const double turns = run->params->run_periods - fst_run_discard(run->params);
     const double duration = turns * TWO_PI / (0.5 * (o->ramp_from + o->ramp_to));
     run->ramp_rate = (o->ramp_to - o->ramp_from) / duration;
     run->t_end = run->t_discard + duration;

@@ -49,6 +49,9 @@ void fst_returns_step(fst_run_state *run);
  * criteria. */
 fst_status fst_run_conclude(fst_run_state *run, fst_run_result *result, fst_error *error);
 
+/* Means between the first and the latest mark of a series, and the extremes met. */
+void fst_fill_window(const fst_run_state *run, const fst_mark_series *series, fst_run_result *result);
+
 /* Every number of a result set to NAN, the rest to zero. */
 void fst_result_clear(fst_run_result *result);
 

@@ -1,0 +1,59 @@
+/* locked.c - festoon locked: every state in which the bead goes round with the magnet. */
+#include "cli/command.h"
+
+static const option options[] = {
+    SCENE_OPTIONS,
+    JSON_OPTION,
+    {NULL, '\0', NULL, NULL},
+};
+
+static void print_list(FILE *out, double omega, const fst_locked_list *list)
+{
+    (void)fprintf(out, "omega = %.10g: %zu locked states from %d starts, sum of indices %d\n\n", omega,
+                  list->count, list->starts, list->index_sum);
+    (void)fprintf(out, "%14s %10s  %26s  %28s %12s %12s\n", "r (l)", "Phi (deg)", "n", "W (gamma)",
+                  "slip (l gamma)", "max Re");
+    for (size_t i = 0; i < list->count; i++) {
+        const fst_locked *l = &list->states[i];
+        double greatest = l->eigenvalue_re[0];
+        for (int k = 1; k < FST_EIGENVALUE_COUNT; k++)
+            greatest = fmax(greatest, l->eigenvalue_re[k]);
+        (void)fprintf(out, "%14.10f %10.4f  %8.5f %8.5f %8.5f  %9.5f %9.5f %9.5f %12.6g %12.5g  %s\n", l->r,
+                      l->phi_deg, l->state[FST_NX], l->state[FST_NY], l->state[FST_NZ], l->state[FST_WX],
+                      l->state[FST_WY], l->state[FST_WZ], l->slip, greatest, l->stable ? "stable" : "");
+    }
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_params params;
+    fst_locked_list list;
+    fst_model *model = NULL;
+    fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK)
+        status = fst_model_new(&params, &model, error);
+    if (status == FST_OK)
+        status = fst_locked_find(&params, &list, error);
+    if (status == FST_OK) {
+        const double omega = fst_model_groups(model).omega;
+        if (option_value(given, "json"))
+            status = print_and_free(fst_locked_json(&params, omega, &list), out, error);
+        else
+            print_list(out, omega, &list);
+        fst_locked_free(&list);
+    }
+    fst_model_free(model);
+    return status;
+}
+
+const command locked_command = {
+    .name = "locked",
+    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json]",
+    .summary = "Every equilibrium of the turning frame: the bead goes round with the magnet",
+    .details =
+        "Vectors are inertial, in components along the magnet's axes.  The list comes from many starts of\n"
+        "Newton's method; docs/orbits.md tells why it is believed to be complete.\n",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

@@ -1,0 +1,48 @@
+/* lyapunov.c - festoon lyapunov: the spectrum of Lyapunov exponents of a motion. */
+#include "cli/command.h"
+
+static const option options[] = {
+    SCENE_OPTIONS,
+    JSON_OPTION,
+    {NULL, '\0', NULL, NULL},
+};
+
+static void print_spectrum(FILE *out, const fst_lyapunov *l)
+{
+    (void)fprintf(out, "Lyapunov exponents over %.6g/gamma: %s\n", l->time,
+                  l->converged ? "converged" : "undecided, take a longer run.periods");
+    double sum = 0.0;
+    for (int i = 0; i < FST_EIGENVALUE_COUNT; i++) {
+        sum += l->exponents[i];
+        (void)fprintf(out, "  %14.9f +- %.2g%s\n", l->exponents[i], l->errors[i],
+                      i == l->flow_direction ? "   (the flow direction: zero)" : "");
+    }
+    (void)fprintf(out, "  sum %.9f, mean divergence of the flow %.9f\n", sum, l->divergence);
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_params params;
+    fst_lyapunov spectrum;
+    fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK)
+        status = fst_lyapunov_find(&params, &spectrum, error);
+    if (status != FST_OK)
+        return status;
+    if (option_value(given, "json"))
+        return print_and_free(fst_lyapunov_json(&params, &spectrum), out, error);
+    print_spectrum(out, &spectrum);
+    return FST_OK;
+}
+
+const command lyapunov_command = {
+    .name = "lyapunov",
+    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json]",
+    .summary = "The spectrum of Lyapunov exponents of the motion from the start",
+    .details =
+        "run.discard drive periods are left out, the rest of run.periods is averaged over.  Errors come from\n"
+        "16 blocks; \"converged\" means that every sign is decided.\n",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

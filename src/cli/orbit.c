@@ -1,0 +1,94 @@
+/* orbit.c - festoon orbit: the periodic orbit that a start leads to, or that has so many festoons. */
+#include "cli/command.h"
+
+static const option options[] = {
+    SCENE_OPTIONS,
+    JSON_OPTION,
+    {"festoons", '\0', "N", "the stable pattern that closes in the laboratory after N festoons"},
+    {NULL, '\0', NULL, NULL},
+};
+
+static const char *kind_of(const fst_orbit *orbit)
+{
+    return orbit->turns == 0                 ? "librates: the bead swings about a direction of the magnet"
+           : orbit->means.mean_alpha_dot < 0 ? "counter-rotates"
+                                             : "corotates";
+}
+
+static void print_orbit(FILE *out, const fst_orbit *o)
+{
+    const fst_run_result *m = &o->means;
+    const char *symmetry = fst_symmetry_name(o->symmetry);
+    (void)fprintf(out, "omega = %.12g (%.9g Hz): %s%s%s, %s\n", m->omega, m->frequency_hz, kind_of(o),
+                  symmetry ? ", symmetry " : "", symmetry ? symmetry : "", o->stable ? "stable" : "unstable");
+    if (o->turns != 0)
+        (void)fprintf(out, "  festoons N                %.12g\n", m->festoons);
+    (void)fprintf(out,
+                  "  period                    %.12g 1/gamma\n"
+                  "  <r>, delta r              %.12g, %.12g l\n"
+                  "  r from, to                %.12g, %.12g l\n"
+                  "  <alpha'>                  %.12g gamma\n"
+                  "  <n_z>                     %.12g\n"
+                  "  greatest angle(n, B)      %.10g degrees\n"
+                  "  tilt of the plane of n    %.10g degrees\n",
+                  m->period, m->mean_r, m->std_r, m->min_r, m->max_r, m->mean_alpha_dot, m->mean_nz,
+                  m->max_angle_deg, m->tilt_deg);
+    if (m->min_load_weights <= 0)
+        (void)fprintf(out, "  the normal load vanishes on it (least %.4g weights): the bead would lift off\n",
+                      m->min_load_weights);
+    (void)fprintf(out, "  multipliers of the %s map:", o->symmetry == FST_SYMMETRY_S2 ? "half" : "full");
+    for (int i = 0; i < FST_MULTIPLIER_COUNT; i++)
+        (void)fprintf(out, " %.4g%s%.4gi", o->multiplier_re[i], o->multiplier_im[i] < 0 ? "-" : "+",
+                      fabs(o->multiplier_im[i]));
+    (void)fprintf(out, "\n  residual %.2g, flow direction mapped onto itself to %.2g\n", o->residual,
+                  o->trivial_error);
+}
+
+static fst_status with_festoons(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
+{
+    double wanted;
+    fst_festoon_list list;
+    fst_status status = read_numbers("--festoons", option_value(given, "festoons"), &wanted, 1, error);
+    if (status == FST_OK)
+        status = fst_festoons_find(params, wanted, &list, error);
+    if (status != FST_OK)
+        return status;
+    if (option_value(given, "json"))
+        status = print_and_free(fst_orbit_json(params, &list.orbits[0], list.orbits + 1, list.count - 1), out,
+                                error);
+    else
+        for (size_t i = 0; i < list.count; i++)
+            print_orbit(out, &list.orbits[i]);
+    fst_festoons_free(&list);
+    return status;
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_params params;
+    fst_orbit orbit;
+    fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK && option_value(given, "festoons"))
+        return with_festoons(given, &params, out, error);
+    if (status == FST_OK)
+        status = fst_orbit_find(&params, &orbit, error);
+    if (status != FST_OK)
+        return status;
+    if (option_value(given, "json"))
+        return print_and_free(fst_orbit_json(&params, &orbit, NULL, 0), out, error);
+    print_orbit(out, &orbit);
+    return FST_OK;
+}
+
+const command orbit_command = {
+    .name = "orbit",
+    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--festoons N] [--json]",
+    .summary = "The periodic orbit that the start leads to, exactly, with its multipliers",
+    .details =
+        "The bead is followed until its returns come close; Newton's method finds the orbit.  With --festoons\n"
+        "the drive is solved for: the lowest omega at which a stable pattern closes after N festoons, and the\n"
+        "others.  docs/orbits.md tells how.\n",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

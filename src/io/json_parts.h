@@ -1,0 +1,21 @@
+/* json_parts.h - pieces of JSON documents, for the files of this room that make them. */
+#ifndef FST_IO_JSON_PARTS_H
+#define FST_IO_JSON_PARTS_H
+
+#include <festoon/festoon.h>
+#include <jansson.h>
+
+/* null where the value is not finite: JSON has no NaN and no infinity. */
+json_t *fst_json_number(double value);
+json_t *fst_json_numbers(const double *values, int count);
+
+/* The parameters by key, in SI; what was not given, or is overridden by its other form, is null. */
+json_t *fst_json_scene(const fst_params *params);
+
+/* The numbers of a run. */
+json_t *fst_json_run(const fst_params *params, const fst_run_result *result);
+
+/* The text of a document, with a newline at its end; takes the reference. */
+char *fst_json_dump(json_t *document, size_t flags);
+
+#endif

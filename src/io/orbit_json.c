@@ -1,0 +1,339 @@
+/* orbit_json.c - orbits, equilibria, branches and exponents as JSON, and branches read back. */
+#include <festoon/festoon_tools.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/whole_file.h"
+#include "io/json_parts.h"
+
+enum { INDENT = 2 };
+
+static json_t *pairs(const double *re, const double *im, int count)
+{
+    json_t *array = json_array();
+    for (int i = 0; i < count; i++) {
+        const double pair[2] = {re[i], im[i]};
+        json_array_append_new(array, fst_json_numbers(pair, 2));
+    }
+    return array;
+}
+
+static json_t *symmetry_of(fst_symmetry symmetry)
+{
+    const char *name = fst_symmetry_name(symmetry);
+    return name ? json_string(name) : json_null();
+}
+
+static json_t *orbit_object(const fst_params *params, const fst_orbit *orbit)
+{
+    json_t *object = fst_json_run(params, &orbit->means);
+    /* What speaks of a run and its length does not apply. */
+    static const char *const of_runs[] = {"reason",        "returns",          "rhs_calls",
+                                          "accepted",      "rejected",         "final_state",
+                                          "periods",       "window_periods",   "end_time",
+                                          "norm_drift",    "mean_r_error",     "mean_alpha_dot_error",
+                                          "mean_nz_error", "largest_exponent", "largest_exponent_error",
+                                          "ramp"};
+    for (size_t i = 0; i < sizeof of_runs / sizeof *of_runs; i++)
+        (void)json_object_del(object, of_runs[i]);
+    json_object_set_new(object, "symmetry", symmetry_of(orbit->symmetry));
+    json_object_set_new(object, "period", fst_json_number(orbit->means.period));
+    json_object_set_new(object, "turns", json_integer(orbit->turns));
+    json_object_set_new(object, "multipliers",
+                        pairs(orbit->multiplier_re, orbit->multiplier_im, FST_MULTIPLIER_COUNT));
+    json_object_set_new(object, "stable", json_boolean(orbit->stable));
+    json_object_set_new(object, "residual", fst_json_number(orbit->residual));
+    json_object_set_new(object, "trivial_multiplier_error", fst_json_number(orbit->trivial_error));
+    json_object_set_new(object, "state", fst_json_numbers(orbit->state, FST_STATE_SIZE));
+    return object;
+}
+
+char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst_orbit *others, size_t count)
+{
+    json_t *object = orbit_object(params, orbit);
+    if (others) {
+        json_t *array = json_array();
+        for (size_t i = 0; i < count; i++)
+            json_array_append_new(array, orbit_object(params, &others[i]));
+        json_object_set_new(object, "others", array);
+    }
+    json_object_set_new(object, "scene", fst_json_scene(params));
+    return fst_json_dump(object, JSON_INDENT(INDENT));
+}
+
+char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list)
+{
+    json_t *states = json_array();
+    for (size_t i = 0; i < list->count; i++) {
+        const fst_locked *l = &list->states[i];
+        json_t *state = json_object();
+        json_object_set_new(state, "r", fst_json_number(l->r));
+        json_object_set_new(state, "phi_deg", fst_json_number(l->phi_deg));
+        json_object_set_new(state, "n", fst_json_numbers(l->state + FST_NX, 3));
+        json_object_set_new(state, "w", fst_json_numbers(l->state + FST_WX, 3));
+        json_object_set_new(state, "eigenvalues",
+                            pairs(l->eigenvalue_re, l->eigenvalue_im, FST_EIGENVALUE_COUNT));
+        json_object_set_new(state, "stable", json_boolean(l->stable));
+        json_object_set_new(state, "slip", fst_json_number(l->slip));
+        json_object_set_new(state, "friction_power", fst_json_number(l->friction_power));
+        json_object_set_new(state, "residual", fst_json_number(l->residual));
+        json_object_set_new(state, "found", json_integer(l->found));
+        json_object_set_new(state, "state", fst_json_numbers(l->state, FST_STATE_SIZE));
+        json_array_append_new(states, state);
+    }
+    json_t *object = json_object();
+    json_object_set_new(object, "omega", fst_json_number(omega));
+    json_object_set_new(object, "states", states);
+    json_object_set_new(object, "starts", json_integer(list->starts));
+    json_object_set_new(object, "index_sum", json_integer(list->index_sum));
+    json_object_set_new(object, "scene", fst_json_scene(params));
+    return fst_json_dump(object, JSON_INDENT(INDENT));
+}
+
+/* The numbers of a point under their keys, for writing and reading. */
+static const struct {
+    const char *key;
+    size_t offset;
+} NUMBERS[] = {
+    {"value", offsetof(fst_branch_point, value)},
+    {"omega", offsetof(fst_branch_point, omega)},
+    {"mean_r", offsetof(fst_branch_point, mean_r)},
+    {"mean_alpha_dot", offsetof(fst_branch_point, mean_alpha_dot)},
+    {"mean_nz", offsetof(fst_branch_point, mean_nz)},
+    {"festoons", offsetof(fst_branch_point, festoons)},
+    {"period", offsetof(fst_branch_point, period)},
+    {"min_r", offsetof(fst_branch_point, min_r)},
+    {"phi_deg", offsetof(fst_branch_point, phi_deg)},
+    {"slip", offsetof(fst_branch_point, slip)},
+};
+enum { NUMBER_COUNT = sizeof NUMBERS / sizeof *NUMBERS };
+
+static json_t *point_object(const fst_branch_point *p)
+{
+    json_t *object = json_object();
+    for (int i = 0; i < NUMBER_COUNT; i++) {
+        double value;
+        memcpy(&value, (const char *)p + NUMBERS[i].offset, sizeof value);
+        json_object_set_new(object, NUMBERS[i].key, fst_json_number(value));
+    }
+    json_object_set_new(object, "symmetry", symmetry_of(p->symmetry));
+    json_object_set_new(object, "stable", json_boolean(p->stable));
+    json_object_set_new(object, "turns", json_integer(p->turns));
+    json_object_set_new(object, "branch", json_integer(p->branch));
+    json_object_set_new(object, p->multipliers == FST_EIGENVALUE_COUNT ? "eigenvalues" : "multipliers",
+                        pairs(p->multiplier_re, p->multiplier_im, p->multipliers));
+    json_object_set_new(object, "state", fst_json_numbers(p->state, FST_STATE_SIZE));
+    return object;
+}
+
+static json_t *special_object(const fst_branch *branch, const fst_special *s)
+{
+    json_t *object = json_object();
+    json_object_set_new(object, "type", json_string(fst_special_name(s->type)));
+    json_object_set_new(object, "parameter", json_string(branch->key));
+    json_object_set_new(object, "value", fst_json_number(s->value));
+    json_object_set_new(object, "omega", fst_json_number(s->omega));
+    json_object_set_new(object, "branch", json_integer(s->branch));
+    json_object_set_new(object, "criticality",
+                        s->criticality ? json_string(s->criticality > 0 ? "supercritical" : "subcritical")
+                                       : json_null());
+    json_object_set_new(object, "born", s->born >= 0 ? json_integer(s->born) : json_null());
+    json_object_set_new(object, "at", point_object(&s->at));
+    return object;
+}
+
+char *fst_branch_json(const fst_params *params, const fst_branch *branch)
+{
+    json_t *object = json_object(), *points = json_array(), *specials = json_array(), *ends = json_array();
+    for (size_t i = 0; i < branch->point_count; i++)
+        json_array_append_new(points, point_object(&branch->points[i]));
+    for (size_t i = 0; i < branch->special_count; i++)
+        json_array_append_new(specials, special_object(branch, &branch->specials[i]));
+    for (size_t i = 0; i < branch->end_count; i++) {
+        const fst_branch_end *e = &branch->ends[i];
+        json_t *end = json_object();
+        json_object_set_new(end, "branch", json_integer(e->branch));
+        json_object_set_new(end, "born_on", e->family >= 0 ? json_integer(e->family) : json_null());
+        json_object_set_new(end, "value", fst_json_number(e->value));
+        json_object_set_new(end, "reason", json_string(e->reason));
+        json_array_append_new(ends, end);
+    }
+    json_object_set_new(object, "kind", json_string(branch->kind == FST_BRANCH_COUNTER ? "counter" : "locked"));
+    json_object_set_new(object, "parameter", json_string(branch->key));
+    json_object_set_new(object, "from", fst_json_number(branch->from));
+    json_object_set_new(object, "to", fst_json_number(branch->to));
+    json_object_set_new(object, "specials", specials);
+    json_object_set_new(object, "ends", ends);
+    json_object_set_new(object, "points", points);
+    json_object_set_new(object, "scene", fst_json_scene(params));
+    return fst_json_dump(object, JSON_INDENT(1));
+}
+
+fst_status fst_branch_write(const char *path, const fst_params *params, const fst_branch *branch,
+                            fst_error *error)
+{
+    fst_whole_file file;
+    char *text = fst_branch_json(params, branch);
+    if (!text)
+        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    fst_status status = fst_whole_file_open(&file, path, error);
+    if (status == FST_OK) {
+        (void)fputs(text, file.stream);
+        status = fst_whole_file_commit(&file, error);
+    }
+    free(text);
+    return status;
+}
+
+char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *l)
+{
+    json_t *object = json_object(), *trace = json_array();
+    json_object_set_new(object, "exponents", fst_json_numbers(l->exponents, FST_EIGENVALUE_COUNT));
+    json_object_set_new(object, "errors", fst_json_numbers(l->errors, FST_EIGENVALUE_COUNT));
+    json_object_set_new(object, "error", fst_json_number(l->error));
+    json_object_set_new(object, "converged", json_boolean(l->converged));
+    json_object_set_new(object, "flow_direction",
+                        l->flow_direction >= 0 ? json_integer(l->flow_direction) : json_null());
+    json_object_set_new(object, "divergence", fst_json_number(l->divergence));
+    json_object_set_new(object, "time", fst_json_number(l->time));
+    for (int i = 0; i < l->trace_count; i++) {
+        json_t *row = json_object();
+        json_object_set_new(row, "time", fst_json_number(l->trace_time[i]));
+        json_object_set_new(row, "exponents", fst_json_numbers(l->trace[i], FST_EIGENVALUE_COUNT));
+        json_array_append_new(trace, row);
+    }
+    json_object_set_new(object, "trace", trace);
+    json_object_set_new(object, "scene", fst_json_scene(params));
+    return fst_json_dump(object, JSON_INDENT(INDENT));
+}
+
+/* ---------------------------------------------------------------- reading a branch */
+
+static void read_pairs(const json_t *object, fst_branch_point *p)
+{
+    const json_t *array = json_object_get(object, "multipliers");
+    if (!array)
+        array = json_object_get(object, "eigenvalues");
+    const size_t count = json_array_size(array);
+    p->multipliers = (int)(count < FST_EIGENVALUE_COUNT ? count : FST_EIGENVALUE_COUNT);
+    for (int i = 0; i < p->multipliers; i++) {
+        const json_t *pair = json_array_get(array, (size_t)i);
+        p->multiplier_re[i] = json_number_value(json_array_get(pair, 0));
+        p->multiplier_im[i] = json_number_value(json_array_get(pair, 1));
+    }
+}
+
+static void read_point(const json_t *object, fst_branch_point *p)
+{
+    for (int i = 0; i < NUMBER_COUNT; i++) {
+        const json_t *number = json_object_get(object, NUMBERS[i].key);
+        const double value = json_is_number(number) ? json_number_value(number) : NAN;
+        memcpy((char *)p + NUMBERS[i].offset, &value, sizeof value);
+    }
+    p->stable = json_is_true(json_object_get(object, "stable"));
+    p->turns = (int)json_integer_value(json_object_get(object, "turns"));
+    p->branch = (int)json_integer_value(json_object_get(object, "branch"));
+    const char *symmetry = json_string_value(json_object_get(object, "symmetry"));
+    p->symmetry = !symmetry                     ? FST_SYMMETRY_NONE
+                  : strcmp(symmetry, "S2") == 0 ? FST_SYMMETRY_S2
+                                                : FST_SYMMETRY_S1;
+    read_pairs(object, p);
+}
+
+static void read_special(const json_t *object, fst_special *s)
+{
+    const char *type = json_string_value(json_object_get(object, "type"));
+    for (int i = FST_SPECIAL_FOLD; type && i <= FST_SPECIAL_ORIGIN_CROSSING; i++)
+        if (strcmp(type, fst_special_name((fst_special_type)i)) == 0)
+            s->type = (fst_special_type)i;
+    s->value = json_number_value(json_object_get(object, "value"));
+    s->omega = json_number_value(json_object_get(object, "omega"));
+    s->branch = (int)json_integer_value(json_object_get(object, "branch"));
+    read_point(json_object_get(object, "at"), &s->at);
+}
+
+fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *error)
+{
+    json_error_t why;
+    memset(branch, 0, sizeof *branch);
+    json_t *object = json_load_file(path, 0, &why);
+    const json_t *points = json_object_get(object, "points"), *specials = json_object_get(object, "specials");
+    const char *key = json_string_value(json_object_get(object, "parameter"));
+    if (!object || !json_is_array(points) || !json_is_array(specials) || !key) {
+        const fst_status status =
+            fst_fail(error, FST_BAD_INPUT, path, "%s",
+                     object ? "this is no branch: make one with festoon branch -o FILE.json" : why.text);
+        json_decref(object);
+        return status;
+    }
+    const char *kind = json_string_value(json_object_get(object, "kind"));
+    branch->kind = kind && strcmp(kind, "locked") == 0 ? FST_BRANCH_LOCKED : FST_BRANCH_COUNTER;
+    branch->from = json_number_value(json_object_get(object, "from"));
+    branch->to = json_number_value(json_object_get(object, "to"));
+    (void)snprintf(branch->key, sizeof branch->key, "%s", key);
+    branch->points = calloc(json_array_size(points) + 1, sizeof *branch->points);
+    branch->specials = calloc(json_array_size(specials) + 1, sizeof *branch->specials);
+    fst_status status = FST_OK;
+    if (!branch->points || !branch->specials) {
+        fst_branch_free(branch);
+        status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    } else {
+        for (size_t i = 0; i < json_array_size(points); i++)
+            read_point(json_array_get(points, i), &branch->points[branch->point_count++]);
+        for (size_t i = 0; i < json_array_size(specials); i++)
+            read_special(json_array_get(specials, i), &branch->specials[branch->special_count++]);
+    }
+    json_decref(object);
+    return status;
+}
+
+/* ---------------------------------------------------------------- simulated points */
+
+/* The parameter `key` of a run's document: the drive from its results, the rest from its scene. */
+static const json_t *parameter_of(const json_t *run, const char *key)
+{
+    if (strcmp(key, "drive.omega") == 0)
+        return json_object_get(run, "omega");
+    if (strcmp(key, "drive.frequency") == 0)
+        return json_object_get(run, "frequency_hz");
+    return json_object_get(json_object_get(run, "scene"), key);
+}
+
+fst_status fst_run_dots_read(const char *path, const char *key, const char *observable, double **dots,
+                             size_t *count, fst_error *error)
+{
+    *dots = NULL;
+    *count = 0;
+    FILE *in = fopen(path, "r");
+    if (!in)
+        return fst_fail(error, FST_BAD_INPUT, path, "this file cannot be read");
+    json_t *run;
+    json_error_t why;
+    fst_status status = FST_OK;
+    while (status == FST_OK && (run = json_loadf(in, JSON_DISABLE_EOF_CHECK, &why))) {
+        const json_t *x = parameter_of(run, key), *y = json_object_get(run, observable);
+        if (json_is_number(x) && json_is_number(y)) {
+            double *more = realloc(*dots, 2 * (*count + 1) * sizeof *more);
+            if (more) {
+                *dots = more;
+                more[2 * *count] = json_number_value(x);
+                more[2 * (*count)++ + 1] = json_number_value(y);
+            } else {
+                status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+            }
+        }
+        json_decref(run);
+    }
+    (void)fclose(in);
+    if (status == FST_OK && *count == 0)
+        status = fst_fail(error, FST_BAD_INPUT, path,
+                          "no document of festoon run --json with %s and %s is in it", key, observable);
+    if (status != FST_OK) {
+        free(*dots);
+        *dots = NULL;
+    }
+    return status;
+}

@@ -1,0 +1,360 @@
+/* branch.c - whole branches: the counter-rotating family, and every family of equilibria. */
+#include "orbit/branch.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "model/params.h"
+#include "orbit/search.h"
+
+const char *fst_special_name(fst_special_type type)
+{
+    static const char *const names[] = {"fold", "pitchfork",      "period-doubling",
+                                        "hopf", "neimark-sacker", "origin-crossing"};
+    return (unsigned)type < sizeof names / sizeof *names ? names[type] : "unknown";
+}
+
+fst_branch_options fst_default_branch_options(void)
+{
+    fst_branch_options o;
+    memset(&o, 0, sizeof o);
+    o.cookie = FST_BRANCH_OPTIONS_COOKIE;
+    o.key = "drive.omega";
+    o.from = o.to = NAN;
+    o.tolerance = 1e-12;
+    o.longest_step = 0.5;
+    o.follow = 1;
+    return o;
+}
+
+void fst_branch_free(fst_branch *branch)
+{
+    free(branch->points);
+    free(branch->specials);
+    free(branch->ends);
+    memset(branch, 0, sizeof *branch);
+}
+
+/* ------------------------------------------------------------------ growing lists */
+
+static fst_status out_of_memory(fst_error *error)
+{
+    return fst_fail(error, FST_NO_MEMORY, "branch", "out of memory");
+}
+
+/* Room for one more element at the end of a list whose length is a power of two when full. */
+static int grow(void **list, size_t count, size_t size)
+{
+    if (count & (count - 1) || (count == 0 && *list))
+        return 1;
+    void *larger = realloc(*list, (count ? 2 * count : 1) * size);
+    if (!larger)
+        return 0;
+    *list = larger;
+    return 1;
+}
+
+static fst_status add_point(fst_branch *out, const fst_node *node, int branch, fst_error *error)
+{
+    if (!grow((void **)&out->points, out->point_count, sizeof *out->points))
+        return out_of_memory(error);
+    out->points[out->point_count] = node->seen;
+    out->points[out->point_count++].branch = branch;
+    return FST_OK;
+}
+
+static fst_status add_end(fst_branch *out, int branch, int family, double value, const char *reason,
+                          fst_error *error)
+{
+    if (!grow((void **)&out->ends, out->end_count, sizeof *out->ends))
+        return out_of_memory(error);
+    fst_branch_end *end = &out->ends[out->end_count++];
+    memset(end, 0, sizeof *end);
+    end->branch = branch;
+    end->family = family;
+    end->value = value;
+    (void)snprintf(end->reason, sizeof end->reason, "%s", reason);
+    return FST_OK;
+}
+
+/* ------------------------------------------------------------------ what a curve tells */
+
+static fst_status take_node(void *user, const fst_node *node, fst_error *error)
+{
+    fst_tracer *t = user;
+    const fst_branch_options *o = t->options;
+    fst_status status = FST_OK;
+    if (o->progress && t->out->point_count % 16 == 0)
+        status = o->progress(o->user, fmin(0.95, (double)t->out->point_count / 400.0), error);
+    t->last_value = node->s.value;
+    return status == FST_OK ? add_point(t->out, node, t->branch, error) : status;
+}
+
+static int known_special(const fst_branch *out, fst_special_type type, const fst_node *at, double scale)
+{
+    for (size_t i = 0; i < out->special_count; ++i)
+        if (out->specials[i].type == type && fabs(out->specials[i].value - at->s.value) < 1e-8 * scale &&
+            fabs(out->specials[i].at.mean_r - at->seen.mean_r) < 1e-6)
+            return 1;
+    return 0;
+}
+
+static fst_status take_special(void *user, fst_special_type type, const fst_node *at, int criticality,
+                               const fst_node *born, fst_error *error)
+{
+    fst_tracer *t = user;
+    fst_branch *out = t->out;
+    if (known_special(out, type, at, t->family.scale))
+        return FST_OK; /* met again: a curve that closes, or a conjugate */
+    if (!grow((void **)&out->specials, out->special_count, sizeof *out->specials))
+        return out_of_memory(error);
+    fst_special *s = &out->specials[out->special_count++];
+    memset(s, 0, sizeof *s);
+    s->type = type;
+    s->value = at->s.value;
+    s->omega = at->seen.omega;
+    s->branch = t->branch;
+    s->criticality = criticality;
+    s->born = -1;
+    s->at = at->seen;
+    s->at.branch = t->branch;
+    if (born && t->pending_count < FST_PENDING && t->depth < 3 &&
+        (type != FST_SPECIAL_HOPF || t->follow_hopf)) {
+        s->born = t->branch_count;
+        t->pending[t->pending_count++] = (fst_pending){*born, t->branch_count, t->branch, t->depth + 1, 1};
+        t->branch_count += 1;
+    }
+    return FST_OK;
+}
+
+/* ------------------------------------------------------------------ following */
+
+static void reverse_points(fst_branch_point *points, size_t count)
+{
+    for (size_t i = 0; i + 1 < count - i; ++i) {
+        const fst_branch_point kept = points[i];
+        points[i] = points[count - 1 - i];
+        points[count - 1 - i] = kept;
+    }
+}
+
+/* One branch from a node on it, both ways, or, if it was born at a special point, away from that. */
+static fst_status follow_branch(fst_tracer *t, const fst_pending *from, fst_error *error)
+{
+    fst_curve curve = {.family = &t->family,
+                       .from = fmin(t->options->from, t->options->to),
+                       .to = fmax(t->options->from, t->options->to),
+                       .longest_step = t->options->longest_step,
+                       .follow = t->options->follow,
+                       .sink = {t, take_node, take_special}};
+    if (!(from->start.s.value >= curve.from && from->start.s.value <= curve.to))
+        return FST_OK;
+    t->branch = from->branch;
+    t->depth = from->depth;
+    const size_t first = t->out->point_count;
+    fst_status status = FST_OK;
+    if (!from->one_way) {
+        t->last_value = from->start.s.value;
+        status = fst_curve_follow(&curve, &from->start, -1, error);
+        reverse_points(t->out->points + first, t->out->point_count - first);
+        if (status == FST_OK)
+            status = add_end(t->out, from->branch, from->family, t->last_value, curve.reason, error);
+        if (strstr(curve.reason, "closes on itself")) /* the other way would be the same points again */
+            return status;
+    }
+    if (status == FST_OK)
+        status = take_node(t, &from->start, error);
+    if (status == FST_OK)
+        status = fst_curve_follow(&curve, &from->start, 1, error);
+    return status == FST_OK ? add_end(t->out, from->branch, from->family, t->last_value, curve.reason, error)
+                            : status;
+}
+
+fst_status fst_tracer_run(fst_tracer *t, fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (int i = 0; i < t->pending_count && status == FST_OK; ++i)
+        status = follow_branch(t, &t->pending[i], error);
+    t->pending_count = 0;
+    t->out->branches = t->branch_count;
+    return status;
+}
+
+fst_status fst_tracer_add(fst_tracer *t, const fst_node *start, fst_error *error)
+{
+    if (t->pending_count >= FST_PENDING)
+        return fst_fail(error, FST_NO_CONVERGENCE, "branch", "more than %d branches", FST_PENDING);
+    t->pending[t->pending_count++] = (fst_pending){*start, t->branch_count, -1, 0, 0};
+    t->branch_count += 1;
+    return FST_OK;
+}
+
+int fst_tracer_knows(const fst_tracer *t, const fst_branch_point *seen)
+{
+    const fst_branch *out = t->out;
+    for (size_t i = 0; i + 1 < out->point_count; ++i) {
+        const fst_branch_point *a = &out->points[i], *b = a + 1;
+        if (a->branch != b->branch || (a->value > seen->value) == (b->value > seen->value))
+            continue;
+        const double x = (seen->value - a->value) / (b->value - a->value);
+        double greatest = 0.0, conjugate = 0.0, image[FST_STATE_SIZE];
+        fst_apply_s2(seen->state, image);
+        for (int k = 0; k < FST_STATE_SIZE; ++k) {
+            const double there = a->state[k] + x * (b->state[k] - a->state[k]);
+            const double bent = 0.02 + 0.3 * fabs(b->state[k] - a->state[k]);
+            greatest = fmax(greatest, fabs(there - seen->state[k]) / bent);
+            conjugate = fmax(conjugate, fabs(there - image[k]) / bent);
+        }
+        if (greatest < 1.0 || (conjugate < 1.0 && out->kind == FST_BRANCH_COUNTER))
+            return 1;
+    }
+    return 0;
+}
+
+/* ------------------------------------------------------------------ the two kinds */
+
+/* Search an orbit at one value; 1 if it counter-rotates. */
+static int search_at(const fst_tracer *t, double value, fst_node *start, fst_error *why)
+{
+    fst_family fixed = t->family;
+    fst_solution s;
+    fixed.key = -1;
+    fixed.params = fst_family_params(&t->family, value);
+    fixed.params.run_periods = fmin(fixed.params.run_periods, 200.0);
+    fixed.params.run_discard = 0.0;
+    if (fst_search_orbit(&fixed, &s, why) != FST_OK)
+        return 0;
+    s.value = value;
+    s.on_section = 0;
+    return fst_solution_correct(&t->family, &s, NULL, why) == FST_OK &&
+           fst_node_make(&t->family, &s, start, why) == FST_OK && start->seen.turns < 0;
+}
+
+/* The symmetric orbit on which a curve of S1 orbits ends: followed there on trial. */
+typedef struct climb {
+    fst_node last;
+} climb;
+
+static fst_status remember(void *user, const fst_node *node, fst_error *error)
+{
+    (void)error;
+    ((climb *)user)->last = *node;
+    return FST_OK;
+}
+
+static fst_status ignore_special(void *user, fst_special_type type, const fst_node *at, int criticality,
+                                 const fst_node *born, fst_error *error)
+{
+    (void)user, (void)type, (void)at, (void)criticality, (void)born, (void)error;
+    return FST_OK;
+}
+
+static void climb_to_symmetric(const fst_tracer *t, fst_node *start)
+{
+    for (int sign = -1; sign <= 1; sign += 2) {
+        climb c = {*start};
+        fst_error why;
+        fst_curve curve = {.family = &t->family,
+                           .from = fmin(t->options->from, t->options->to),
+                           .to = fmax(t->options->from, t->options->to),
+                           .longest_step = t->options->longest_step,
+                           .sink = {&c, remember, ignore_special}};
+        if (fst_curve_follow(&curve, start, sign, &why) != FST_OK || !strstr(curve.reason, "symmetric branch"))
+            continue;
+        fst_solution s = c.last.s;
+        s.symmetric = 1;
+        s.segments = 1;
+        s.period *= 0.5;
+        fst_node node;
+        if (fst_solution_correct(&t->family, &s, NULL, &why) == FST_OK &&
+            fst_node_make(&t->family, &s, &node, &why) == FST_OK) {
+            *start = node;
+            return;
+        }
+    }
+}
+
+/* A counter-rotating orbit to begin with: a symmetric one where there is one, for from it the others are born.
+ */
+static fst_status first_orbit(fst_tracer *t, fst_node *start, fst_error *error)
+{
+    enum { TRIALS = 8 };
+    static const double part[TRIALS] = {0.5, 0.25, 0.1, 0.75, 0.35, 0.05, 0.9, 0.02};
+    const double lo = fmin(t->options->from, t->options->to), hi = fmax(t->options->from, t->options->to);
+    const double given = fst_family_value(&t->family);
+    fst_error why;
+    memset(&why, 0, sizeof why);
+    for (int i = -1; i < TRIALS; ++i) {
+        const double value = i < 0 ? given : lo + (hi - lo) * part[i];
+        if (!(value >= lo && value <= hi) || !search_at(t, value, start, &why))
+            continue;
+        if (!start->s.symmetric)
+            climb_to_symmetric(t, start);
+        return FST_OK;
+    }
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "branch",
+        "no counter-rotating orbit was found between %.10g and %.10g from the scene's start (the last try: "
+        "%.240s); try another range or start.r",
+        lo, hi, why.sentence);
+}
+
+static fst_status follow_counter(fst_tracer *t, fst_error *error)
+{
+    fst_node start;
+    fst_status status = first_orbit(t, &start, error);
+    if (status == FST_OK)
+        status = fst_tracer_add(t, &start, error);
+    if (status == FST_OK)
+        status = fst_tracer_run(t, error);
+    return status;
+}
+
+static fst_status check(const fst_branch_options *o, fst_error *error)
+{
+    const char *where = "fst_branch_follow";
+    if (o->cookie != FST_BRANCH_OPTIONS_COOKIE)
+        return fst_fail(error, FST_BAD_INPUT, where,
+                        "the options were not made by fst_default_branch_options()");
+    if (!isfinite(o->from) || !isfinite(o->to) || o->from == o->to)
+        return fst_fail(error, FST_BAD_INPUT, where,
+                        "a branch needs a range with two different ends, not %g to %g", o->from, o->to);
+    if (!(o->tolerance >= 1e-15 && o->tolerance <= 1e-6))
+        return fst_fail(error, FST_BAD_INPUT, where, "tolerance = %g is out of range: 1e-15 to 1e-6",
+                        o->tolerance);
+    if (!(o->longest_step > 1e-5))
+        return fst_fail(error, FST_BAD_INPUT, where, "longest_step = %g must be at least 1e-5",
+                        o->longest_step);
+    return FST_OK;
+}
+
+fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options, fst_branch *branch,
+                             fst_error *error)
+{
+    memset(branch, 0, sizeof *branch);
+    fst_status status = check(options, error);
+    if (status != FST_OK)
+        return status;
+    fst_tracer *t = calloc(1, sizeof *t);
+    if (!t)
+        return out_of_memory(error);
+    t->options = options;
+    t->out = branch;
+    branch->kind = options->kind;
+    branch->from = options->from;
+    branch->to = options->to;
+    (void)snprintf(branch->key, sizeof branch->key, "%s", options->key);
+    status = fst_family_begin(&t->family, params, options->key, error);
+    t->family.scale = fmax(fabs(options->from), fabs(options->to));
+    t->family.tolerance = options->tolerance;
+    if (status == FST_OK && strcmp(options->key, "drive.omega") == 0)
+        t->family.scale = 1.0; /* the states themselves vary by several times omega */
+    if (status == FST_OK)
+        status = options->kind == FST_BRANCH_COUNTER ? follow_counter(t, error) : fst_follow_locked(t, error);
+    free(t);
+    if (status != FST_OK)
+        fst_branch_free(branch);
+    return status;
+}

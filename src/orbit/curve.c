@@ -1,0 +1,240 @@
+/* curve.c - pseudo-arclength continuation. */
+#include "orbit/curve.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+
+#define SHORTEST_STEP 1e-7
+#define LONGEST_PERIOD 400.0
+#define LARGEST_SPIN 60.0
+#define LARGEST_RADIUS 8.0 /* the field is a ten-thousandth of that under the bead there */
+enum { MOST_NODES = 4000 };
+
+/* ------------------------------------------------------------------ what a solution looks like */
+
+static void see_equilibrium(const fst_setup *setup, const fst_solution *s, fst_branch_point *p)
+{
+    const fst_observation o = fst_observe(&setup->model, s->y[0]);
+    p->mean_r = p->min_r = o.r;
+    p->mean_alpha_dot = p->omega;
+    p->mean_nz = s->y[0][FST_NZ];
+    p->slip = o.slip_norm;
+    p->phi_deg = o.r > 1e-9 ? atan2(o.sin_phi, o.cos_phi) * 57.29577951308232087680 : NAN;
+}
+
+fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_node *node, fst_error *error)
+{
+    fst_setup setup;
+    memset(node, 0, sizeof *node);
+    node->s = *s;
+    node->closest = NAN;
+    fst_status status = fst_solution_spectrum(family, &node->s, error);
+    if (status == FST_OK)
+        status = fst_family_setup(family, s->value, &setup, error);
+    if (status != FST_OK)
+        return status;
+    fst_branch_point *p = &node->seen;
+    p->value = s->value;
+    p->omega = setup.model.groups.omega;
+    p->mean_r = p->mean_alpha_dot = p->mean_nz = p->festoons = p->period = p->min_r = p->phi_deg = p->slip =
+        NAN;
+    p->stable = fst_solution_is_stable(&node->s);
+    p->multipliers = node->s.multipliers;
+    memcpy(p->multiplier_re, node->s.re, sizeof p->multiplier_re);
+    memcpy(p->multiplier_im, node->s.im, sizeof p->multiplier_im);
+    memcpy(p->state, s->y[0], sizeof p->state);
+    if (s->segments == 0) {
+        see_equilibrium(&setup, s, p);
+        return FST_OK;
+    }
+    fst_description d;
+    status = fst_describe_orbit(family, s, 0, &d, error);
+    if (status != FST_OK)
+        return status;
+    node->closest = d.closest;
+    p->mean_r = d.means.mean_r;
+    p->min_r = fabs(d.closest);
+    p->mean_alpha_dot = d.means.mean_alpha_dot;
+    p->mean_nz = d.means.mean_nz;
+    p->festoons = d.means.festoons;
+    p->period = d.means.period;
+    p->symmetry = d.means.symmetry;
+    p->turns = d.turns;
+    if (d.has_section)
+        memcpy(p->state, d.section, sizeof p->state);
+    return FST_OK;
+}
+
+/* ------------------------------------------------------------------ steps along the curve */
+
+static void combine(fst_direction *out, double a, const fst_direction *u, double b, const fst_direction *v)
+{
+    for (int i = 0; i < FST_SEGMENTS; ++i)
+        for (int k = 0; k < FST_STATE_SIZE; ++k)
+            out->y[i][k] = a * u->y[i][k] + b * v->y[i][k];
+    out->period = a * u->period + b * v->period;
+    out->value = a * u->value + b * v->value;
+}
+
+static double length_of(const fst_family *family, const fst_solution *s, const fst_direction *d)
+{
+    return sqrt(fst_direction_product(family, s, d, d));
+}
+
+/* One step of length h from `here` along its tangent, bent as the curve bent in the step before (`last`, NULL
+ * at the start).  FST_NO_CONVERGENCE also where the solution found is not the curve's continuation: too far
+ * from the prediction, or with a tangent of another direction. */
+static fst_status try_step(const fst_curve *curve, const fst_node *last, const fst_node *here, double h,
+                           fst_node *next, fst_error *error)
+{
+    const fst_family *family = curve->family;
+    fst_direction way = here->s.tangent, miss;
+    if (last && here->length > 0) {
+        fst_direction bend;
+        combine(&bend, 1.0 / here->length, &here->s.tangent, -1.0 / here->length, &last->s.tangent);
+        combine(&way, 1.0, &here->s.tangent, 0.5 * h, &bend);
+    }
+    fst_solution predicted = here->s;
+    predicted.on_section = 0;
+    fst_solution_move(&predicted, &way, h);
+    fst_solution found = predicted;
+    fst_status status = fst_solution_correct(family, &found, &here->s.tangent, error);
+    if (status != FST_OK)
+        return status;
+    fst_direction_between(&predicted, &found, &miss);
+    const double turn = fst_direction_product(family, &found, &found.tangent, &here->s.tangent);
+    if (length_of(family, &found, &miss) > 0.25 * h || turn < 0.95)
+        return fst_fail(error, FST_NO_CONVERGENCE, "continuation", "a step of %.3g was too long at %.10g", h,
+                        here->s.value);
+    const int iterations = found.iterations;
+    status = fst_node_make(family, &found, next, error);
+    next->s.iterations = iterations;
+    fst_direction_between(&here->s, &found, &miss);
+    next->length = length_of(family, &found, &miss);
+    return status;
+}
+
+/* Cut the step that left the range at its border. */
+static fst_status land_on(const fst_curve *curve, const fst_node *here, double border, fst_node *next,
+                          fst_error *error)
+{
+    double lo = 0.0, hi = 1.0;
+    const fst_node past = *next;
+    fst_node at = past;
+    for (int i = 0; i < 40 && fabs(at.s.value - border) > 1e-3 * fabs(past.s.value - here->s.value); ++i) {
+        const double x = 0.5 * (lo + hi);
+        const fst_status status = fst_node_between(curve->family, here, &past, x, &at, error);
+        if (status != FST_OK)
+            return status;
+        if ((at.s.value > border) == (past.s.value > border))
+            hi = x;
+        else
+            lo = x;
+    }
+    /* Exactly on it: the parameter fixed. */
+    fst_direction keep;
+    memset(&keep, 0, sizeof keep);
+    keep.value = curve->family->scale;
+    fst_solution s = at.s;
+    const fst_direction tangent = s.tangent;
+    s.value = border;
+    fst_status status = fst_solution_correct(curve->family, &s, &keep, error);
+    if (status != FST_OK)
+        return status;
+    s.tangent = tangent;
+    s.value = border;
+    status = fst_node_make(curve->family, &s, next, error);
+    fst_direction way;
+    fst_direction_between(&here->s, &s, &way);
+    next->length = length_of(curve->family, &s, &way);
+    return status;
+}
+
+static int is_closed(const fst_curve *curve, const fst_node *start, const fst_node *here, double h)
+{
+    fst_direction way;
+    fst_direction_between(&here->s, &start->s, &way);
+    return length_of(curve->family, &here->s, &way) < h &&
+           fabs(fst_direction_product(curve->family, &here->s, &here->s.tangent, &start->s.tangent)) > 0.9;
+}
+
+/* Whether the curve is at its end; the reason then says why. */
+static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *here, int nodes, double h)
+{
+    if (here->s.segments > 0 && here->s.period > LONGEST_PERIOD)
+        (void)snprintf(curve->reason, sizeof curve->reason,
+                       "the period grows without bound (%.4g): the orbit runs into an equilibrium",
+                       here->s.period);
+    else if (here->seen.mean_r > LARGEST_RADIUS)
+        (void)snprintf(curve->reason, sizeof curve->reason, "it has left the magnet's field: <r> = %.4g",
+                       here->seen.mean_r);
+    else if (here->s.segments == 0 && fabs(here->s.y[0][FST_WZ]) > LARGEST_SPIN)
+        (void)snprintf(curve->reason, sizeof curve->reason,
+                       "its spin grows without bound (W_z = %.4g) while n turns upright", here->s.y[0][FST_WZ]);
+    else if (nodes >= MOST_NODES)
+        (void)snprintf(curve->reason, sizeof curve->reason, "%d points were followed", nodes);
+    else if (nodes > 8 && is_closed(curve, start, here, h))
+        (void)snprintf(curve->reason, sizeof curve->reason, "the branch closes on itself");
+    else
+        return 0;
+    return 1;
+}
+
+/* The next node, the step halved until it is found; 0 where none is. */
+static int next_node(fst_curve *curve, const fst_node *last, const fst_node *here, double *h, fst_node *next)
+{
+    fst_error why;
+    for (;;) {
+        const fst_status status = try_step(curve, last, here, *h, next, &why);
+        if (status == FST_OK)
+            return 1;
+        *h *= 0.5;
+        if (*h < SHORTEST_STEP)
+            break;
+    }
+    (void)snprintf(curve->reason, sizeof curve->reason, "it could not be followed beyond %.10g: %.110s",
+                   here->s.value, why.sentence);
+    return 0;
+}
+
+fst_status fst_curve_follow(fst_curve *curve, const fst_node *start, int sign, fst_error *error)
+{
+    fst_node last, here = *start, next;
+    /* Points of equilibria cost next to nothing, and their pairs cross the axis one soon after another. */
+    const double density = start->s.segments > 0 ? 1.0 : 0.04;
+    double longest = density * curve->longest_step, h = 0.1 * longest;
+    int nodes = 0, ends = 0;
+    combine(&here.s.tangent, sign, &start->s.tangent, 0.0, &start->s.tangent);
+    here.length = 0.0;
+    while (!ends) {
+        if (!next_node(curve, nodes > 0 ? &last : NULL, &here, &h, &next))
+            return nodes > 0 && here.s.segments > 0 ? fst_look_for_hopf_end(curve, &last, &here, error)
+                                                    : FST_OK;
+        const double border = next.s.value > curve->to ? curve->to : curve->from;
+        const int left = next.s.value > curve->to || next.s.value < curve->from;
+        fst_status status = left ? land_on(curve, &here, border, &next, error) : FST_OK;
+        if (status == FST_OK)
+            status = fst_specials_between(curve, &here, &next, &ends, error);
+        if (status == FST_OK && !ends)
+            status = curve->sink.node(curve->sink.user, &next, error);
+        if (status != FST_OK)
+            return status;
+        if (left) {
+            (void)snprintf(curve->reason, sizeof curve->reason, "the end of the range");
+            return FST_OK;
+        }
+        const int iterations = next.s.iterations;
+        last = here;
+        here = next;
+        nodes += 1;
+        if (has_ended(curve, start, &here, nodes, h))
+            return FST_OK;
+        if (here.s.segments == 0) /* fast spins: in proportion */
+            longest = density * curve->longest_step * (1.0 + fabs(here.s.y[0][FST_WZ]));
+        h *= iterations <= 3 ? 1.6 : iterations > 5 ? 0.6 : 1.0;
+        h = h > longest ? longest : h;
+    }
+    return FST_OK;
+}

@@ -1,0 +1,151 @@
+/* describe.c - means, extremes and shape of an orbit, with the quadrature of a run. */
+#include "orbit/describe.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "study/run_state.h"
+
+#define TWO_PI 6.283185307179586476925287
+
+double fst_radial_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    (void)flow;
+    (void)p;
+    return state[FST_X] * state[FST_VX] + state[FST_Y] * state[FST_VY];
+}
+
+/* Distance from the axis where r is least, with the side on which the axis lies. */
+static double signed_distance(const fst_flow *flow, const double *y)
+{
+    const double vx = y[FST_VX] + flow->step.omega * y[FST_Y], vy = y[FST_VY] - flow->step.omega * y[FST_X];
+    const double speed = hypot(vx, vy);
+    return speed > 0 ? (y[FST_Y] * vx - y[FST_X] * vy) / speed : hypot(y[FST_X], y[FST_Y]);
+}
+
+/* Look for the closest approach and the passage of the section in the flow's last step. */
+static void look_at_step(fst_flow *flow, fst_description *out)
+{
+    const double *start = flow->step.y, *end = flow->step.end;
+    const double before = fst_radial_function(flow, start, NULL), after = fst_radial_function(flow, end, NULL);
+    double y[FST_STATE_SIZE];
+    if (before < 0 && after >= 0) {
+        const double x = fst_flow_locate(flow, fst_radial_function, 0.0, 1.0, before, after);
+        fst_flow_at(flow, x, y);
+        const double distance = signed_distance(flow, y);
+        if (!(fabs(distance) >= fabs(out->closest)))
+            out->closest = distance;
+    }
+    if (!out->has_section && start[FST_X] < 0 && end[FST_X] >= 0) {
+        const double x = fst_flow_locate(flow, fst_section_function, 0.0, 1.0, start[FST_X], end[FST_X]);
+        fst_flow_at(flow, x, y);
+        if (y[FST_Y] > 0) {
+            memcpy(out->section, y, sizeof y);
+            out->has_section = 1;
+        }
+    }
+}
+
+static void conclude(fst_run_state *run, const fst_solution *s, fst_description *out)
+{
+    const fst_mark *first = &run->section_marks.kept[0], *last = &run->section_marks.latest;
+    const double turned = (last->big_phi - first->big_phi) / TWO_PI, omega = run->model->groups.omega;
+    out->turns = (int)floor(turned + 0.5);
+    fst_run_result *means = &out->means;
+    fst_fill_window(run, &run->section_marks, means);
+    means->omega = omega;
+    means->frequency_hz = omega / (TWO_PI * run->model->groups.time_unit);
+    means->period = fst_whole_period(s);
+    means->mean_alpha_dot = omega + TWO_PI * out->turns / means->period;
+    if (s->symmetric)
+        means->mean_nz = 0.0; /* exactly: the two halves cancel */
+    means->symmetry = s->symmetric ? FST_SYMMETRY_S2 : out->turns ? FST_SYMMETRY_S1 : FST_SYMMETRY_NONE;
+    means->regime = out->turns == 0             ? FST_REGIME_LIBRATING
+                    : means->mean_alpha_dot < 0 ? FST_REGIME_COUNTER_ROTATING
+                                                : FST_REGIME_COROTATING;
+    if (out->turns)
+        means->festoons = (s->symmetric ? 2.0 : 1.0) * (1.0 + omega / fabs(means->mean_alpha_dot));
+}
+
+fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, int extremes,
+                              fst_description *out, fst_error *error)
+{
+    memset(out, 0, sizeof *out);
+    fst_result_clear(&out->means);
+    out->closest = NAN;
+    fst_run_state *run = calloc(1, sizeof *run);
+    if (!run)
+        return fst_fail(error, FST_NO_MEMORY, "fst_describe_orbit", "out of memory");
+    const fst_params params = fst_family_params(family, s->value);
+    run->params = &params;
+    fst_status status =
+        fst_solution_flow(family, s->value, s->y[0], family->tolerance, &run->model, &run->flow, error);
+    if (status == FST_OK) {
+        run->drive_period = TWO_PI / run->model->groups.omega;
+        const fst_twofold end = {fst_whole_period(s), 0.0};
+        fst_mark mark;
+        fst_quadrature_begin(&run->q, run->flow);
+        fst_marks_begin(&run->section_marks);
+        fst_mark_take(&mark, &run->q, run->flow, 1.0);
+        fst_marks_offer(&run->section_marks, &mark);
+        while (status == FST_OK && fst_twofold_difference(end, run->flow->t) > 0) {
+            status = fst_flow_step(run->flow, end.high, error);
+            if (status != FST_OK)
+                break;
+            if (run->flow->accepted == 1)
+                fst_quadrature_set_references(&run->q, run->flow);
+            fst_quadrature_step(&run->q, run->flow);
+            if (extremes)
+                fst_quadrature_track(&run->q, run->flow);
+            look_at_step(run->flow, out);
+        }
+        if (status == FST_OK) {
+            fst_mark_take(&mark, &run->q, run->flow, 1.0);
+            fst_marks_offer(&run->section_marks, &mark);
+            conclude(run, s, out);
+            out->least_load = run->q.extreme[FST_TRACK_LOAD].least;
+        }
+    }
+    fst_flow_free(run->flow);
+    fst_model_free(run->model);
+    free(run);
+    return status;
+}
+
+fst_status fst_orbit_from_solution(const fst_family *family, const fst_solution *s, fst_orbit *orbit,
+                                   fst_error *error)
+{
+    memset(orbit, 0, sizeof *orbit);
+    fst_solution at = *s;
+    fst_description d;
+    fst_status status = fst_describe_orbit(family, &at, 0, &d, error);
+    if (status == FST_OK && d.turns != 0 && d.has_section) {
+        memcpy(at.y[0], d.section, sizeof d.section);
+        at.y[0][FST_X] = 0.0;
+        at.on_section = 1;
+        fst_family fixed = *family; /* the parameter stays */
+        fixed.key = -1;
+        fixed.params = fst_family_params(family, s->value);
+        status = fst_solution_chain(&fixed, &at, at.segments, error);
+        if (status == FST_OK)
+            status = fst_solution_correct(&fixed, &at, NULL, error);
+        if (status == FST_OK)
+            status = fst_solution_spectrum(&fixed, &at, error);
+    }
+    if (status == FST_OK)
+        status = fst_describe_orbit(family, &at, 1, &d, error);
+    if (status != FST_OK)
+        return status;
+    orbit->means = d.means;
+    orbit->means.period = fst_whole_period(&at);
+    orbit->symmetry = d.means.symmetry;
+    orbit->turns = d.turns;
+    orbit->stable = fst_solution_is_stable(&at);
+    orbit->residual = at.residual;
+    orbit->trivial_error = at.trivial_error;
+    memcpy(orbit->multiplier_re, at.re, sizeof orbit->multiplier_re);
+    memcpy(orbit->multiplier_im, at.im, sizeof orbit->multiplier_im);
+    memcpy(orbit->state, at.y[0], sizeof orbit->state);
+    return FST_OK;
+}

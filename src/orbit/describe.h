@@ -1,0 +1,34 @@
+/* describe.h - what an orbit looks like: one turn of it, with the integrals and extremes of a run. */
+#ifndef FST_ORBIT_DESCRIBE_H
+#define FST_ORBIT_DESCRIBE_H
+
+#include "orbit/solution.h"
+
+typedef struct fst_description {
+    fst_run_result means; /* over one whole turn, or one period of a libration */
+    int turns;            /* of Phi in the whole orbit: -1 counter-rotating, 0 librating */
+    double closest;       /* least distance from the axis, negative where the axis lies on the right: it changes
+                           * sign where the orbit passes through r = 0 */
+    int has_section;      /* the orbit passes Phi = pi/2 downward ... */
+    double section[FST_STATE_SIZE]; /* ... here */
+    double least_load;              /* least normal load per mass */
+} fst_description;
+
+/* Follow a corrected orbit once round.  `extremes`: locate them too. */
+fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, int extremes,
+                              fst_description *out, fst_error *error);
+
+/* The period of the whole orbit. */
+static inline double fst_whole_period(const fst_solution *s)
+{
+    return s->symmetric ? 2.0 * s->period : s->period;
+}
+
+/* The radial velocity times r, for fst_flow_locate(): zero where r is extreme. */
+double fst_radial_function(const fst_flow *flow, const double *state, const fst_pull_double *p);
+
+/* Fill in the public description; the state is moved to the section Phi = pi/2 where the orbit passes it. */
+fst_status fst_orbit_from_solution(const fst_family *family, const fst_solution *s, fst_orbit *orbit,
+                                   fst_error *error);
+
+#endif

@@ -1,0 +1,232 @@
+/* family.c - setups along one parameter, and tangent vectors carried by the flow. */
+#include "orbit/family.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "model/jacobian.inl"
+#include "ode/bead_step.inl"
+
+/* ------------------------------------------------------------------ the state with its tangents */
+
+typedef struct bundle_context {
+    const fst_setup *setup;
+} bundle_context;
+
+static void bundle_rhs(const bundle_context *context, const double *y, double *dy);
+
+#define STEP_DIM FST_BUNDLE_SIZE
+#define STEP_NAME(name) fst_bundle_##name##_double
+#define STEP_CONTEXT bundle_context
+#define STEP_RHS(s, drive, j) ((void)(drive), bundle_rhs(&(s)->context, (s)->stage[(j)-1], (s)->k[(j)-1]))
+
+#include "ode/dop853.inl"
+
+/* One Jacobian serves all columns; its zeros, four fifths of it, are skipped. */
+static void bundle_rhs(const bundle_context *context, const double *y, double *dy)
+{
+    const fst_setup *setup = context->setup;
+    const fst_coefficients_double *c = &setup->model.coefficients;
+    fst_pull_double pull;
+    double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], by[FST_STATE_SIZE] = {0};
+    fst_rhs_double(c, c->omega, y, dy, &pull);
+    fst_jacobian_double(c, c->omega, y, jacobian);
+    if (setup->differs)
+        fst_setup_by_parameter(setup, y, by);
+    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+        double sum[FST_COLUMNS] = {0};
+        sum[FST_COLUMNS - 1] = by[i];
+        for (int k = 0; k < FST_STATE_SIZE; ++k) {
+            const double a = jacobian[i][k];
+            if (a == 0.0)
+                continue;
+            const double *row = y + FST_STATE_SIZE + k * FST_COLUMNS;
+            for (int column = 0; column < FST_COLUMNS; ++column)
+                sum[column] += a * row[column];
+        }
+        memcpy(dy + FST_STATE_SIZE + i * FST_COLUMNS, sum, sizeof sum);
+    }
+}
+
+/* A tried step is accepted: its end is the start of the next. */
+static void accept_step(fst_bundle_step_double *s)
+{
+    (void)fst_renormalise_double(s->end);
+    memcpy(s->y, s->end, sizeof s->y);
+    bundle_rhs(&s->context, s->y, s->k[0]);
+}
+
+static fst_status carry_failed(double t, const double *y, int finite, fst_error *error)
+{
+    char where[96];
+    (void)snprintf(where, sizeof where, "t = %.6g, X = %.6g, Y = %.6g", t, y[FST_X], y[FST_Y]);
+    return fst_fail(error, finite ? FST_STEP_UNDERFLOW : FST_NOT_FINITE, where,
+                    "the variational equations could not be integrated beyond %s", where);
+}
+
+fst_status fst_carry(const fst_setup *setup, double tolerance, double duration, double y[FST_STATE_SIZE],
+                     double tangent[FST_STATE_SIZE][FST_COLUMNS], fst_error *error)
+{
+    fst_bundle_step_double s;
+    double atol[FST_BUNDLE_SIZE];
+    s.context.setup = setup;
+    s.omega = setup->model.coefficients.omega;
+    s.ramp = 0.0;
+    memcpy(s.y, y, FST_STATE_SIZE * sizeof *y);
+    memcpy(s.y + FST_STATE_SIZE, tangent, sizeof(double[FST_STATE_SIZE][FST_COLUMNS]));
+    /* The error is a mean over all components; the state, a tenth of them, must not hide among the tangents. */
+    for (int i = 0; i < FST_BUNDLE_SIZE; ++i)
+        atol[i] = i < FST_STATE_SIZE ? 0.3 * tolerance : 10.0 * tolerance;
+    bundle_rhs(&s.context, s.y, s.k[0]);
+    double t = 0.0, h = 0.1;
+    while (t < duration) {
+        const double rest = duration - t;
+        const int lands = h * 1.01 >= rest;
+        s.h = lands ? rest : h;
+        fst_bundle_try_step_double(&s);
+        const double e = fst_bundle_step_error_double(&s, 0.3 * tolerance, atol);
+        if (!(e <= 1.0)) {
+            h = s.h * (isfinite(e) ? fst_step_factor_double(e) : 0.1);
+            if (!(h > 1e-12))
+                return carry_failed(t, s.y, isfinite(e), error);
+            continue;
+        }
+        t = lands ? duration : t + s.h;
+        accept_step(&s);
+        const double proposal = s.h * fst_step_factor_double(e);
+        h = lands && proposal < h ? h : proposal;
+    }
+    memcpy(y, s.y, FST_STATE_SIZE * sizeof *y);
+    memcpy(tangent, s.y + FST_STATE_SIZE, sizeof(double[FST_STATE_SIZE][FST_COLUMNS]));
+    return FST_OK;
+}
+
+void fst_tangent_basis(const double *y, double basis[FST_STATE_SIZE][FST_TANGENT_SIZE])
+{
+    static const int along_axis[FST_STATE_SIZE] = {0, 1, 2, 3, -1, -1, -1, 6, 7, 8};
+    const double *n = y + FST_NX;
+    memset(basis, 0, sizeof(double[FST_STATE_SIZE][FST_TANGENT_SIZE]));
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        if (along_axis[i] >= 0)
+            basis[i][along_axis[i]] = 1.0;
+    /* u = (the axis least along n) x n, and n x u. */
+    int axis = 0;
+    for (int i = 1; i < 3; ++i)
+        if (fabs(n[i]) < fabs(n[axis]))
+            axis = i;
+    const int k = (axis + 1) % 3, l = (axis + 2) % 3;
+    const double length = sqrt(n[k] * n[k] + n[l] * n[l]);
+    double u[3] = {0, 0, 0};
+    u[k] = -n[l] / length;
+    u[l] = n[k] / length;
+    for (int i = 0; i < 3; ++i) {
+        basis[FST_NX + i][4] = u[i];
+        basis[FST_NX + i][5] = n[(i + 1) % 3] * u[(i + 2) % 3] - n[(i + 2) % 3] * u[(i + 1) % 3];
+    }
+}
+
+/* ------------------------------------------------------------------ the parameter */
+
+fst_status fst_family_begin(fst_family *family, const fst_params *params, const char *key, fst_error *error)
+{
+    memset(family, 0, sizeof *family);
+    family->params = *params;
+    family->key = -1;
+    family->scale = 1.0;
+    family->tolerance = 1e-13;
+    if (key) {
+        family->key = fst_param_find(key);
+        const fst_param_info *info = fst_param_at(family->key);
+        if (!info || info->kind != FST_KIND_REAL)
+            return fst_fail(error, FST_BAD_INPUT, key,
+                            "%s is no parameter with real values: festoon schema lists them", key);
+        /* Setting it once clears the other forms of the quantity. */
+        fst_model *model = NULL;
+        fst_status status = fst_model_new(params, &model, error);
+        if (status != FST_OK)
+            return status;
+        const double value =
+            strcmp(key, "drive.omega") == 0 ? fst_model_groups(model).omega : fst_family_value(family);
+        fst_model_free(model);
+        if (isfinite(value)) {
+            char text[32];
+            (void)snprintf(text, sizeof text, "%.17g", value);
+            status = fst_params_set(&family->params, key, text, error);
+            if (status != FST_OK)
+                return status;
+        }
+    }
+    return fst_lapack_load(&family->lapack, error);
+}
+
+fst_params fst_family_params(const fst_family *family, double value)
+{
+    fst_params params = family->params;
+    if (family->key >= 0)
+        memcpy((char *)&params + fst_param_at(family->key)->offset, &value, sizeof value);
+    return params;
+}
+
+double fst_family_value(const fst_family *family)
+{
+    double value = 0.0;
+    if (family->key >= 0)
+        memcpy(&value, (const char *)&family->params + fst_param_at(family->key)->offset, sizeof value);
+    return value;
+}
+
+static fst_status model_at(const fst_family *family, double value, fst_model *out, fst_error *error)
+{
+    const fst_params params = fst_family_params(family, value);
+    fst_model *model = NULL;
+    const fst_status status = fst_model_new(&params, &model, error);
+    if (status == FST_OK)
+        *out = *model;
+    fst_model_free(model);
+    return status;
+}
+
+fst_status fst_family_setup(const fst_family *family, double value, fst_setup *setup, fst_error *error)
+{
+    memset(setup, 0, sizeof *setup);
+    fst_status status = model_at(family, value, &setup->model, error);
+    setup->differs = family->key >= 0;
+    setup->exact = setup->differs && strcmp(fst_param_at(family->key)->key, "drive.omega") == 0;
+    if (status != FST_OK || !setup->differs || setup->exact)
+        return status;
+    fst_model below, above;
+    const double step = 1e-5 * (fabs(value) > 0 ? fabs(value) : family->scale);
+    status = model_at(family, value - step, &below, error);
+    if (status == FST_OK)
+        status = model_at(family, value + step, &above, error);
+    if (status != FST_OK)
+        return status;
+    setup->below = below.coefficients;
+    setup->above = above.coefficients;
+    setup->spread = 2.0 * step;
+    return FST_OK;
+}
+
+void fst_setup_rhs(const fst_setup *setup, const double *y, double *dy)
+{
+    fst_pull_double pull;
+    fst_rhs_double(&setup->model.coefficients, setup->model.coefficients.omega, y, dy, &pull);
+}
+
+void fst_setup_by_parameter(const fst_setup *setup, const double *y, double *by)
+{
+    memset(by, 0, FST_STATE_SIZE * sizeof *by);
+    if (!setup->differs)
+        return;
+    if (setup->exact) {
+        fst_rhs_by_omega_double(y, by);
+        return;
+    }
+    fst_pull_double pull;
+    double below[FST_STATE_SIZE];
+    fst_rhs_double(&setup->below, setup->below.omega, y, below, &pull);
+    fst_rhs_double(&setup->above, setup->above.omega, y, by, &pull);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        by[i] = (by[i] - below[i]) / setup->spread;
+}

@@ -1,0 +1,58 @@
+/* family.h - a setup with one free parameter, and the motion of a bundle of tangent vectors in it. */
+#ifndef FST_ORBIT_FAMILY_H
+#define FST_ORBIT_FAMILY_H
+
+#include "model/model.h"
+#include "orbit/lapack.h"
+
+enum {
+    FST_TANGENT_SIZE = 9,               /* dimension of the space of states: |n| = 1 */
+    FST_COLUMNS = FST_TANGENT_SIZE + 1, /* tangents carried along: a basis, and the parameter's */
+    FST_BUNDLE_SIZE = FST_STATE_SIZE * (1 + FST_COLUMNS)
+};
+
+/* The setups that differ in one parameter. */
+typedef struct fst_family {
+    fst_params params;
+    int key;          /* row of params.def that is free; -1: none */
+    double scale;     /* of the parameter, for the length of arcs */
+    double tolerance; /* of integration, relative and absolute */
+    const fst_lapack *lapack;
+} fst_family;
+
+/* One of them: the coefficients, and two neighbours for the derivative by the parameter.  The drive's omega
+ * needs none, for its derivative is exact; that of the others enters Newton's matrix alone, and so bears on the
+ * number of iterations, not on the result. */
+typedef struct fst_setup {
+    fst_model model;
+    int exact;   /* the parameter is omega */
+    int differs; /* the derivative by the parameter is wanted */
+    fst_coefficients_double below, above;
+    double spread; /* of the parameter between them */
+} fst_setup;
+
+/* A family over `key` (NULL: none free); clears the other forms of the quantity.  FST_BAD_INPUT: no such key,
+ * or one that is no real number; FST_UNAVAILABLE: no LAPACK. */
+fst_status fst_family_begin(fst_family *family, const fst_params *params, const char *key, fst_error *error);
+
+/* The parameters and the setup at a value of the free parameter. */
+fst_params fst_family_params(const fst_family *family, double value);
+fst_status fst_family_setup(const fst_family *family, double value, fst_setup *setup, fst_error *error);
+
+/* The parameter's value in family->params. */
+double fst_family_value(const fst_family *family);
+
+/* d(state)/dt, and its derivative by the free parameter. */
+void fst_setup_rhs(const fst_setup *setup, const double *y, double *dy);
+void fst_setup_by_parameter(const fst_setup *setup, const double *y, double *by);
+
+/* Carry a state and FST_COLUMNS tangent vectors (tangent[i][c]: component i of column c) over `duration`.  The
+ * last column is the derivative by the free parameter.  FST_STEP_UNDERFLOW, FST_NOT_FINITE. */
+fst_status fst_carry(const fst_setup *setup, double tolerance, double duration, double y[FST_STATE_SIZE],
+                     double tangent[FST_STATE_SIZE][FST_COLUMNS], fst_error *error);
+
+/* An orthonormal basis of the tangent space at y: basis[i][j] is component i of vector j.  Seven vectors lie
+ * along the axes; two span the plane across n. */
+void fst_tangent_basis(const double *y, double basis[FST_STATE_SIZE][FST_TANGENT_SIZE]);
+
+#endif

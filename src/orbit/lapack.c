@@ -1,0 +1,28 @@
+/* lapack.c - loading the module that calls LAPACK. */
+#include "orbit/lapack.h"
+
+#include <dlfcn.h>
+#include <string.h>
+
+#include "base/error.h"
+
+#define MODULE_FILE "festoon-lapack.so"
+
+/* The module is found along the RUNPATH of this library, and stays loaded. */
+fst_status fst_lapack_load(const fst_lapack **lapack, fst_error *error)
+{
+    void *library = dlopen(MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    *lapack = library ? dlsym(library, FST_LAPACK_MODULE_SYMBOL) : NULL;
+    fst_status status = FST_OK;
+    if (!*lapack)
+        status = fst_fail(error, FST_UNAVAILABLE, MODULE_FILE,
+                          "this festoon has no LAPACK (%s): install liblapacke-dev and build festoon again",
+                          library ? MODULE_FILE " is no module of festoon" : MODULE_FILE " cannot be loaded");
+    else if (strcmp((*lapack)->version, fst_version()) != 0)
+        status = fst_fail(error, FST_UNAVAILABLE, MODULE_FILE,
+                          "%s belongs to festoon %s, not to %s: install festoon again", MODULE_FILE,
+                          (*lapack)->version, fst_version());
+    if (library)
+        (void)dlclose(library);
+    return status;
+}

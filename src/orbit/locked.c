@@ -1,0 +1,221 @@
+/* locked.c - every equilibrium: the bead goes round with the magnet. */
+#include "orbit/branch.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+
+enum { STARTS = 3000, MOST = 256, LARGEST_RADIUS = 8 };
+
+/* Element `index` of the van der Corput sequence in base `base`. */
+static double radical_inverse(int index, int base)
+{
+    double value = 0.0, digit = 1.0 / base;
+    for (; index > 0; index /= base, digit /= base)
+        value += digit * (index % base);
+    return value;
+}
+
+/* A start of Newton's method: the place in a disc (more densely near the axis) and n, or the spin, from a
+ * Halton sequence; v and W as they must be for n to stand still and the contact to slip least: at an
+ * equilibrium v = omega e x x and W = omega e + c n, which leaves the spin c.  The contact can hardly slip
+ * where the field is weak, and rolls without slip only if n lies in the plane of e_r and e_z, with c n_r =
+ * -omega r/eps: a third of the starts have it there at any angle, a third at that of a spin between 1 and 1000
+ * (families end with their spin growing without bound), and the rest anywhere. */
+static void start_at(const fst_setup *setup, int index, double y[FST_STATE_SIZE])
+{
+    const double two_pi = 6.283185307179586476925287, omega = setup->model.groups.omega;
+    const double eps = setup->model.groups.eps, choice = radical_inverse(index, 7);
+    const double u = radical_inverse(index, 2), angle = two_pi * radical_inverse(index, 3);
+    const double r = (index % 3 == 2 ? 0.4 : 1.0) * LARGEST_RADIUS * (u * u);
+    double nz = 2.0 * radical_inverse(index, 5) - 1.0, across = sqrt(1.0 - nz * nz), turn = two_pi * choice;
+    if (index % 3 != 0)
+        turn = angle + (choice < 0.5 ? 0.0 : 0.5 * two_pi);
+    if (index % 3 == 2) {
+        const double spin = exp(6.9 * fabs(nz));
+        across = fmin(0.99, omega * r / (eps * spin));
+        nz = copysign(sqrt(1.0 - across * across), nz);
+    }
+    y[FST_X] = r * cos(angle);
+    y[FST_Y] = r * sin(angle);
+    y[FST_VX] = -omega * y[FST_Y];
+    y[FST_VY] = omega * y[FST_X];
+    y[FST_NX] = across * cos(turn);
+    y[FST_NY] = across * sin(turn);
+    y[FST_NZ] = nz;
+    /* V = v - eps W x e = v - eps c (nY, -nX): least for this c, bounded where n stands upright. */
+    const double spread = eps * (across * across + (index % 3 == 2 ? 1e-12 : 0.05));
+    const double c = (y[FST_VX] * y[FST_NY] - y[FST_VY] * y[FST_NX]) / spread;
+    y[FST_WX] = c * y[FST_NX];
+    y[FST_WY] = c * y[FST_NY];
+    y[FST_WZ] = omega + c * y[FST_NZ];
+}
+
+typedef struct found_state {
+    fst_solution s;
+    int count;
+} found_state;
+
+typedef struct finder {
+    const fst_family *family;
+    double value;
+    found_state *found;
+    int count;
+} finder;
+
+static int same(const double *a, const double *b)
+{
+    for (int k = 0; k < FST_STATE_SIZE; ++k)
+        if (!(fabs(a[k] - b[k]) < 1e-6 * (1.0 + fabs(a[k]))))
+            return 0;
+    return 1;
+}
+
+static void note(finder *f, const fst_solution *s, int count)
+{
+    for (int i = 0; i < f->count; ++i)
+        if (same(f->found[i].s.y[0], s->y[0])) {
+            f->found[i].count += count;
+            return;
+        }
+    if (f->count < MOST)
+        f->found[f->count++] = (found_state){*s, count};
+}
+
+/* Damped Newton iterations on the equations of rest; 1 if they end at an equilibrium. */
+static int settle(finder *f, fst_solution *s)
+{
+    fst_error ignored;
+    return fst_solution_correct(f->family, s, NULL, &ignored) == FST_OK &&
+           hypot(s->y[0][FST_X], s->y[0][FST_Y]) < 4.0 * LARGEST_RADIUS;
+}
+
+/* Every start, every state's image under S2 as well. */
+static fst_status search(finder *f, int starts, fst_error *error)
+{
+    fst_setup setup;
+    const fst_status status = fst_family_setup(f->family, f->value, &setup, error);
+    for (int i = 1; i <= starts && status == FST_OK; ++i) {
+        fst_solution s;
+        memset(&s, 0, sizeof s);
+        s.value = f->value;
+        start_at(&setup, i, s.y[0]);
+        if (!settle(f, &s))
+            continue;
+        fst_solution image = s;
+        fst_apply_s2(s.y[0], image.y[0]);
+        note(f, &s, 1);
+        if (settle(f, &image))
+            note(f, &image, 0);
+    }
+    return status;
+}
+
+static fst_status find_all(const fst_family *family, double value, int starts, finder *f, fst_error *error)
+{
+    memset(f, 0, sizeof *f);
+    f->family = family;
+    f->value = value;
+    f->found = calloc(MOST, sizeof *f->found);
+    if (!f->found)
+        return fst_fail(error, FST_NO_MEMORY, "locked", "out of memory");
+    return search(f, starts, error);
+}
+
+/* Stable ones first, then from the axis outwards. */
+static int before(const void *left, const void *right)
+{
+    const fst_locked *a = left, *b = right;
+    if (a->stable != b->stable)
+        return b->stable - a->stable;
+    if (fabs(a->r - b->r) > 1e-9)
+        return a->r < b->r ? -1 : 1;
+    return (a->state[FST_X] < b->state[FST_X]) - (a->state[FST_X] > b->state[FST_X]);
+}
+
+static fst_status fill(const fst_family *family, found_state *found, fst_locked *out, int *sign,
+                       fst_error *error)
+{
+    fst_setup setup;
+    fst_status status = fst_solution_spectrum(family, &found->s, error);
+    if (status == FST_OK)
+        status = fst_family_setup(family, found->s.value, &setup, error);
+    if (status != FST_OK)
+        return status;
+    const fst_observation o = fst_observe(&setup.model, found->s.y[0]);
+    memcpy(out->state, found->s.y[0], sizeof out->state);
+    out->r = o.r;
+    out->phi_deg = o.r > 1e-9 ? atan2(o.sin_phi, o.cos_phi) * 57.29577951308232087680 : NAN;
+    out->slip = o.slip_norm;
+    out->friction_power = o.friction_power;
+    memcpy(out->eigenvalue_re, found->s.re, sizeof out->eigenvalue_re);
+    memcpy(out->eigenvalue_im, found->s.im, sizeof out->eigenvalue_im);
+    out->stable = fst_solution_is_stable(&found->s);
+    out->residual = found->s.residual;
+    out->found = found->count;
+    *sign = 1;
+    for (int i = 0; i < FST_EIGENVALUE_COUNT; ++i)
+        if (found->s.im[i] == 0.0 && found->s.re[i] > 0)
+            *sign = -*sign;
+    return FST_OK;
+}
+
+fst_status fst_locked_find(const fst_params *params, fst_locked_list *list, fst_error *error)
+{
+    memset(list, 0, sizeof *list);
+    fst_family family;
+    finder f = {.found = NULL};
+    fst_status status = fst_family_begin(&family, params, NULL, error);
+    if (status == FST_OK)
+        status = find_all(&family, 0.0, STARTS, &f, error);
+    if (status == FST_OK && !(list->states = calloc((size_t)f.count + 1, sizeof *list->states)))
+        status = fst_fail(error, FST_NO_MEMORY, "locked", "out of memory");
+    for (int i = 0; i < f.count && status == FST_OK; ++i) {
+        int sign;
+        status = fill(&family, &f.found[i], &list->states[i], &sign, error);
+        list->index_sum += sign;
+    }
+    free(f.found);
+    if (status != FST_OK) {
+        fst_locked_free(list);
+        return status;
+    }
+    list->count = (size_t)f.count;
+    list->starts = STARTS;
+    if (list->count > 0)
+        qsort(list->states, list->count, sizeof *list->states, before);
+    return FST_OK;
+}
+
+void fst_locked_free(fst_locked_list *list)
+{
+    free(list->states);
+    memset(list, 0, sizeof *list);
+}
+
+/* Every family: the equilibria at several values, each followed unless a branch already passes through it. */
+fst_status fst_follow_locked(fst_tracer *t, fst_error *error)
+{
+    enum { SLICES = 12, FEWER_STARTS = 900 };
+    const double lo = fmin(t->options->from, t->options->to), hi = fmax(t->options->from, t->options->to);
+    fst_status status = FST_OK;
+    for (int slice = 0; slice < SLICES && status == FST_OK; ++slice) {
+        finder f;
+        const double part = (slice + 0.5) / SLICES; /* most states live at the low end of omega */
+        status = find_all(&t->family, lo + (hi - lo) * (part * part), FEWER_STARTS, &f, error);
+        for (int i = 0; i < f.count && status == FST_OK; ++i) {
+            fst_node node;
+            fst_solution s = f.found[i].s;
+            fst_error ignored;
+            if (fst_solution_correct(&t->family, &s, NULL, &ignored) != FST_OK ||
+                fst_node_make(&t->family, &s, &node, &ignored) != FST_OK || fst_tracer_knows(t, &node.seen))
+                continue;
+            status = fst_tracer_add(t, &node, error);
+            if (status == FST_OK)
+                status = fst_tracer_run(t, error);
+        }
+        free(f.found);
+    }
+    return status;
+}

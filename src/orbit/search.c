@@ -1,0 +1,247 @@
+/* search.c - the orbit to which a start leads: integrate until returns come close, then Newton's method. */
+#include "orbit/search.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "ode/flow.h"
+#include "orbit/describe.h"
+#include "study/run_state.h"
+
+#define TWO_PI 6.283185307179586476925287
+
+#define SEARCH_TOLERANCE 1e-8 /* of the way to the orbit, which Newton's method then finds exactly */
+
+enum { PEAKS = 48 };
+
+/* A trajectory that is watched for returns. */
+typedef struct search {
+    const fst_family *family; /* with no free parameter */
+    fst_model *model;
+    fst_flow *flow;
+    double section[3][FST_STATE_SIZE]; /* the latest passages of X = 0, on the side Y > 0 (images under S2) */
+    double section_time[3];
+    int passages; /* since the turning was last irregular */
+    int last_half;
+    double peak[PEAKS][FST_STATE_SIZE]; /* the latest places where r was greatest */
+    double peak_time[PEAKS];
+    int peaks;
+    double half_distance, full_distance; /* of the latest returns */
+    double drive_period;
+    int attempts;
+} search;
+
+static double distance(const double *a, const double *b)
+{
+    double greatest = 0.0;
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        greatest = fabs(a[i] - b[i]) > greatest ? fabs(a[i] - b[i]) : greatest;
+    return greatest;
+}
+
+/* Newton's method from a guess.  The orbit is the one that the bead approaches if it attracts, and if the bead
+ * is as far from it as its last return `gap` says: a return moves the bead by (1 - rho) of its distance, rho
+ * being the greatest multiplier. */
+static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
+{
+    double start[FST_STATE_SIZE], greatest = 0.0;
+    const double period = guess->period;
+    memcpy(start, guess->y[0], sizeof start);
+    s->attempts += 1;
+    if (fst_solution_chain(s->family, guess, guess->symmetric ? 1 : 2, error) != FST_OK ||
+        fst_solution_correct(s->family, guess, NULL, error) != FST_OK ||
+        fst_solution_spectrum(s->family, guess, error) != FST_OK || !fst_solution_is_stable(guess))
+        return 0;
+    for (int i = 0; i < guess->multipliers; ++i)
+        greatest = fmax(greatest, hypot(guess->re[i], guess->im[i]));
+    return distance(start, guess->y[0]) <= 6.0 * gap / (1.0 - greatest) + 1e-7 &&
+           fabs(guess->period / period - 1.0) < 0.1;
+}
+
+/* An S1 orbit whose halves are alike may be an S2 orbit seen by the full map. */
+static void prefer_symmetric(search *s, fst_solution *orbit)
+{
+    fst_solution half = *orbit;
+    fst_error ignored;
+    fst_apply_s2(orbit->y[1], half.y[1]);
+    const double gap = distance(half.y[1], orbit->y[0]);
+    half.symmetric = 1;
+    half.period = 0.5 * orbit->period;
+    if (gap < 0.01 && polish(s, &half, gap, &ignored))
+        *orbit = half;
+}
+
+static int try_turning(search *s, fst_solution *out, fst_error *error)
+{
+    for (int symmetric = 1; symmetric >= 0; --symmetric) {
+        /* Towards a symmetric orbit the half map often alternates, and whole returns look closer than half
+         * ones. */
+        const double gap = symmetric ? s->half_distance : s->full_distance;
+        if (!(gap < (symmetric ? 0.1 : 0.05)))
+            continue;
+        memset(out, 0, sizeof *out);
+        out->symmetric = symmetric;
+        out->on_section = 1;
+        memcpy(out->y[0], s->section[0], sizeof out->y[0]);
+        out->y[0][FST_X] = 0.0;
+        out->period = s->section_time[0] - s->section_time[symmetric ? 1 : 2];
+        if (polish(s, out, gap, error)) {
+            if (!symmetric)
+                prefer_symmetric(s, out);
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* A libration: the latest peak of r against earlier ones. */
+static int try_librating(search *s, fst_solution *out, fst_error *error)
+{
+    const int last = (s->peaks - 1) % PEAKS;
+    for (int back = 1; back < PEAKS && back < s->peaks; ++back) {
+        const int earlier = (s->peaks - 1 - back) % PEAKS;
+        const double gap = distance(s->peak[last], s->peak[earlier]);
+        if (!(gap < 0.02))
+            continue;
+        memset(out, 0, sizeof *out);
+        memcpy(out->y[0], s->peak[last], sizeof out->y[0]);
+        out->period = s->peak_time[last] - s->peak_time[earlier];
+        return polish(s, out, gap, error);
+    }
+    return 0;
+}
+
+/* The passage of X = 0 in the last step; 1 if it completes a regular turn. */
+static int note_passage(search *s)
+{
+    const double *start = s->flow->step.y, *end = s->flow->step.end;
+    if ((start[FST_X] < 0) == (end[FST_X] < 0))
+        return 0;
+    double y[FST_STATE_SIZE];
+    const double x = start[FST_X] == 0.0
+                         ? 0.0
+                         : fst_flow_locate(s->flow, fst_section_function, 0.0, 1.0, start[FST_X], end[FST_X]);
+    fst_flow_at(s->flow, x, y);
+    const int half = y[FST_Y] > 0 ? 1 : -1, downward = (end[FST_X] >= 0) == (half > 0);
+    s->passages = downward && half != s->last_half ? s->passages + 1 : 1;
+    s->last_half = downward ? half : 0;
+    if (half < 0)
+        fst_apply_s2(y, y);
+    memmove(s->section[1], s->section[0], 2 * sizeof s->section[0]);
+    memmove(s->section_time + 1, s->section_time, 2 * sizeof s->section_time[0]);
+    memcpy(s->section[0], y, sizeof y);
+    s->section_time[0] = fst_flow_time(s->flow, x).high;
+    s->half_distance = s->passages > 1 ? distance(s->section[0], s->section[1]) : INFINITY;
+    s->full_distance = s->passages > 2 ? distance(s->section[0], s->section[2]) : INFINITY;
+    return s->passages > 3;
+}
+
+static int note_peak(search *s)
+{
+    const double before = fst_radial_function(s->flow, s->flow->step.y, NULL);
+    const double after = fst_radial_function(s->flow, s->flow->step.end, NULL);
+    if (!(before > 0 && after <= 0))
+        return 0;
+    const double x = fst_flow_locate(s->flow, fst_radial_function, 0.0, 1.0, before, after);
+    fst_flow_at(s->flow, x, s->peak[s->peaks % PEAKS]);
+    s->peak_time[s->peaks % PEAKS] = fst_flow_time(s->flow, x).high;
+    s->peaks += 1;
+    return s->peaks > 2;
+}
+
+/* Whether the bead stands still in the turning frame. */
+static int is_locked(const search *s)
+{
+    double greatest = 0.0;
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        greatest = fmax(greatest, fabs(s->flow->step.k[12][i]));
+    return greatest < 1e-8;
+}
+
+static fst_status went_elsewhere(const search *s, const char *how, fst_error *error)
+{
+    const double *y = s->flow->step.end;
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "orbit",
+        "from this start the bead %s at omega = %.10g (after %.4g drive periods, at r = %.6g, "
+        "Phi = %.6g degrees): there is no orbit to polish. Try another start.r, start.phi or omega; "
+        "festoon locked lists the states in which the bead follows the magnet",
+        how, s->model->groups.omega, s->flow->t.high / s->drive_period, hypot(y[FST_X], y[FST_Y]),
+        atan2(y[FST_Y], y[FST_X]) * 360.0 / TWO_PI);
+}
+
+static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *error)
+{
+    int turns = 0, peaks = 0;
+    while (s->flow->t.high < t_end) {
+        const fst_status status = fst_flow_step(s->flow, t_end, error);
+        if (status != FST_OK)
+            return status;
+        const double r = hypot(s->flow->step.end[FST_X], s->flow->step.end[FST_Y]);
+        if (r > 50.0)
+            return went_elsewhere(s, "flies away", error);
+        fst_error ignored;
+        if (note_passage(s)) {
+            turns += 1;
+            /* Often while the returns are far apart costs time; the later, the rarer. */
+            if (turns % (turns < 40 ? 4 : 32) == 0 && try_turning(s, out, &ignored))
+                return FST_OK;
+        }
+        if (note_peak(s) && s->passages < 4 && s->flow->t.high > 20.0 * s->drive_period) {
+            peaks += 1;
+            if (peaks % 16 == 0 && is_locked(s))
+                return went_elsewhere(s, "locks to the magnet", error);
+            if (peaks % 16 == 0 && try_librating(s, out, &ignored))
+                return FST_OK;
+        }
+        if (s->flow->accepted % 64 == 0 && is_locked(s))
+            return went_elsewhere(s, "locks to the magnet", error);
+    }
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "orbit",
+        "the bead settled on no stable orbit within %.6g drive periods at omega = %.10g: its last returns "
+        "differ by %.3g (half turns: %.3g), and Newton's method was tried %d times. Try a longer "
+        "run.periods or another start; festoon lyapunov tells whether the motion is chaotic",
+        t_end / s->drive_period, s->model->groups.omega, s->full_distance, s->half_distance, s->attempts);
+}
+
+fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_error *error)
+{
+    search *s = calloc(1, sizeof *s);
+    if (!s)
+        return fst_fail(error, FST_NO_MEMORY, "orbit", "out of memory");
+    s->family = family;
+    s->half_distance = s->full_distance = INFINITY;
+    double start[FST_STATE_SIZE];
+    fst_model *model = NULL;
+    fst_status status = fst_model_new(&family->params, &model, error);
+    if (status == FST_OK)
+        status = fst_start_state(&family->params, model, start, error);
+    if (status == FST_OK)
+        status = fst_solution_flow(family, 0.0, start, SEARCH_TOLERANCE, &s->model, &s->flow, error);
+    if (status == FST_OK) {
+        s->drive_period = TWO_PI / model->groups.omega;
+        status = follow(s, family->params.run_periods * s->drive_period, out, error);
+    }
+    fst_flow_free(s->flow);
+    fst_model_free(s->model);
+    fst_model_free(model);
+    free(s);
+    return status;
+}
+
+fst_status fst_orbit_find(const fst_params *params, fst_orbit *orbit, fst_error *error)
+{
+    fst_family family;
+    fst_solution solution;
+    memset(orbit, 0, sizeof *orbit);
+    fst_result_clear(&orbit->means);
+    fst_status status = fst_family_begin(&family, params, NULL, error);
+    if (status == FST_OK)
+        status = fst_search_orbit(&family, &solution, error);
+    if (status == FST_OK)
+        status = fst_orbit_from_solution(&family, &solution, orbit, error);
+    return status;
+}

@@ -1,0 +1,174 @@
+/* spectrum.c - multipliers of orbits and eigenvalues of equilibria. */
+#include "orbit/solution.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+
+/* An orthogonal matrix (by a Householder reflection) whose first column is f/|f|. */
+static void reflection(const double *f, double q[FST_TANGENT_SIZE][FST_TANGENT_SIZE])
+{
+    double u[FST_TANGENT_SIZE], norm2 = 0.0;
+    for (int i = 0; i < FST_TANGENT_SIZE; ++i)
+        norm2 += f[i] * f[i];
+    const double length = sqrt(norm2), sign = f[0] > 0 ? 1.0 : -1.0;
+    for (int i = 0; i < FST_TANGENT_SIZE; ++i)
+        u[i] = f[i] / length;
+    u[0] += sign;
+    double u2 = 0.0;
+    for (int i = 0; i < FST_TANGENT_SIZE; ++i)
+        u2 += u[i] * u[i];
+    for (int i = 0; i < FST_TANGENT_SIZE; ++i)
+        for (int j = 0; j < FST_TANGENT_SIZE; ++j)
+            q[i][j] = -sign * ((i == j ? 1.0 : 0.0) - 2.0 * u[i] * u[j] / u2);
+}
+
+/* b = q^T a q */
+static void rotate(double q[FST_TANGENT_SIZE][FST_TANGENT_SIZE], double a[FST_TANGENT_SIZE][FST_TANGENT_SIZE],
+                   double b[FST_TANGENT_SIZE][FST_TANGENT_SIZE])
+{
+    enum { N = FST_TANGENT_SIZE };
+    double aq[N][N];
+    for (int i = 0; i < N; ++i)
+        for (int j = 0; j < N; ++j) {
+            aq[i][j] = 0.0;
+            for (int k = 0; k < N; ++k)
+                aq[i][j] += a[i][k] * q[k][j];
+        }
+    for (int i = 0; i < N; ++i)
+        for (int j = 0; j < N; ++j) {
+            b[i][j] = 0.0;
+            for (int k = 0; k < N; ++k)
+                b[i][j] += q[k][i] * aq[k][j];
+        }
+}
+
+/* The matrix whose eigenvalues count, n x n by rows, and for an orbit the rotation that splits the flow
+ * direction off: in its basis the derivative of the return has the first column (1, 0, ..., 0), and the rest of
+ * it is the derivative of the return to the section across the flow. */
+static fst_status reduced_matrix(const fst_family *family, fst_solution *s, double *matrix,
+                                 double q[FST_TANGENT_SIZE][FST_TANGENT_SIZE], fst_error *error)
+{
+    if (s->segments == 0) {
+        memcpy(matrix, s->map, sizeof s->map);
+        s->multipliers = FST_TANGENT_SIZE;
+        return FST_OK;
+    }
+    fst_setup setup;
+    double f[FST_STATE_SIZE], basis[FST_STATE_SIZE][FST_TANGENT_SIZE], local[FST_TANGENT_SIZE] = {0};
+    const fst_status status = fst_family_setup(family, s->value, &setup, error);
+    if (status != FST_OK)
+        return status;
+    fst_setup_rhs(&setup, s->y[0], f);
+    fst_tangent_basis(s->y[0], basis);
+    for (int j = 0; j < FST_TANGENT_SIZE; ++j)
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            local[j] += basis[i][j] * f[i];
+    double turned[FST_TANGENT_SIZE][FST_TANGENT_SIZE];
+    reflection(local, q);
+    rotate(q, s->map, turned);
+    s->trivial_error = fabs(turned[0][0] - 1.0);
+    s->multipliers = FST_TANGENT_SIZE - 1;
+    for (int i = 0; i < s->multipliers; ++i) {
+        if (fabs(turned[i + 1][0]) > s->trivial_error)
+            s->trivial_error = fabs(turned[i + 1][0]);
+        memcpy(matrix + i * s->multipliers, &turned[i + 1][1], (size_t)s->multipliers * sizeof *matrix);
+    }
+    return FST_OK;
+}
+
+fst_status fst_solution_spectrum(const fst_family *family, fst_solution *s, fst_error *error)
+{
+    double matrix[FST_TANGENT_SIZE * FST_TANGENT_SIZE], q[FST_TANGENT_SIZE][FST_TANGENT_SIZE];
+    const fst_status status = reduced_matrix(family, s, matrix, q, error);
+    if (status != FST_OK)
+        return status;
+    if (family->lapack->eigen(s->multipliers, matrix, s->re, s->im, NULL) != 0)
+        return fst_fail(error, FST_NO_CONVERGENCE, "spectrum", "the eigenvalues at %.10g were not found",
+                        s->value);
+    return FST_OK;
+}
+
+fst_status fst_solution_eigenvector(const fst_family *family, const fst_solution *s, double re, double im,
+                                    double real[FST_STATE_SIZE], double imaginary[FST_STATE_SIZE],
+                                    fst_error *error)
+{
+    fst_solution copy = *s;
+    double matrix[FST_TANGENT_SIZE * FST_TANGENT_SIZE], q[FST_TANGENT_SIZE][FST_TANGENT_SIZE];
+    double vectors[FST_TANGENT_SIZE * FST_TANGENT_SIZE], basis[FST_STATE_SIZE][FST_TANGENT_SIZE];
+    const fst_status status = reduced_matrix(family, &copy, matrix, q, error);
+    if (status != FST_OK)
+        return status;
+    const int n = copy.multipliers, dropped = FST_TANGENT_SIZE - n;
+    if (family->lapack->eigen(n, matrix, copy.re, copy.im, vectors) != 0)
+        return fst_fail(error, FST_NO_CONVERGENCE, "spectrum", "the eigenvectors at %.10g were not found",
+                        s->value);
+    int best = 0;
+    for (int i = 1; i < n; ++i)
+        if (hypot(copy.re[i] - re, copy.im[i] - im) < hypot(copy.re[best] - re, copy.im[best] - im))
+            best = i;
+    if (copy.im[best] < 0 && best > 0)
+        best -= 1; /* a pair's vectors stand at its first member */
+    fst_tangent_basis(s->y[0], basis);
+    for (int part = 0; part < (imaginary ? 2 : 1); ++part) {
+        double local[FST_TANGENT_SIZE] = {0}, *out = part ? imaginary : real;
+        for (int i = 0; i < FST_TANGENT_SIZE; ++i)
+            for (int j = 0; j < n; ++j) {
+                const double component = vectors[j * n + best + (copy.im[best] != 0 ? part : 0)];
+                local[i] += dropped ? q[i][j + 1] * component : (i == j ? component : 0.0);
+            }
+        for (int k = 0; k < FST_STATE_SIZE; ++k) {
+            out[k] = 0.0;
+            for (int j = 0; j < FST_TANGENT_SIZE; ++j)
+                out[k] += basis[k][j] * local[j];
+        }
+    }
+    return FST_OK;
+}
+
+int fst_solution_is_stable(const fst_solution *s)
+{
+    for (int i = 0; i < s->multipliers; ++i)
+        if (s->segments > 0 ? hypot(s->re[i], s->im[i]) >= 1.0 : s->re[i] > -1e-13)
+            return 0;
+    return 1;
+}
+
+/* ------------------------------------------------------------------ along the orbit */
+
+fst_status fst_solution_flow(const fst_family *family, double value, const double *state, double tolerance,
+                             fst_model **model, fst_flow **flow, fst_error *error)
+{
+    const fst_params params = fst_family_params(family, value);
+    *flow = NULL;
+    fst_status status = fst_model_new(&params, model, error);
+    if (status != FST_OK)
+        return status;
+    fst_flow_options o = fst_default_flow_options();
+    o.rtol = tolerance;
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        o.atol[i] = tolerance;
+    status = fst_flow_new(*model, &o, state, flow, error);
+    if (status != FST_OK) {
+        fst_model_free(*model);
+        *model = NULL;
+    }
+    return status;
+}
+
+fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int segments, fst_error *error)
+{
+    fst_model *model;
+    fst_flow *flow;
+    fst_status status = fst_solution_flow(family, s->value, s->y[0], family->tolerance, &model, &flow, error);
+    s->segments = segments;
+    for (int i = 1; i < segments && status == FST_OK; ++i) {
+        fst_stop stop;
+        status = fst_flow_advance(flow, s->period * i / segments, 0, &stop, error);
+        memcpy(s->y[i], fst_flow_get(flow).state, sizeof s->y[i]);
+    }
+    fst_flow_free(flow);
+    fst_model_free(model);
+    return status;
+}
