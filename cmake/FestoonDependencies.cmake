@@ -1,5 +1,5 @@
-# What the tools need (the physics in libfestoon needs the C library alone).  POSIX threads, libyaml and jansson are
-# required; HDF5 and gnuplot are optional, and a program without them says so in `festoon --version`.
+# What the tools need (the physics in libfestoon needs the C library alone).  POSIX threads, libyaml, jansson and
+# SQLite are required; HDF5 and gnuplot are optional, and a program without them says so in `festoon --version`.
 
 # libfestoon itself needs the C library alone; what seeks orbits loads LAPACK as a module.
 find_package(PkgConfig REQUIRED)
@@ -18,6 +18,7 @@ set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
 pkg_check_modules(YAML REQUIRED IMPORTED_TARGET yaml-0.1)
 pkg_check_modules(JANSSON REQUIRED IMPORTED_TARGET jansson)
+pkg_check_modules(SQLITE REQUIRED IMPORTED_TARGET sqlite3)
 
 # The serial flavour first: plain `hdf5` may be Debian's alternative that needs MPI.
 pkg_search_module(HDF5 QUIET IMPORTED_TARGET hdf5-serial hdf5)

@@ -9,6 +9,7 @@
 #include "model/coefficients.inl"
 #include "model/field.inl"
 #include "model/rhs.inl"
+#include "model/quantities.h"
 #include "model/observe.inl"
 
 /* CHECK_CLOSE of long doubles: their difference is taken before it is rounded. */

@@ -7,7 +7,8 @@
 # as root or by a sudo that asks nothing; failing both, it prints the command to run and ends with status 1.
 set -eu
 
-build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansson-dev libhdf5-dev liblapacke-dev"
+build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansson-dev libsqlite3-dev libhdf5-dev
+    liblapacke-dev"
 demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
 test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p"
 bench_packages="$build_packages libgsl-dev libsundials-dev"

@@ -39,6 +39,10 @@ extern "C" {
 #define FST_VERSION_PATCH 0
 #define FST_VERSION_STRING "0.1.0"
 
+/* Changes when the same parameters give other bits than before: a sweep begun by another version is not
+ * continued. */
+#define FST_RESULTS_VERSION 1
+
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
 
@@ -348,6 +352,7 @@ typedef struct fst_run_options {
     double ramp_from, ramp_to; /* drive omega at the start and end of a ramp; NAN: no ramp */
     int ramp_points;           /* pieces of the ramp over which means are taken */
     double sample_from;        /* drive periods before which no sample is taken */
+    const double *start;       /* FST_STATE_SIZE numbers: the state at the start; NULL: what start.* says */
 } fst_run_options;
 FST_API fst_run_options fst_default_run_options(void);
 
@@ -508,6 +513,75 @@ typedef struct fst_lyapunov {
 
 /* From start.*, after run.discard drive periods, over the rest of run.periods. */
 FST_API fst_status fst_lyapunov_find(const fst_params *params, fst_lyapunov *out, fst_error *error);
+
+/* ------------------------------------------------------------------ grids: the points of a sweep */
+
+#define FST_AXIS_LIMIT 8
+typedef struct fst_grid fst_grid;
+
+/* The points over the parameters `base` along `count` axes, each written KEY=LO:HI:COUNT (evenly, both ends
+ * included), KEY=LO:HI:COUNT:log, KEY=A,B,C (a list, also of choices) or KEY=LO:HI:random:COUNT (evenly
+ * distributed, drawn from `seed`); values may carry units.  Axes multiply, the last one runs fastest; random
+ * axes are drawn together and must have one count.  FST_BAD_INPUT: unknown key, wrong unit, out of range, no
+ * such form. */
+FST_API fst_status fst_grid_new(const fst_params *base, const char *const *axes, int count, uint64_t seed,
+                                fst_grid **grid, fst_error *error);
+FST_API void fst_grid_free(fst_grid *grid);
+
+FST_API int64_t fst_grid_points(const fst_grid *grid);
+FST_API int fst_grid_axis_count(const fst_grid *grid);
+FST_API const fst_params *fst_grid_base(const fst_grid *grid);
+
+/* Of an axis: the parameter's key, the text it was made from, its number of values, and how many points lie
+ * from one value to the next. */
+FST_API const char *fst_grid_key(const fst_grid *grid, int axis);
+FST_API const char *fst_grid_axis_text(const fst_grid *grid, int axis);
+FST_API int64_t fst_grid_axis_points(const fst_grid *grid, int axis);
+FST_API int64_t fst_grid_axis_stride(const fst_grid *grid, int axis);
+
+/* The value of an axis at a point, in SI (of a choice: its index). */
+FST_API double fst_grid_value(const fst_grid *grid, int axis, int64_t point);
+
+/* The parameters of a point. */
+FST_API fst_status fst_grid_params(const fst_grid *grid, int64_t point, fst_params *params, fst_error *error);
+
+/* ------------------------------------------------------------------ rows: many runs at once */
+
+/* The forms of arithmetic: which operations the steps are made of.  Within one form the bits of a result depend
+ * on its parameters alone, whatever runs beside it; the portable form (+ - * / sqrt, nothing fused) has the
+ * bits of fst_run() on every machine. */
+typedef enum { FST_ARITHMETIC_PORTABLE, FST_ARITHMETIC_AVX2, FST_ARITHMETIC_AVX512 } fst_arithmetic;
+FST_API const char *fst_arithmetic_name(fst_arithmetic arithmetic);
+
+/* The fastest form that this processor has. */
+FST_API fst_arithmetic fst_best_arithmetic(void);
+
+/* A run to be done: its parameters and, where `has_start`, the state that it starts from instead of start.*. */
+typedef struct fst_row_job {
+    int64_t point;
+    fst_params params;
+    int has_start;
+    double start[FST_STATE_SIZE];
+} fst_row_job;
+
+/* Where runs come from and where their results go. */
+typedef struct fst_row_work {
+    void *user;
+    fst_arithmetic arithmetic;
+    int lanes; /* runs side by side: 1, 4 or 8; 0: as many as the processor likes */
+    /* Fill in the next job and return 1; 0: there is none. */
+    int (*next)(void *user, fst_row_job *job);
+    /* Take a result; `status` and `error` are those of a run that failed.  Return 1 after filling in the job
+     * that is to follow at once, else 0. */
+    int (*done)(void *user, fst_row_job *job, fst_status status, const fst_run_result *result,
+                const fst_error *error);
+    /* Whether to stop; asked often. */
+    int (*stopped)(void *user);
+} fst_row_work;
+
+/* Do jobs in the calling thread until there are none; several threads may work on one source, each with a call
+ * of its own.  FST_UNAVAILABLE: this processor lacks the arithmetic; FST_INTERRUPTED: stopped() said so. */
+FST_API fst_status fst_rows(const fst_row_work *work, fst_error *error);
 
 #ifdef __cplusplus
 }

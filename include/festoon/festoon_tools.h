@@ -6,6 +6,8 @@
 #ifndef FESTOON_FESTOON_TOOLS_H
 #define FESTOON_FESTOON_TOOLS_H
 
+#include <stdio.h>
+
 #include <festoon/festoon.h>
 
 #ifdef __cplusplus
@@ -135,6 +137,68 @@ FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *obser
 
 /* The map of the magnet's field on the plane of the bead's centre (the paper's Fig. portrait). */
 FST_API fst_status fst_figure_field(const fst_params *params, const char *out, fst_error *error);
+
+/* ------------------------------------------------------------------ sweeps */
+
+/* Whether a point starts from the end of its neighbour along the first axis, and in which direction of its
+ * values. */
+typedef enum { FST_CARRY_NO, FST_CARRY_UP, FST_CARRY_DOWN } fst_carry;
+
+typedef struct fst_sweep_progress {
+    int64_t points, there; /* of the grid; with a row */
+    int64_t added, failed; /* rows added by this call; of these, runs that failed */
+    double seconds;        /* since the call */
+} fst_sweep_progress;
+
+typedef struct fst_sweep_options {
+    uint32_t cookie;
+    const char *const *axes; /* as for fst_grid_new() */
+    int axis_count;
+    uint64_t seed;
+    fst_carry carry;
+    fst_arithmetic arithmetic; /* the fastest that the processor has, unless set */
+    int threads;               /* 0: as many as there are processors */
+    int lanes;                 /* runs side by side on a thread, 1, 4 or 8; 0: as many as the processor likes */
+    void *user;
+    /* Called every tenth of a second or so; another status than FST_OK ends the sweep, keeping what is done. */
+    fst_status (*progress)(void *user, const fst_sweep_progress *progress, fst_error *error);
+} fst_sweep_options;
+FST_API fst_sweep_options fst_default_sweep_options(void);
+
+/* Run every point of a grid that has no row yet in the database `path` (made if missing), and add the rows as
+ * they come. A run that fails, or whose bead leaves the plate, is a row too.  Rows depend on nothing but their
+ * parameters and the form of arithmetic; killed at any moment, the file keeps what was committed, and the same
+ * call goes on. FST_BAD_INPUT: axes; a foreign, damaged or differently made file, which is left untouched.
+ * FST_IO: full disk, no permission.  FST_INTERRUPTED: from `progress`. */
+FST_API fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
+                             fst_sweep_progress *result, fst_error *error);
+
+typedef enum { FST_EXPORT_CSV, FST_EXPORT_JSON, FST_EXPORT_HDF5 } fst_export_format;
+
+/* Write the rows of a sweep's database in the order of the points: CSV with a line of column names; JSON, a
+ * list of objects with the keys of `run`; HDF5, a data set a column.  To the file `out`, or, if that is NULL,
+ * to `stream` (not HDF5). */
+FST_API fst_status fst_sweep_export(const char *path, fst_export_format format, const char *out, FILE *stream,
+                                    fst_error *error);
+
+/* Some keys of a sweep by point: the value of key i at a point is values[i * fst_grid_points(grid) + point],
+ * NAN where there is none; `regime` and `symmetry` by their numbers. */
+typedef struct fst_sweep_table {
+    fst_grid *grid;
+    double *values;
+} fst_sweep_table;
+FST_API fst_status fst_sweep_read(const char *path, const char *const *keys, int count, fst_sweep_table *table,
+                                  fst_error *error);
+FST_API void fst_sweep_table_free(fst_sweep_table *table);
+
+/* Draw a sweep: over one axis curves of the keys, over two a map of the one key, of regimes where it is
+ * `regime`.  With count = 0 the keys are chosen: mean r and its deviation, the mean angular velocity and the
+ * regime over one axis, the regime over two.  FST_BAD_INPUT: more than two axes, more than one key on a map. */
+FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, const char *out,
+                                    fst_error *error);
+
+/* Whether a file begins like a sweep's database. */
+FST_API int fst_is_sweep(const char *path);
 
 /* ------------------------------------------------------------------ the paper */
 

@@ -8,6 +8,8 @@
 #define FST_BASE_REAL_DOUBLE_H
 
 #include <math.h>
+
+#include "base/sums.h"
 #ifdef __SSE2__
 #include <emmintrin.h>
 #endif
@@ -41,5 +43,10 @@ static inline fst_two_doubles fst_sqrt_two_doubles(fst_two_doubles x)
 #define REAL_SQRT(x) sqrt(x)
 #define REAL_ABS(x) fabs(x)
 #define REAL_MAX(a, b) ((a) > (b) ? (a) : (b))
+#define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
+#define REAL_OF(x) ((REAL)(x)) /* a number of another type */
+#define REAL_MULADD(a, b, c) ((a) * (b) + (c))
+#define REAL_MULSUB(a, b, c) ((a) * (b) - (c))
+#define REAL_NEGMULADD(a, b, c) ((c) - (a) * (b))
 
 #endif

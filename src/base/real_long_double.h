@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "base/sums.h"
+
 #define ENDS long double /* ... or each on its own */
 #define ENDS_GROUPS 2
 #define ENDS_OF(plus, minus)                                                                                   \
@@ -19,5 +21,10 @@
 #define REAL_SQRT(x) sqrtl(x)
 #define REAL_ABS(x) fabsl(x)
 #define REAL_MAX(a, b) ((a) > (b) ? (a) : (b))
+#define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
+#define REAL_OF(x) ((REAL)(x)) /* a number of another type */
+#define REAL_MULADD(a, b, c) ((a) * (b) + (c))
+#define REAL_MULSUB(a, b, c) ((a) * (b) - (c))
+#define REAL_NEGMULADD(a, b, c) ((c) - (a) * (b))
 
 #endif

@@ -27,8 +27,9 @@ typedef struct arguments {
     int operand_count;
 } arguments;
 
-/* Read words[0..count) by `table`.  Values may begin with a minus.  Only --set may be repeated.  FST_BAD_INPUT:
- * unknown option (with the nearest valid one), missing or superfluous value, too many operands. */
+/* Read words[0..count) by `table`.  Values may begin with a minus.  Only --set and --over may be repeated.
+ * FST_BAD_INPUT: unknown option (with the nearest valid one), missing or superfluous value, too many operands.
+ */
 fst_status read_arguments(const option *table, int most_operands, int count, char **words, arguments *given,
                           fst_error *error);
 

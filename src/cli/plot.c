@@ -19,6 +19,7 @@ static const option options[] = {
     {"kind", '\0', "KIND",
      "path: in the laboratory; local-n: of the moment in the local frame; radius-field: r and "
      "|B| against Phi"},
+    {"key", '\0', "KEY,...", "of a sweep: the keys of festoon run that are drawn (regime: a map of regimes)"},
     {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
     {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
     {"no-arrows", '\0', NULL, "draw none"},
@@ -117,6 +118,33 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     return status;
 }
 
+/* Curves over one axis, a map over two. */
+static fst_status plot_sweep(const arguments *given, const char *path, const char *to, fst_error *error)
+{
+    enum { MOST_KEYS = 8 };
+    const char *text = option_value(given, "key"), *keys[MOST_KEYS];
+    char words[256] = "";
+    int count = 0;
+    for (int i = 0; i < given->option_count; i++) {
+        const char *name = given->options[i].row->name;
+        if (strcmp(name, "key") != 0 && strcmp(name, "output") != 0)
+            return fail(error, FST_BAD_INPUT, "", "--%s belongs to trajectories; this is a sweep", name);
+    }
+    (void)snprintf(words, sizeof words, "%s", text ? text : "");
+    for (char *word = words; *word && count < MOST_KEYS;) {
+        size_t length = strcspn(word, ",");
+        keys[count++] = word;
+        if (!word[length])
+            break;
+        word[length] = '\0';
+        word += length + 1;
+    }
+    fst_status status = fst_figure_sweep(path, keys, count, to, error);
+    if (status == FST_OK)
+        (void)fprintf(stderr, "wrote %s\n", to);
+    return status;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     (void)out;
@@ -129,6 +157,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "tell where the figure goes: -o FIG.svg");
     if (is_branch(path))
         return plot_branch(given, path, to, error);
+    if (fst_is_sweep(path))
+        return plot_sweep(given, path, to, error);
+    if (option_value(given, "key"))
+        return fail(error, FST_BAD_INPUT, path, "--key belongs to sweeps; this is none");
     fst_status status = read_figure(given, &figure, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);
@@ -143,8 +175,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command plot_command = {
     .name = "plot",
-    .synopsis = "FILE.(h5|csv|json) -o FIG.(svg|pdf|png) [options]",
-    .summary = "Draw a trajectory of run -o or run --csv, or a branch of branch -o",
+    .synopsis = "FILE.(h5|csv|json|db) -o FIG.(svg|pdf|png) [options]",
+    .summary = "Draw a trajectory of run, a branch of branch -o, or the rows of a sweep",
     .details = "",
     .options = options,
     .most_operands = 1,

@@ -4,7 +4,8 @@ const char *fst_colour_code(fst_colour colour)
 {
     static const char *const codes[] = {
         [FST_COLOUR_BLACK] = "#222222", [FST_COLOUR_BLUE] = "#0072b2",   [FST_COLOUR_VERMILION] = "#d55e00",
-        [FST_COLOUR_GREEN] = "#009e73", [FST_COLOUR_PURPLE] = "#cc79a7", [FST_COLOUR_GREY] = "#888888"};
+        [FST_COLOUR_GREEN] = "#009e73", [FST_COLOUR_PURPLE] = "#cc79a7", [FST_COLOUR_GREY] = "#888888",
+        [FST_COLOUR_SKY] = "#56b4e9",   [FST_COLOUR_ORANGE] = "#e69f00"};
     return codes[colour];
 }
 

@@ -11,7 +11,9 @@ typedef enum {
     FST_COLOUR_VERMILION,
     FST_COLOUR_GREEN,
     FST_COLOUR_PURPLE,
-    FST_COLOUR_GREY
+    FST_COLOUR_GREY,
+    FST_COLOUR_SKY,
+    FST_COLOUR_ORANGE
 } fst_colour;
 
 /* "#0072b2" */

@@ -16,6 +16,7 @@
 #include "io/hdf5_present.h"
 #include "io/json.h"
 #include "io/regular_file.h"
+#include "io/trajectory_module.h"
 
 #define MODULE_FILE "festoon-hdf5.so"
 
@@ -30,8 +31,7 @@ struct fst_trajectory {
     const fst_column_info *columns[FST_COLUMN_COUNT];
 };
 
-/* Load the module; it is found along the RUNPATH of this library, and stays loaded. */
-static fst_status load_module(const fst_hdf5_module_table **module, const char *path, fst_error *error)
+fst_status fst_load_hdf5_module(const fst_hdf5_module_table **module, const char *path, fst_error *error)
 {
     void *library = dlopen(MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     *module = library ? dlsym(library, FST_HDF5_MODULE_SYMBOL) : NULL;
@@ -116,7 +116,7 @@ fst_status fst_trajectory_create(const char *path, const fst_params *params, fst
         return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     trajectory->params = *params;
     list_columns(trajectory->columns);
-    fst_status status = hdf5 ? load_module(&trajectory->module, path, error) : FST_OK;
+    fst_status status = hdf5 ? fst_load_hdf5_module(&trajectory->module, path, error) : FST_OK;
     if (status == FST_OK)
         status = fst_whole_file_open(&trajectory->file, path, error);
     if (status == FST_OK)
@@ -188,7 +188,7 @@ static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error
     const fst_hdf5_module_table *module;
     const fst_column_info *columns[FST_COLUMN_COUNT];
     char *scene = NULL;
-    fst_status status = load_module(&module, path, error);
+    fst_status status = fst_load_hdf5_module(&module, path, error);
     if (status != FST_OK)
         return status;
     list_columns(columns);

@@ -21,13 +21,18 @@ typedef struct FN(line_sums) {
 static inline void FN(add_line)(FN(line_sums) * sum, ENDS across2, ENDS along, REAL dy, REAL dy2, REAL uy)
 {
     const ENDS distance2 = dy2 + across2;
+#ifdef ENDS_RECIPROCAL_SQRT
+    const ENDS inverse = ENDS_RECIPROCAL_SQRT(distance2), inverse2 = inverse * inverse;
+    const ENDS q = inverse2 * inverse;
+#else
     const ENDS inverse2 = R(1.0) / distance2; /* the division need not wait for the root */
     const ENDS q = (inverse2 * inverse2) * ENDS_SQRT(distance2);
-    const ENDS t = (q * inverse2) * (along + uy * dy);
+#endif
+    const ENDS t = (q * inverse2) * REAL_MULADD(uy, dy, along);
     sum->q = sum->q + q;
-    sum->yq = sum->yq + dy * q;
+    sum->yq = REAL_MULADD(dy, q, sum->yq);
     sum->t = sum->t + t;
-    sum->yt = sum->yt + dy * t;
+    sum->yt = REAL_MULADD(dy, t, sum->yt);
 }
 
 /* B and G u at (x, y), at the height of the bead's centre. */
@@ -47,12 +52,12 @@ static inline void FN(field_along)(const FN(coefficients) * c, REAL x, REAL y, c
     }
     REAL line = c->first_line;
     for (int count = c->lines; count > 0; --count, line = line + R(1.0)) {
-        const REAL dy = y - line * c->spacing;
+        const REAL dy = REAL_NEGMULADD(line, c->spacing, y);
         for (int group = 0; group < ENDS_GROUPS; ++group)
             FN(add_line)(&sum[group], across2[group], along[group], dy, dy * dy, uy3);
     }
     const REAL q = END(sum, q, 0) - END(sum, q, 1);
-    b[0] = f * (dx[0] * END(sum, q, 0) - dx[1] * END(sum, q, 1));
+    b[0] = f * REAL_MULSUB(dx[0], END(sum, q, 0), dx[1] * END(sum, q, 1));
     b[1] = f * (END(sum, yq, 0) - END(sum, yq, 1));
     b[2] = f * (h * q);
     gu[0] = f * (u[0] * q - (dx[0] * END(sum, t, 0) - dx[1] * END(sum, t, 1)));

@@ -4,6 +4,7 @@
 
 #include <festoon/festoon.h>
 #include "base/real_double.h"
+#include "model/quantities.h"
 
 #include "model/coefficients.inl"
 #include "model/field.inl"

@@ -22,7 +22,7 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
 {
     const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX;
     const REAL r2 = y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y];
-    const REAL inverse_r = R(1.0) / REAL_SQRT(r2 + R(1e-290));
+    const REAL inverse_r = REAL_RECIPROCAL_SQRT(r2 + R(1e-290));
     const REAL ex = y[FST_X] * inverse_r, ey = y[FST_Y] * inverse_r;
     o->r = r2 * inverse_r;
     o->cos_phi = ex;
@@ -34,7 +34,7 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
     o->b[1] = p->b[1] * ex - p->b[0] * ey;
     o->b[2] = p->b[2];
     o->b2 = p->b[0] * p->b[0] + p->b[1] * p->b[1] + p->b[2] * p->b[2];
-    const REAL inverse_b = R(1.0) / REAL_SQRT(o->b2 + R(1e-290));
+    const REAL inverse_b = REAL_RECIPROCAL_SQRT(o->b2 + R(1e-290));
     o->b_norm = o->b2 * inverse_b;
     const REAL gap[3] = {n[0] - p->b[0] * inverse_b, n[1] - p->b[1] * inverse_b, n[2] - p->b[2] * inverse_b};
     o->gap2 = gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
@@ -68,37 +68,6 @@ static inline REAL FN(energy)(const FN(coefficients) * c, const REAL *y, const F
     return kinetic - magnetic;
 }
 
-/* Quantities whose time integrals a run accumulates with the step's own stages. */
-enum {
-    FST_Q_R,
-    FST_Q_R2,
-    FST_Q_B,
-    FST_Q_B2, /* R2, B2: squared deviations from reference values */
-    FST_Q_FRICTION_POWER,
-    FST_Q_DRIVE_POWER,
-    FST_Q_SLIP2,
-    FST_Q_LOAD,
-    FST_Q_SLIP_R,
-    FST_Q_SLIP_ALPHA,
-    FST_Q_R_SLIP_ALPHA,
-    FST_Q_SPIN_TERM,
-    FST_Q_CENTRIFUGAL,
-    FST_Q_FORCE_R,
-    FST_Q_FORCE_R_PRINTED,
-    FST_Q_TORQUE_ALPHA,
-    FST_Q_EQ23,
-    FST_Q_N_R,
-    FST_Q_N_ALPHA,
-    FST_Q_N_Z, /* first and second moments of n in local components */
-    FST_Q_N_RR,
-    FST_Q_N_RALPHA,
-    FST_Q_N_RZ,
-    FST_Q_N_ALPHAALPHA,
-    FST_Q_N_ALPHAZ,
-    FST_Q_N_ZZ,
-    FST_Q_COUNT
-};
-
 /* `r0`, `b0`: reference values near the means, so that small deviations of r and |B| lose no digits. */
 static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, const FN(seen) * o, REAL r0,
                                   REAL b0, REAL q[FST_Q_COUNT])
@@ -119,7 +88,7 @@ static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, con
     q[FST_Q_FORCE_R] = o->force_r;
     q[FST_Q_TORQUE_ALPHA] = o->r * o->force_alpha;
     /* Printed Eq. (eq21), (eq23): n = sin(phi) e_alpha - cos(phi) e_z with the actual phi, n_r dropped. */
-    const REAL inverse_sine = R(1.0) / REAL_SQRT(o->n[1] * o->n[1] + o->n[2] * o->n[2] + R(1e-290));
+    const REAL inverse_sine = REAL_RECIPROCAL_SQRT(o->n[1] * o->n[1] + o->n[2] * o->n[2] + R(1e-290));
     const REAL n_alpha = o->n[1] * inverse_sine, n_z = o->n[2] * inverse_sine;
     const REAL ex = o->cos_phi, ey = o->sin_phi;
     const REAL printed[3] = {-(n_alpha * ey), n_alpha * ex, n_z};

@@ -33,7 +33,7 @@ static inline void FN(magnetic_pull)(const FN(coefficients) * c, REAL x, REAL y,
             p->force[i] = p->strength * gn[i];
         return;
     }
-    p->strength = p->strength + c->twice_b * (n[0] * p->b[0] + n[1] * p->b[1] + n[2] * p->b[2]);
+    p->strength = p->strength + c->twice_b * SUM_3(n[0], p->b[0], n[1], p->b[1], n[2], p->b[2]);
     const REAL b[3] = {p->b[0], p->b[1], p->b[2]};
     REAL gb[3];
     FN(field_along)(c, x, y, b, p->b, gb);
@@ -48,20 +48,22 @@ static inline void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y
     FN(magnetic_pull)(c, y[FST_X], y[FST_Y], n, p);
     const REAL *b = p->b;
     const REAL torque = c->torque * p->strength;
-    const REAL friction_x = c->friction * (v[0] - c->eps * w[1]);
-    const REAL friction_y = c->friction * (v[1] + c->eps * w[0]);
+    const REAL friction_x = c->friction * REAL_NEGMULADD(c->eps, w[1], v[0]);
+    const REAL friction_y = c->friction * REAL_MULADD(c->eps, w[0], v[1]);
 
-    dy[FST_X] = v[0] + omega * y[FST_Y];
-    dy[FST_Y] = v[1] - omega * y[FST_X];
-    dy[FST_VX] = (p->force[0] - friction_x) + omega * v[1];
-    dy[FST_VY] = (p->force[1] - friction_y) - omega * v[0];
+    dy[FST_X] = REAL_MULADD(omega, y[FST_Y], v[0]);
+    dy[FST_Y] = REAL_NEGMULADD(omega, y[FST_X], v[1]);
+    dy[FST_VX] = REAL_MULADD(omega, v[1], p->force[0] - friction_x);
+    dy[FST_VY] = REAL_NEGMULADD(omega, v[0], p->force[1] - friction_y);
     const REAL wz = w[2] - omega; /* W x n - omega e x n = (W - omega e) x n */
-    dy[FST_NX] = w[1] * n[2] - wz * n[1];
-    dy[FST_NY] = wz * n[0] - w[0] * n[2];
-    dy[FST_NZ] = w[0] * n[1] - w[1] * n[0];
-    dy[FST_WX] = (torque * (n[1] * b[2] - n[2] * b[1]) - c->traction * friction_y) + omega * w[1];
-    dy[FST_WY] = (torque * (n[2] * b[0] - n[0] * b[2]) + c->traction * friction_x) - omega * w[0];
-    dy[FST_WZ] = torque * (n[0] * b[1] - n[1] * b[0]);
+    dy[FST_NX] = REAL_MULSUB(w[1], n[2], wz * n[1]);
+    dy[FST_NY] = REAL_MULSUB(wz, n[0], w[0] * n[2]);
+    dy[FST_NZ] = REAL_MULSUB(w[0], n[1], w[1] * n[0]);
+    dy[FST_WX] = REAL_MULADD(
+        omega, w[1], REAL_MULSUB(torque, REAL_MULSUB(n[1], b[2], n[2] * b[1]), c->traction * friction_y));
+    dy[FST_WY] = REAL_NEGMULADD(
+        omega, w[0], REAL_MULADD(torque, REAL_MULSUB(n[2], b[0], n[0] * b[2]), c->traction * friction_x));
+    dy[FST_WZ] = torque * REAL_MULSUB(n[0], b[1], n[1] * b[0]);
     if (c->gyroscopic_term_lost) {
         const REAL spin = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
         dy[FST_WX] = dy[FST_WX] + spin * (w[1] * n[2] - w[2] * n[1]);

@@ -29,67 +29,67 @@ static inline void STEP_NAME(try_step)(STEP_NAME(step) * s)
     const REAL h = s->h, one = R(1.0);
     REAL older[STEP_DIM];
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(2) = s->y[i] + h * (DOP_A2_1 * K(1));
+        STATE(2) = REAL_MULADD(h, SUM_1(DOP_A2_1, K(1)), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A3_1 * K(1);
+        older[i] = SUM_1(DOP_A3_1, K(1));
     STAGE(2, DOP_C2);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(3) = s->y[i] + h * (older[i] + DOP_A3_2 * K(2));
+        STATE(3) = REAL_MULADD(h, REAL_MULADD(DOP_A3_2, K(2), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A4_1 * K(1);
+        older[i] = SUM_1(DOP_A4_1, K(1));
     STAGE(3, DOP_C3);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(4) = s->y[i] + h * (older[i] + DOP_A4_3 * K(3));
+        STATE(4) = REAL_MULADD(h, REAL_MULADD(DOP_A4_3, K(3), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A5_1 * K(1) + DOP_A5_3 * K(3);
+        older[i] = SUM_2(DOP_A5_1, K(1), DOP_A5_3, K(3));
     STAGE(4, DOP_C4);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(5) = s->y[i] + h * (older[i] + DOP_A5_4 * K(4));
+        STATE(5) = REAL_MULADD(h, REAL_MULADD(DOP_A5_4, K(4), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A6_1 * K(1) + DOP_A6_4 * K(4);
+        older[i] = SUM_2(DOP_A6_1, K(1), DOP_A6_4, K(4));
     STAGE(5, DOP_C5);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(6) = s->y[i] + h * (older[i] + DOP_A6_5 * K(5));
+        STATE(6) = REAL_MULADD(h, REAL_MULADD(DOP_A6_5, K(5), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A7_1 * K(1) + DOP_A7_4 * K(4) + DOP_A7_5 * K(5);
+        older[i] = SUM_3(DOP_A7_1, K(1), DOP_A7_4, K(4), DOP_A7_5, K(5));
     STAGE(6, DOP_C6);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(7) = s->y[i] + h * (older[i] + DOP_A7_6 * K(6));
+        STATE(7) = REAL_MULADD(h, REAL_MULADD(DOP_A7_6, K(6), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A8_1 * K(1) + DOP_A8_4 * K(4) + DOP_A8_5 * K(5) + DOP_A8_6 * K(6);
+        older[i] = SUM_4(DOP_A8_1, K(1), DOP_A8_4, K(4), DOP_A8_5, K(5), DOP_A8_6, K(6));
     STAGE(7, DOP_C7);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(8) = s->y[i] + h * (older[i] + DOP_A8_7 * K(7));
+        STATE(8) = REAL_MULADD(h, REAL_MULADD(DOP_A8_7, K(7), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A9_1 * K(1) + DOP_A9_4 * K(4) + DOP_A9_5 * K(5) + DOP_A9_6 * K(6) + DOP_A9_7 * K(7);
+        older[i] = SUM_5(DOP_A9_1, K(1), DOP_A9_4, K(4), DOP_A9_5, K(5), DOP_A9_6, K(6), DOP_A9_7, K(7));
     STAGE(8, DOP_C8);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(9) = s->y[i] + h * (older[i] + DOP_A9_8 * K(8));
+        STATE(9) = REAL_MULADD(h, REAL_MULADD(DOP_A9_8, K(8), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A10_1 * K(1) + DOP_A10_4 * K(4) + DOP_A10_5 * K(5) + DOP_A10_6 * K(6) +
-                   DOP_A10_7 * K(7) + DOP_A10_8 * K(8);
+        older[i] = SUM_6(DOP_A10_1, K(1), DOP_A10_4, K(4), DOP_A10_5, K(5), DOP_A10_6, K(6), DOP_A10_7, K(7),
+                         DOP_A10_8, K(8));
     STAGE(9, DOP_C9);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(10) = s->y[i] + h * (older[i] + DOP_A10_9 * K(9));
+        STATE(10) = REAL_MULADD(h, REAL_MULADD(DOP_A10_9, K(9), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A11_1 * K(1) + DOP_A11_4 * K(4) + DOP_A11_5 * K(5) + DOP_A11_6 * K(6) +
-                   DOP_A11_7 * K(7) + DOP_A11_8 * K(8) + DOP_A11_9 * K(9);
+        older[i] = SUM_7(DOP_A11_1, K(1), DOP_A11_4, K(4), DOP_A11_5, K(5), DOP_A11_6, K(6), DOP_A11_7, K(7),
+                         DOP_A11_8, K(8), DOP_A11_9, K(9));
     STAGE(10, DOP_C10);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(11) = s->y[i] + h * (older[i] + DOP_A11_10 * K(10));
+        STATE(11) = REAL_MULADD(h, REAL_MULADD(DOP_A11_10, K(10), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A12_1 * K(1) + DOP_A12_4 * K(4) + DOP_A12_5 * K(5) + DOP_A12_6 * K(6) +
-                   DOP_A12_7 * K(7) + DOP_A12_8 * K(8) + DOP_A12_9 * K(9) + DOP_A12_10 * K(10);
+        older[i] = SUM_8(DOP_A12_1, K(1), DOP_A12_4, K(4), DOP_A12_5, K(5), DOP_A12_6, K(6), DOP_A12_7, K(7),
+                         DOP_A12_8, K(8), DOP_A12_9, K(9), DOP_A12_10, K(10));
     STAGE(11, DOP_C11);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(12) = s->y[i] + h * (older[i] + DOP_A12_11 * K(11));
+        STATE(12) = REAL_MULADD(h, REAL_MULADD(DOP_A12_11, K(11), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_B1 * K(1) + DOP_B6 * K(6) + DOP_B7 * K(7) + DOP_B8 * K(8) + DOP_B9 * K(9) +
-                   DOP_B10 * K(10) + DOP_B11 * K(11);
+        older[i] = SUM_7(DOP_B1, K(1), DOP_B6, K(6), DOP_B7, K(7), DOP_B8, K(8), DOP_B9, K(9), DOP_B10, K(10),
+                         DOP_B11, K(11));
     STAGE(12, one);
     for (int i = 0; i < STEP_DIM; ++i) {
-        s->slope[i] = older[i] + DOP_B12 * K(12);
-        s->end[i] = s->y[i] + h * s->slope[i];
+        s->slope[i] = REAL_MULADD(DOP_B12, K(12), older[i]);
+        s->end[i] = REAL_MULADD(h, s->slope[i], s->y[i]);
     }
 }
 
@@ -99,10 +99,11 @@ static inline REAL STEP_NAME(step_error)(const STEP_NAME(step) * s, REAL rtol, c
 {
     REAL square5[STEP_DIM], square3[STEP_DIM];
     for (int i = 0; i < STEP_DIM; ++i) {
-        const REAL weight = R(1.0) / (atol[i] + rtol * REAL_MAX(REAL_ABS(s->y[i]), REAL_ABS(s->end[i])));
-        const REAL e5 = DOP_E5_1 * K(1) + DOP_E5_6 * K(6) + DOP_E5_7 * K(7) + DOP_E5_8 * K(8) +
-                        DOP_E5_9 * K(9) + DOP_E5_10 * K(10) + DOP_E5_11 * K(11) + DOP_E5_12 * K(12);
-        const REAL e3 = s->slope[i] - (DOP_E3_1 * K(1) + DOP_E3_9 * K(9) + DOP_E3_12 * K(12));
+        const REAL weight =
+            R(1.0) / REAL_MULADD(rtol, REAL_MAX(REAL_ABS(s->y[i]), REAL_ABS(s->end[i])), atol[i]);
+        const REAL e5 = SUM_8(DOP_E5_1, K(1), DOP_E5_6, K(6), DOP_E5_7, K(7), DOP_E5_8, K(8), DOP_E5_9, K(9),
+                              DOP_E5_10, K(10), DOP_E5_11, K(11), DOP_E5_12, K(12));
+        const REAL e3 = s->slope[i] - (SUM_3(DOP_E3_1, K(1), DOP_E3_9, K(9), DOP_E3_12, K(12)));
         const REAL r5 = e5 * weight, r3 = e3 * weight;
         square5[i] = r5 * r5;
         square3[i] = r3 * r3;
@@ -113,7 +114,7 @@ static inline REAL STEP_NAME(step_error)(const STEP_NAME(step) * s, REAL rtol, c
         sum3 = sum3 + square3[i];
     }
     const REAL denominator = sum5 + R(0.01) * sum3;
-    return REAL_ABS(s->h) * sum5 / REAL_SQRT(((REAL)STEP_DIM) * denominator + R(1e-290));
+    return REAL_ABS(s->h) * sum5 / REAL_SQRT(REAL_OF(STEP_DIM) * denominator + R(1e-290));
 }
 
 /* Coefficients of the dense output over a whole step of size h: from y0 to y1 with the derivatives k[0..15]
@@ -129,22 +130,22 @@ static inline void STEP_NAME(dense_coefficients)(int dim, REAL h, const REAL *y0
         TERM(1) = difference;
         TERM(2) = bend;
         TERM(3) = (difference - h * SLOPE(12)) - bend;
-        TERM(4) =
-            h * (DOP_D4_1 * SLOPE(0) + DOP_D4_6 * SLOPE(5) + DOP_D4_7 * SLOPE(6) + DOP_D4_8 * SLOPE(7) +
-                 DOP_D4_9 * SLOPE(8) + DOP_D4_10 * SLOPE(9) + DOP_D4_11 * SLOPE(10) + DOP_D4_12 * SLOPE(11) +
-                 DOP_D4_13 * SLOPE(12) + DOP_D4_14 * SLOPE(13) + DOP_D4_15 * SLOPE(14) + DOP_D4_16 * SLOPE(15));
-        TERM(5) =
-            h * (DOP_D5_1 * SLOPE(0) + DOP_D5_6 * SLOPE(5) + DOP_D5_7 * SLOPE(6) + DOP_D5_8 * SLOPE(7) +
-                 DOP_D5_9 * SLOPE(8) + DOP_D5_10 * SLOPE(9) + DOP_D5_11 * SLOPE(10) + DOP_D5_12 * SLOPE(11) +
-                 DOP_D5_13 * SLOPE(12) + DOP_D5_14 * SLOPE(13) + DOP_D5_15 * SLOPE(14) + DOP_D5_16 * SLOPE(15));
-        TERM(6) =
-            h * (DOP_D6_1 * SLOPE(0) + DOP_D6_6 * SLOPE(5) + DOP_D6_7 * SLOPE(6) + DOP_D6_8 * SLOPE(7) +
-                 DOP_D6_9 * SLOPE(8) + DOP_D6_10 * SLOPE(9) + DOP_D6_11 * SLOPE(10) + DOP_D6_12 * SLOPE(11) +
-                 DOP_D6_13 * SLOPE(12) + DOP_D6_14 * SLOPE(13) + DOP_D6_15 * SLOPE(14) + DOP_D6_16 * SLOPE(15));
-        TERM(7) =
-            h * (DOP_D7_1 * SLOPE(0) + DOP_D7_6 * SLOPE(5) + DOP_D7_7 * SLOPE(6) + DOP_D7_8 * SLOPE(7) +
-                 DOP_D7_9 * SLOPE(8) + DOP_D7_10 * SLOPE(9) + DOP_D7_11 * SLOPE(10) + DOP_D7_12 * SLOPE(11) +
-                 DOP_D7_13 * SLOPE(12) + DOP_D7_14 * SLOPE(13) + DOP_D7_15 * SLOPE(14) + DOP_D7_16 * SLOPE(15));
+        TERM(4) = h * (SUM_12(DOP_D4_1, SLOPE(0), DOP_D4_6, SLOPE(5), DOP_D4_7, SLOPE(6), DOP_D4_8, SLOPE(7),
+                              DOP_D4_9, SLOPE(8), DOP_D4_10, SLOPE(9), DOP_D4_11, SLOPE(10), DOP_D4_12,
+                              SLOPE(11), DOP_D4_13, SLOPE(12), DOP_D4_14, SLOPE(13), DOP_D4_15, SLOPE(14),
+                              DOP_D4_16, SLOPE(15)));
+        TERM(5) = h * (SUM_12(DOP_D5_1, SLOPE(0), DOP_D5_6, SLOPE(5), DOP_D5_7, SLOPE(6), DOP_D5_8, SLOPE(7),
+                              DOP_D5_9, SLOPE(8), DOP_D5_10, SLOPE(9), DOP_D5_11, SLOPE(10), DOP_D5_12,
+                              SLOPE(11), DOP_D5_13, SLOPE(12), DOP_D5_14, SLOPE(13), DOP_D5_15, SLOPE(14),
+                              DOP_D5_16, SLOPE(15)));
+        TERM(6) = h * (SUM_12(DOP_D6_1, SLOPE(0), DOP_D6_6, SLOPE(5), DOP_D6_7, SLOPE(6), DOP_D6_8, SLOPE(7),
+                              DOP_D6_9, SLOPE(8), DOP_D6_10, SLOPE(9), DOP_D6_11, SLOPE(10), DOP_D6_12,
+                              SLOPE(11), DOP_D6_13, SLOPE(12), DOP_D6_14, SLOPE(13), DOP_D6_15, SLOPE(14),
+                              DOP_D6_16, SLOPE(15)));
+        TERM(7) = h * (SUM_12(DOP_D7_1, SLOPE(0), DOP_D7_6, SLOPE(5), DOP_D7_7, SLOPE(6), DOP_D7_8, SLOPE(7),
+                              DOP_D7_9, SLOPE(8), DOP_D7_10, SLOPE(9), DOP_D7_11, SLOPE(10), DOP_D7_12,
+                              SLOPE(11), DOP_D7_13, SLOPE(12), DOP_D7_14, SLOPE(13), DOP_D7_15, SLOPE(14),
+                              DOP_D7_16, SLOPE(15)));
     }
 #undef SLOPE
 #undef TERM
@@ -156,22 +157,22 @@ static inline void STEP_NAME(make_dense)(STEP_NAME(step) * s)
     const REAL h = s->h;
     REAL older[STEP_DIM];
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A14_1 * K(1) + DOP_A14_7 * K(7) + DOP_A14_8 * K(8) + DOP_A14_9 * K(9) +
-                   DOP_A14_10 * K(10) + DOP_A14_11 * K(11) + DOP_A14_12 * K(12);
+        older[i] = SUM_7(DOP_A14_1, K(1), DOP_A14_7, K(7), DOP_A14_8, K(8), DOP_A14_9, K(9), DOP_A14_10, K(10),
+                         DOP_A14_11, K(11), DOP_A14_12, K(12));
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(14) = s->y[i] + h * (older[i] + DOP_A14_13 * K(13));
+        STATE(14) = REAL_MULADD(h, REAL_MULADD(DOP_A14_13, K(13), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A15_1 * K(1) + DOP_A15_6 * K(6) + DOP_A15_7 * K(7) + DOP_A15_8 * K(8) +
-                   DOP_A15_11 * K(11) + DOP_A15_12 * K(12) + DOP_A15_13 * K(13);
+        older[i] = SUM_7(DOP_A15_1, K(1), DOP_A15_6, K(6), DOP_A15_7, K(7), DOP_A15_8, K(8), DOP_A15_11, K(11),
+                         DOP_A15_12, K(12), DOP_A15_13, K(13));
     STAGE(14, DOP_C14);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(15) = s->y[i] + h * (older[i] + DOP_A15_14 * K(14));
+        STATE(15) = REAL_MULADD(h, REAL_MULADD(DOP_A15_14, K(14), older[i]), s->y[i]);
     for (int i = 0; i < STEP_DIM; ++i)
-        older[i] = DOP_A16_1 * K(1) + DOP_A16_6 * K(6) + DOP_A16_7 * K(7) + DOP_A16_8 * K(8) +
-                   DOP_A16_9 * K(9) + DOP_A16_13 * K(13) + DOP_A16_14 * K(14);
+        older[i] = SUM_7(DOP_A16_1, K(1), DOP_A16_6, K(6), DOP_A16_7, K(7), DOP_A16_8, K(8), DOP_A16_9, K(9),
+                         DOP_A16_13, K(13), DOP_A16_14, K(14));
     STAGE(15, DOP_C15);
     for (int i = 0; i < STEP_DIM; ++i)
-        STATE(16) = s->y[i] + h * (older[i] + DOP_A16_15 * K(15));
+        STATE(16) = REAL_MULADD(h, REAL_MULADD(DOP_A16_15, K(15), older[i]), s->y[i]);
     STAGE(16, DOP_C16);
     STEP_NAME(dense_coefficients)(STEP_DIM, h, s->y, s->end, &s->k[0][0], STEP_DIM, &s->dense[0][0]);
 }

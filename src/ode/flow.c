@@ -129,36 +129,48 @@ static double try_once(fst_flow *flow)
     return isfinite(error) ? error : INFINITY;
 }
 
-/* The size of the next try, with the direction's sign; *lands if it ends on t_limit. */
-static double next_size(const fst_flow *flow, double t_limit, int *lands)
+void fst_flow_plan(fst_flow *flow, double t_limit)
 {
     const fst_twofold limit = {t_limit, 0.0};
     const double rest = fst_twofold_difference(limit, flow->t), distance = fabs(rest);
     double h = flow->h_next;
     if (flow->greatest_step > 0 && h > flow->greatest_step)
         h = flow->greatest_step;
-    *lands = h * 1.01 >= distance;
-    if (*lands)
-        return rest;
-    return rest < 0 ? -h : h;
+    flow->attempt_lands = h * 1.01 >= distance;
+    flow->attempt = flow->attempt_lands ? rest : rest < 0 ? -h : h;
+    flow->rejections = 0;
+    flow->worst_error = 0.0;
 }
 
-/* Bookkeeping of an accepted step: the end's n, time, Phi, and the next size. */
-static void accept(fst_flow *flow, double error, int lands, double t_limit)
+int fst_flow_reject(fst_flow *flow, double error, double factor)
 {
-    fst_bead_step_double *s = &flow->step;
-    flow->norm_drift += fst_finish_step_double(s);
+    flow->rejected += 1;
+    flow->rejections += 1;
+    flow->worst_error = error;
+    flow->attempt *= error < INFINITY ? factor : 0.1;
+    flow->attempt_lands = 0;
+    return fabs(flow->attempt) >= 1e-14 * (1.0 + fabs(flow->t.high)) && flow->rejections <= 401;
+}
+
+void fst_flow_accept(fst_flow *flow, double error, double factor, double drift, double t_limit)
+{
+    const double size = fabs(flow->attempt);
+    flow->norm_drift += drift;
     flow->rhs_calls += 1;
     flow->accepted += 1;
     flow->t_start = flow->t;
-    flow->t = fst_twofold_add(flow->t, s->h);
-    if (lands)
+    flow->t = fst_twofold_add(flow->t, flow->attempt);
+    if (flow->attempt_lands)
         flow->t = (fst_twofold){t_limit, 0.0};
     flow->has_step = 1;
     flow->has_dense = 0;
-    const double proposal = fabs(s->h) * fst_step_factor_double(error);
+    const double proposal = size * factor;
     /* A step cut short to land says nothing against the size that was planned. */
-    flow->h_next = lands && proposal < flow->h_next && error <= 1.0 ? flow->h_next : proposal;
+    flow->h_next = flow->attempt_lands && proposal < flow->h_next && error <= 1.0 ? flow->h_next : proposal;
+    if (flow->rejections > 0 && flow->h_next > size)
+        flow->h_next = size;
+    flow->phi_start = flow->phi;
+    flow->cursor = 1.0;
 }
 
 /* Follow the angle over the fractions [x0, x1] of the last step; `state` is the one at x1.  Where the straight
@@ -187,40 +199,19 @@ fst_winding fst_flow_phi(fst_flow *flow, double x)
     return phi;
 }
 
-fst_status fst_flow_step(fst_flow *flow, double t_limit, fst_error *error)
+void fst_flow_follow(fst_flow *flow, const double *end)
 {
-    fst_bead_step_double *s = &flow->step;
-    if (flow->has_step) {
-        fst_next_step_double(s, fst_flow_omega(flow, flow->t));
-        flow->has_step = 0;
-    }
-    int lands = 0;
-    double h = next_size(flow, t_limit, &lands), worst = 0.0;
-    for (int rejections = 0;; ++rejections) {
-        s->h = h;
-        const double e = try_once(flow);
-        if (e <= 1.0) {
-            accept(flow, e, lands, t_limit);
-            if (rejections > 0 && flow->h_next > fabs(h))
-                flow->h_next = fabs(h);
-            flow->phi_start = flow->phi;
-            follow_phi(flow, &flow->phi, 0.0, 1.0, s->end);
-            flow->cursor = 1.0;
-            return FST_OK;
-        }
-        flow->rejected += 1;
-        worst = e;
-        h *= e < INFINITY ? fst_step_factor_double(e) : 0.1;
-        lands = 0;
-        if (fabs(h) < 1e-14 * (1.0 + fabs(flow->t.high)) || rejections > 400)
-            break;
-    }
-    memcpy(s->end, s->y, sizeof s->end);
+    follow_phi(flow, &flow->phi, 0.0, 1.0, end);
+}
+
+fst_status fst_flow_fail(const fst_flow *flow, fst_error *error)
+{
+    const fst_bead_step_double *s = &flow->step;
     const double r = sqrt(s->y[FST_X] * s->y[FST_X] + s->y[FST_Y] * s->y[FST_Y]);
     char where[96];
     (void)snprintf(where, sizeof where, "t = %.10g (%.6g drive periods), r = %.6g", flow->t.high,
                    flow->t.high * s->omega / TWO_PI, r);
-    if (worst == INFINITY)
+    if (flow->worst_error == INFINITY)
         return fst_fail(
             error, FST_NOT_FINITE, where,
             "the motion stopped being finite at %s; try a smaller run.rtol, and check kappa, h and the "
@@ -230,7 +221,31 @@ fst_status fst_flow_step(fst_flow *flow, double t_limit, fst_error *error)
         error, FST_STEP_UNDERFLOW, where,
         "the step size underflowed at %s (error %.3g times the tolerance at step %.3g); try a larger "
         "run.rtol",
-        where, worst, h);
+        where, flow->worst_error, flow->attempt);
+}
+
+fst_status fst_flow_step(fst_flow *flow, double t_limit, fst_error *error)
+{
+    fst_bead_step_double *s = &flow->step;
+    if (flow->has_step) {
+        fst_next_step_double(s, fst_flow_omega(flow, flow->t));
+        flow->has_step = 0;
+    }
+    fst_flow_plan(flow, t_limit);
+    for (;;) {
+        s->h = flow->attempt;
+        const double e = try_once(flow);
+        if (e <= 1.0) {
+            const double drift = fst_finish_step_double(s);
+            fst_flow_accept(flow, e, fst_step_factor_double(e), drift, t_limit);
+            fst_flow_follow(flow, s->end);
+            return FST_OK;
+        }
+        if (!fst_flow_reject(flow, e, fst_step_factor_double(e)))
+            break;
+    }
+    memcpy(s->end, s->y, sizeof s->end);
+    return fst_flow_fail(flow, error);
 }
 
 void fst_flow_make_dense(fst_flow *flow)

@@ -12,17 +12,19 @@ struct fst_flow {
     fst_bead_step_double step; /* the last accepted step, from step.y to step.end */
     fst_groups groups;
     double rtol, atol[FST_STATE_SIZE], greatest_step;
-    double omega_start;         /* drive before the ramp, whose rate is step.ramp */
-    fst_twofold ramp_start;     /* when the ramp began */
-    fst_twofold t_start, t;     /* times of step.y and step.end */
-    double h_next;              /* proposal for the next step, positive */
-    int has_step;               /* a step was made: step.end is the state, else step.y */
-    int has_dense;              /* step.dense belongs to the last step */
-    fst_winding phi_start, phi; /* Phi at step.y and at step.end */
-    double cursor;              /* fst_flow_advance: how far into the last step its caller has got, 0 to 1 */
-    fst_twofold cursor_time;    /* the time there, where that was asked for */
-    int section_side;           /* sign of X where the caller is, 0 before the first step */
-    unsigned beyond;            /* bounds (1 << FST_STOP_*) that were reported and not come back from */
+    double omega_start;          /* drive before the ramp, whose rate is step.ramp */
+    fst_twofold ramp_start;      /* when the ramp began */
+    fst_twofold t_start, t;      /* times of step.y and step.end */
+    double h_next;               /* proposal for the next step, positive */
+    int has_step;                /* a step was made: step.end is the state, else step.y */
+    int has_dense;               /* step.dense belongs to the last step */
+    fst_winding phi_start, phi;  /* Phi at step.y and at step.end */
+    double cursor;               /* fst_flow_advance: how far into the last step its caller has got, 0 to 1 */
+    fst_twofold cursor_time;     /* the time there, where that was asked for */
+    int section_side;            /* sign of X where the caller is, 0 before the first step */
+    unsigned beyond;             /* bounds (1 << FST_STOP_*) that were reported and not come back from */
+    double attempt, worst_error; /* size of the present try; error of the last one that failed */
+    int attempt_lands, rejections;
     double norm_drift;
     uint64_t rhs_calls, accepted, rejected;
 };
@@ -30,6 +32,23 @@ struct fst_flow {
 /* Make one accepted step towards t_limit, forward or backward in time, landing on it exactly where it is in
  * reach. FST_STEP_UNDERFLOW, FST_NOT_FINITE: the flow stays at the end of its last good step. */
 fst_status fst_flow_step(fst_flow *flow, double t_limit, fst_error *error);
+
+/* The parts of a step, for whoever makes the tries elsewhere (in lanes).  Choose the size of the first try
+ * towards t_limit: flow->attempt. */
+void fst_flow_plan(fst_flow *flow, double t_limit);
+
+/* A try failed: choose the next size by step_factor() of its error.  0: the steps have become too small. */
+int fst_flow_reject(fst_flow *flow, double error, double factor);
+
+/* A try was accepted: time, counters, the next size.  Phi is left to fst_flow_follow(). */
+void fst_flow_accept(fst_flow *flow, double error, double factor, double drift, double t_limit);
+
+/* Follow Phi to the end of the accepted step; where it passes the axis closely, the step must be in flow->step.
+ */
+void fst_flow_follow(fst_flow *flow, const double *end);
+
+/* The failure after fst_flow_reject() gave up; flow->step.y is where the bead was. */
+fst_status fst_flow_fail(const fst_flow *flow, fst_error *error);
 
 /* Form the dense output of the last step (three more evaluations), unless it is there. */
 void fst_flow_make_dense(fst_flow *flow);

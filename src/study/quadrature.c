@@ -3,11 +3,10 @@
 #include <string.h>
 
 #include "ode/dop853_tableau.h"
+#include "ode/path_stages.h"
 
-/* Stages 1, 6 to 13: those that carry weight in the step and its dense output, in the order of their nodes. */
-enum { ON_PATH = 9 };
-static const int ON_PATH_STAGE[ON_PATH] = {0, 6, 7, 5, 9, 8, 10, 11, 12};
-static const double ON_PATH_NODE[ON_PATH] = {0.0, DOP_C7, DOP_C8, DOP_C6, DOP_C10, DOP_C9, DOP_C11, 1.0, 1.0};
+static const double ON_PATH_NODE[FST_PATH_STAGES] = {0.0,    DOP_C7,  DOP_C8, DOP_C6, DOP_C10,
+                                                     DOP_C9, DOP_C11, 1.0,    1.0};
 
 static void see_stage(const fst_flow *flow, int stage, fst_seen_double *seen)
 {
@@ -65,8 +64,26 @@ void fst_quadrature_begin(fst_quadrature *q, const fst_flow *flow)
         q->extreme[i].least = INFINITY;
         q->extreme[i].greatest = -INFINITY;
     }
-    small_phi_point(flow->step.end, &q->small_phi.x, &q->small_phi.y);
+    fst_quadrature_begin_phi(q, flow->step.end);
+}
+
+void fst_quadrature_begin_phi(fst_quadrature *q, const double *state)
+{
+    small_phi_point(state, &q->small_phi.x, &q->small_phi.y);
     q->small_phi_start = q->small_phi;
+}
+
+int fst_quadrature_phi_is_doubtful(const fst_quadrature *q, const double *end)
+{
+    double u, w;
+    small_phi_point(end, &u, &w);
+    return fst_winding_is_doubtful(&q->small_phi, u, w);
+}
+
+void fst_quadrature_follow(fst_quadrature *q, fst_flow *flow, const double *end)
+{
+    q->small_phi_start = q->small_phi;
+    follow_small_phi(flow, &q->small_phi, 0.0, 1.0, end);
 }
 
 void fst_quadrature_set_references(fst_quadrature *q, const fst_flow *flow)
@@ -83,8 +100,8 @@ void fst_quadrature_step(fst_quadrature *q, fst_flow *flow)
                                       [8] = DOP_B9, [9] = DOP_B10, [10] = DOP_B11, [11] = DOP_B12};
     for (int i = 0; i < FST_Q_COUNT; ++i)
         q->total[i] = fst_twofold_add(q->total[i], q->increment[i]);
-    for (int i = 0; i < ON_PATH; ++i)
-        fill_stage(q, flow, ON_PATH_STAGE[i], q->tracked[i]);
+    for (int i = 0; i < FST_PATH_STAGES; ++i)
+        fill_stage(q, flow, FST_PATH_STAGE[i], q->tracked[i]);
     for (int i = 0; i < FST_Q_COUNT; ++i) {
         double sum = 0.0;
         for (int j = 0; j < 12; ++j)
@@ -93,8 +110,7 @@ void fst_quadrature_step(fst_quadrature *q, fst_flow *flow)
         q->increment[i] = flow->step.h * sum;
     }
     q->has_dense = 0;
-    q->small_phi_start = q->small_phi;
-    follow_small_phi(flow, &q->small_phi, 0.0, 1.0, flow->step.end);
+    fst_quadrature_follow(q, flow, flow->step.end);
 }
 
 void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integrals[FST_Q_COUNT], double *phi)
@@ -166,15 +182,17 @@ static const fst_state_function TRACKED[FST_TRACK_COUNT] = {tracked_r, tracked_b
 static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record)
 {
     int best = 0;
-    for (int i = 1; i < ON_PATH; ++i)
+    for (int i = 1; i < FST_PATH_STAGES; ++i)
         if (sign * q->tracked[i][which] > sign * q->tracked[best][which])
             best = i;
-    const int before = best > 0 ? best - 1 : 0, after = best < ON_PATH - 1 ? best + 1 : ON_PATH - 1;
+    const int before = best > 0 ? best - 1 : 0,
+              after = best < FST_PATH_STAGES - 1 ? best + 1 : FST_PATH_STAGES - 1;
     const double top = sign * q->tracked[best][which];
     const double fall_before = top - sign * q->tracked[before][which];
     const double fall_after = top - sign * q->tracked[after][which];
     const double fall = fall_before > fall_after ? fall_before : fall_after;
-    const double end = sign * q->tracked[ON_PATH - 1][which]; /* the end lies on the trajectory exactly */
+    const double end =
+        sign * q->tracked[FST_PATH_STAGES - 1][which]; /* the end lies on the trajectory exactly */
     if (end > record)
         record = end;
     if (top + 0.3 * fall <= record)

@@ -4,9 +4,6 @@
 
 #include "ode/flow.h"
 
-/* Extremes that a run locates. */
-enum { FST_TRACK_R, FST_TRACK_B, FST_TRACK_GAP, FST_TRACK_SLIP, FST_TRACK_LOAD, FST_TRACK_COUNT };
-
 typedef struct fst_extreme {
     double least, greatest;
 } fst_extreme;
@@ -29,6 +26,14 @@ void fst_quadrature_begin(fst_quadrature *q, const fst_flow *flow);
 /* Take deviations of r and |B| from their values at the start of the flow's last step, before it is taken in.
  */
 void fst_quadrature_set_references(fst_quadrature *q, const fst_flow *flow);
+
+/* Follow phi to the end of the flow's last step; where the path passes the origin of its plane closely (then it
+ * is doubtful), the step must be in flow->step. */
+int fst_quadrature_phi_is_doubtful(const fst_quadrature *q, const double *end);
+void fst_quadrature_follow(fst_quadrature *q, fst_flow *flow, const double *end);
+
+/* Begin to follow phi at a state. */
+void fst_quadrature_begin_phi(fst_quadrature *q, const double *state);
 
 /* Take in the flow's last step. */
 void fst_quadrature_step(fst_quadrature *q, fst_flow *flow);

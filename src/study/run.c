@@ -138,17 +138,38 @@ static void watch_end(fst_run_state *run)
     }
 }
 
-static void watch_motion(fst_run_state *run)
+/* Phi's range, which decides whether it is bounded: beyond a whole turn it no longer matters by how much. */
+static void watch_phi(fst_run_state *run)
 {
-    const double *k = run->flow->step.k[12];
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        run->activity = fabs(k[i]) > run->activity ? fabs(k[i]) : run->activity;
-    if (!run->in_window)
+    if (run->greatest_phi - run->least_phi > TWO_PI)
         return;
-    fst_quadrature_track(&run->q, run->flow);
     const double phi = fst_winding_angle(&run->flow->phi);
     run->least_phi = phi < run->least_phi ? phi : run->least_phi;
     run->greatest_phi = phi > run->greatest_phi ? phi : run->greatest_phi;
+}
+
+void fst_run_watch_quietly(fst_run_state *run, double activity)
+{
+    run->activity = activity > run->activity ? activity : run->activity;
+    if (run->in_window)
+        watch_phi(run);
+}
+
+int fst_run_watch_step(fst_run_state *run)
+{
+    watch_end(run);
+    if (run->ended)
+        return 1;
+    mark_periods(run);
+    fst_returns_step(run);
+    const double *k = run->flow->step.k[12];
+    double activity = 0.0;
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        activity = fabs(k[i]) > activity ? fabs(k[i]) : activity;
+    if (run->in_window)
+        fst_quadrature_track(&run->q, run->flow);
+    fst_run_watch_quietly(run, activity);
+    return 0;
 }
 
 static fst_status report_progress(fst_run_state *run, fst_error *error)
@@ -164,15 +185,11 @@ static fst_status one_step(fst_run_state *run, double t_limit, fst_error *error)
     fst_status status = fst_flow_step(run->flow, t_limit, error);
     if (status != FST_OK)
         return status;
-    watch_end(run);
     if (!run->in_window)
         fst_quadrature_set_references(&run->q, run->flow);
     fst_quadrature_step(&run->q, run->flow);
-    if (run->ended)
+    if (fst_run_watch_step(run))
         return push_samples(run, run->end_fraction, error);
-    mark_periods(run);
-    fst_returns_step(run);
-    watch_motion(run);
     status = push_samples(run, 1.0, error);
     if (status == FST_OK && run->is_ramp)
         status = fst_ramp_step(run, error);
@@ -219,13 +236,16 @@ static void set_times(fst_run_state *run, const fst_groups *g)
     run->t_end = run->t_discard + duration;
 }
 
-static fst_status begin(fst_run_state *run, fst_error *error)
+fst_status fst_run_begin(fst_run_state *run, fst_error *error)
 {
     fst_status status = fst_model_new(run->params, &run->model, error);
     if (status != FST_OK)
         return status;
     double state[FST_STATE_SIZE];
-    status = fst_start_state(run->params, run->model, state, error);
+    if (run->options->start)
+        memcpy(state, run->options->start, sizeof state);
+    else
+        status = fst_start_state(run->params, run->model, state, error);
     if (status != FST_OK)
         return status;
     fst_flow_options o = fst_default_flow_options();
@@ -259,7 +279,7 @@ fst_status fst_run(const fst_params *params, const fst_run_options *options, fst
         return fst_fail(error, FST_NO_MEMORY, "fst_run", "out of memory");
     run->params = &at_start;
     run->options = options;
-    status = begin(run, error);
+    status = fst_run_begin(run, error);
     if (status == FST_OK)
         status = simulate(run, error);
     if (run->flow && (status == FST_OK || status == FST_INTERRUPTED)) {

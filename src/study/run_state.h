@@ -42,6 +42,15 @@ typedef struct fst_run_state {
     int piece_returns;
 } fst_run_state;
 
+/* Model, start state, flow and times of a run whose params and options are set. */
+fst_status fst_run_begin(fst_run_state *run, fst_error *error);
+
+/* Look at the flow's last step, whose integrals are taken in: has the bead left the plate (then 1), marks,
+ * returns, extremes.  The quiet form is for a step of which it is known that it holds none of these; `activity`
+ * is the greatest component of |d(state)/dt| at its end. */
+int fst_run_watch_step(fst_run_state *run);
+void fst_run_watch_quietly(fst_run_state *run, double activity);
+
 /* Crossings of the section in the last step: marks and statistics of the returns. */
 void fst_returns_step(fst_run_state *run);
 

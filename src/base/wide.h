@@ -1,0 +1,137 @@
+/* wide.h - bodies (*.inl) compiled over 4 or 8 doubles side by side, one trajectory in each lane.
+ *
+ * The including file defines FST_LANES (4: AVX2, 8: AVX-512) and, for the fast form, FST_FUSED; it is compiled
+ * with the flags of its instruction set, and no wide value leaves it.  + - * / are the compiler's vector
+ * operations; the rest is here.  The portable form has the operations of real_double.h and so its bits, lane by
+ * lane.  The fast form fuses multiplications with additions where a body says REAL_MULADD, and takes reciprocal
+ * square roots from an estimate.
+ */
+#ifndef FST_BASE_WIDE_H
+#define FST_BASE_WIDE_H
+
+#include <immintrin.h>
+
+#include "base/sums.h"
+
+typedef double fst_wide __attribute__((vector_size(8 * FST_LANES), may_alias));
+typedef long long fst_wide_bits __attribute__((vector_size(8 * FST_LANES), may_alias));
+
+static inline fst_wide fst_wide_of(double x)
+{
+    return x - (fst_wide){0};
+}
+
+#if FST_LANES == 8
+#define WIDE_NATIVE(x) ((__m512d)(x))
+#define WIDE_SQRT(x) ((fst_wide)_mm512_sqrt_pd(WIDE_NATIVE(x)))
+#define WIDE_MAX(a, b) ((fst_wide)_mm512_max_pd(WIDE_NATIVE(a), WIDE_NATIVE(b)))
+#define WIDE_MULADD(a, b, c) ((fst_wide)_mm512_fmadd_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
+#define WIDE_MULSUB(a, b, c) ((fst_wide)_mm512_fmsub_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
+#define WIDE_NEGMULADD(a, b, c) ((fst_wide)_mm512_fnmadd_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
+
+typedef __mmask8 fst_wide_mask;
+#define WIDE_LESS(a, b) _mm512_cmp_pd_mask(WIDE_NATIVE(a), WIDE_NATIVE(b), _CMP_LT_OQ)
+#define WIDE_LESS_EQUAL(a, b) _mm512_cmp_pd_mask(WIDE_NATIVE(a), WIDE_NATIVE(b), _CMP_LE_OQ)
+
+static inline fst_wide fst_wide_select(fst_wide_mask mask, fst_wide yes, fst_wide no)
+{
+    return (fst_wide)_mm512_mask_blend_pd(mask, WIDE_NATIVE(no), WIDE_NATIVE(yes));
+}
+
+static inline fst_wide_mask fst_wide_mask_of(unsigned lanes)
+{
+    return (fst_wide_mask)lanes;
+}
+
+static inline unsigned fst_wide_lanes_of(fst_wide_mask mask)
+{
+    return mask;
+}
+#else
+#define WIDE_NATIVE(x) ((__m256d)(x))
+#define WIDE_SQRT(x) ((fst_wide)_mm256_sqrt_pd(WIDE_NATIVE(x)))
+#define WIDE_MAX(a, b) ((fst_wide)_mm256_max_pd(WIDE_NATIVE(a), WIDE_NATIVE(b)))
+#define WIDE_MULADD(a, b, c) ((fst_wide)_mm256_fmadd_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
+#define WIDE_MULSUB(a, b, c) ((fst_wide)_mm256_fmsub_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
+#define WIDE_NEGMULADD(a, b, c) ((fst_wide)_mm256_fnmadd_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), WIDE_NATIVE(c)))
+
+typedef __m256d fst_wide_mask;
+#define WIDE_LESS(a, b) _mm256_cmp_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), _CMP_LT_OQ)
+#define WIDE_LESS_EQUAL(a, b) _mm256_cmp_pd(WIDE_NATIVE(a), WIDE_NATIVE(b), _CMP_LE_OQ)
+
+static inline fst_wide fst_wide_select(fst_wide_mask mask, fst_wide yes, fst_wide no)
+{
+    return (fst_wide)_mm256_blendv_pd(WIDE_NATIVE(no), WIDE_NATIVE(yes), mask);
+}
+
+static inline fst_wide_mask fst_wide_mask_of(unsigned lanes)
+{
+    const fst_wide_bits bit = {1, 2, 4, 8};
+    return (fst_wide_mask)((bit & (long long)lanes) != 0);
+}
+
+static inline unsigned fst_wide_lanes_of(fst_wide_mask mask)
+{
+    return (unsigned)_mm256_movemask_pd(mask);
+}
+#endif
+
+static inline fst_wide fst_wide_abs(fst_wide x)
+{
+    return (fst_wide)((fst_wide_bits)x & 0x7fffffffffffffffLL);
+}
+
+#ifdef FST_FUSED
+/* y (1 + e/2 + 3 e^2/8 + 5 e^3/16) with e = 1 - x y^2: the next terms of the series leave 0.27 e^4 of an
+ * estimate y of 1/sqrt(x). */
+static inline fst_wide fst_wide_improve(fst_wide x, fst_wide y)
+{
+    const fst_wide e = WIDE_NEGMULADD(x * y, y, fst_wide_of(1.0));
+    const fst_wide series =
+        WIDE_MULADD(e, WIDE_MULADD(e, fst_wide_of(0.3125), fst_wide_of(0.375)), fst_wide_of(0.5));
+    return WIDE_MULADD(y * e, series, y);
+}
+
+static inline fst_wide fst_wide_reciprocal_sqrt(fst_wide x)
+{
+#if FST_LANES == 8
+    /* Exact to 2^-14, by definition of the instruction. */
+    return fst_wide_improve(x, (fst_wide)_mm512_rsqrt14_pd(WIDE_NATIVE(x)));
+#else
+    /* Processors differ in the bits of their estimates for 4 floats, so this one is made from the number's
+     * exponent; it is exact to 3.5 %, and two improvements are needed. */
+    const fst_wide_bits bits = 0x5fe6eb50c7b537a9LL - ((fst_wide_bits)_mm256_srli_epi64((__m256i)x, 1));
+    return fst_wide_improve(x, fst_wide_improve(x, (fst_wide)bits));
+#endif
+}
+
+#define REAL_MULADD(a, b, c) WIDE_MULADD(a, b, c)
+#define REAL_MULSUB(a, b, c) WIDE_MULSUB(a, b, c)
+#define REAL_NEGMULADD(a, b, c) WIDE_NEGMULADD(a, b, c)
+#define REAL_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x)
+#define ENDS_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x)
+#else
+#define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
+#define REAL_MULADD(a, b, c) ((a) * (b) + (c))
+#define REAL_MULSUB(a, b, c) ((a) * (b) - (c))
+#define REAL_NEGMULADD(a, b, c) ((c) - (a) * (b))
+#endif
+
+#define ENDS fst_wide /* the registers are full: each end on its own */
+#define ENDS_GROUPS 2
+#define ENDS_OF(plus, minus)                                                                                   \
+    {                                                                                                          \
+        plus, minus                                                                                            \
+    }
+#define ENDS_SQRT(x) WIDE_SQRT(x)
+#define END(sums, member, end) (sums)[end].member
+
+#define REAL fst_wide
+#define R(literal) fst_wide_of(literal)
+#define REAL_OF(x) fst_wide_of((double)(x))
+#define FN(name) fst_##name##_wide
+#define REAL_SQRT(x) WIDE_SQRT(x)
+#define REAL_ABS(x) fst_wide_abs(x)
+#define REAL_MAX(a, b) WIDE_MAX(a, b)
+
+#endif

@@ -1,0 +1,40 @@
+/* export.c - festoon export: the rows of a sweep as CSV, JSON or HDF5. */
+#include "cli/command.h"
+
+static const option options[] = {
+    {"csv", '\0', NULL, "comma-separated values with a line of names"},
+    {"json", '\0', NULL, "a list of objects with the keys of festoon run"},
+    {"hdf5", '\0', NULL, "one data set a column, into the file of -o"},
+    {"output", 'o', "FILE", "write to FILE instead of standard output"},
+    {NULL, '\0', NULL, NULL},
+};
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    static const char *const names[] = {"csv", "json", "hdf5"};
+    int chosen = -1, count = 0;
+    for (int i = 0; i < 3; i++)
+        if (option_value(given, names[i])) {
+            chosen = i;
+            count++;
+        }
+    if (!operand(given))
+        return fail(error, FST_BAD_INPUT, "", "a database is missing: make one with festoon sweep -o FILE.db");
+    if (count != 1)
+        return fail(error, FST_BAD_INPUT, "", "say which: --csv, --json or --hdf5");
+    const char *to = option_value(given, "output");
+    fst_status status = fst_sweep_export(operand(given), (fst_export_format)chosen, to, out, error);
+    if (status == FST_OK && to)
+        (void)fprintf(stderr, "wrote %s\n", to);
+    return status;
+}
+
+const command export_command = {
+    .name = "export",
+    .synopsis = "FILE.db --csv|--json|--hdf5 [-o FILE]",
+    .summary = "Print the rows of a sweep in the order of its points",
+    .details = "",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

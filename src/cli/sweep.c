@@ -1,0 +1,148 @@
+/* sweep.c - festoon sweep: a run at every point of a grid, into a database. */
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+
+static const option options[] = {
+    SCENE_OPTIONS,
+    JSON_OPTION,
+    {"over", '\0', "KEY=VALUES",
+     "vary KEY: LO:HI:COUNT, LO:HI:COUNT:log, A,B,C or LO:HI:random:COUNT (again for more)"},
+    {"output", 'o', "FILE.db", "the database; the same command again goes on with it"},
+    {"carry", '\0', "up|down",
+     "start each point from the end of its neighbour along the first --over (hysteresis)"},
+    {"threads", '\0', "N", "threads (as many as there are processors)"},
+    {"seed", '\0', "N", "of random values (1)"},
+    {"portable", '\0', NULL, "the arithmetic of festoon run, with the same bits on every machine; slower"},
+    {"arithmetic", '\0', "NAME", "portable, avx2 or avx512 (the fastest that this processor has)"},
+    {"lanes", '\0', "N",
+     "runs side by side on a thread, 1, 4 or 8 (as the processor likes); no row depends on it"},
+    {NULL, '\0', NULL, NULL},
+};
+
+static fst_status read_whole(const arguments *given, const char *name, double least, double greatest,
+                             double *value, fst_error *error)
+{
+    const char *text = option_value(given, name);
+    if (!text)
+        return FST_OK;
+    char shown[32];
+    (void)snprintf(shown, sizeof shown, "--%s", name);
+    fst_status status = read_numbers(shown, text, value, 1, error);
+    if (status == FST_OK && !(*value >= least && *value <= greatest && *value == floor(*value)))
+        status = fail(error, FST_BAD_INPUT, shown, "\"%.40s\" must be an integer from %.0f to %.0f", text,
+                      least, greatest);
+    return status;
+}
+
+static fst_status read_arithmetic(const char *word, fst_arithmetic *arithmetic, fst_error *error)
+{
+    for (int i = FST_ARITHMETIC_PORTABLE; i <= FST_ARITHMETIC_AVX512; i++)
+        if (strcmp(fst_arithmetic_name((fst_arithmetic)i), word) == 0) {
+            *arithmetic = (fst_arithmetic)i;
+            return FST_OK;
+        }
+    return fail(error, FST_BAD_INPUT, "--arithmetic", "\"%.40s\" must be portable, avx2 or avx512", word);
+}
+
+static fst_status read_sweep(const arguments *given, const char **axes, fst_sweep_options *sweep,
+                             fst_error *error)
+{
+    *sweep = fst_default_sweep_options();
+    for (int i = 0; i < given->option_count; i++)
+        if (strcmp(given->options[i].row->name, "over") == 0)
+            axes[sweep->axis_count++] = given->options[i].value;
+    sweep->axes = axes;
+    double threads = 0, seed = 1, lanes = 0;
+    fst_status status = read_whole(given, "threads", 1, 256, &threads, error);
+    if (status == FST_OK)
+        status = read_whole(given, "seed", 0, 9007199254740991.0, &seed, error);
+    if (status == FST_OK)
+        status = read_whole(given, "lanes", 1, 8, &lanes, error);
+    sweep->threads = (int)threads;
+    sweep->seed = (uint64_t)seed;
+    sweep->lanes = (int)lanes;
+    if (option_value(given, "portable"))
+        sweep->arithmetic = FST_ARITHMETIC_PORTABLE;
+    const char *arithmetic = option_value(given, "arithmetic");
+    if (status == FST_OK && arithmetic)
+        status = read_arithmetic(arithmetic, &sweep->arithmetic, error);
+    const char *carry = option_value(given, "carry");
+    if (status == FST_OK && carry) {
+        if (strcmp(carry, "up") != 0 && strcmp(carry, "down") != 0)
+            return fail(error, FST_BAD_INPUT, "--carry", "\"%.40s\" must be up or down", carry);
+        sweep->carry = strcmp(carry, "up") == 0 ? FST_CARRY_UP : FST_CARRY_DOWN;
+    }
+    return status;
+}
+
+static fst_status show(void *user, const fst_sweep_progress *p, fst_error *error)
+{
+    char what[64];
+    int64_t wanted = p->points - p->there + p->added;
+    (void)snprintf(what, sizeof what, "%lld of %lld points, %.3g a second", (long long)p->there,
+                   (long long)p->points, p->seconds > 0 ? (double)p->added / p->seconds : 0.0);
+    return progress_show(user, wanted > 0 ? (double)p->added / (double)wanted : 1.0, what, error);
+}
+
+static void print_sweep(FILE *out, const char *path, const fst_sweep_progress *p, int json)
+{
+    if (json) {
+        (void)fprintf(out,
+                      "{\n  \"points\": %lld,\n  \"rows\": %lld,\n  \"added\": %lld,\n  \"failed\": %lld,\n"
+                      "  \"seconds\": %.17g\n}\n",
+                      (long long)p->points, (long long)p->there, (long long)p->added, (long long)p->failed,
+                      p->seconds);
+        return;
+    }
+    (void)fprintf(out, "%s: all %lld points", path, (long long)p->points);
+    if (p->added < p->points)
+        (void)fprintf(out, ", %lld of them new", (long long)p->added);
+    if (p->failed > 0)
+        (void)fprintf(out, "; %lld runs failed, their rows say why", (long long)p->failed);
+    (void)fprintf(out,
+                  " (%.3g s)\nfestoon export %s --csv prints the rows, festoon plot %s -o FIG.svg draws them\n",
+                  p->seconds, path, path);
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_params params;
+    fst_sweep_options sweep;
+    fst_sweep_progress result;
+    const char *axes[OPTION_LIMIT], *path = option_value(given, "output");
+    if (!path)
+        return fail(error, FST_BAD_INPUT, "", "tell where the rows go: -o FILE.db");
+    fst_status status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK)
+        status = read_sweep(given, axes, &sweep, error);
+    if (status != FST_OK)
+        return status;
+    progress_line line;
+    progress_begin(&line);
+    sweep.user = &line;
+    sweep.progress = show;
+    status = fst_sweep(&params, path, &sweep, &result, error);
+    progress_end(&line);
+    if (status == FST_INTERRUPTED)
+        return fail(error, FST_INTERRUPTED, path,
+                    "interrupted with %lld of %lld points done; the same command goes on",
+                    (long long)result.there, (long long)result.points);
+    if (status == FST_OK)
+        print_sweep(out, path, &result, option_value(given, "json") != NULL);
+    return status;
+}
+
+const command sweep_command = {
+    .name = "sweep",
+    .synopsis = "[SCENE.yaml] --over KEY=LO:HI:COUNT [--over ...] -o FILE.db [options]",
+    .summary = "Run every point of a grid into a database, and go on where it stopped",
+    .details =
+        "Both ends of LO:HI are included, and values may carry units: --over drive.frequency=1Hz:120Hz:240.  "
+        "Each\n"
+        "point gets one row with the keys of festoon run.  Killed at any moment, the same command goes on.\n",
+    .options = options,
+    .most_operands = 1,
+    .perform = perform,
+};

@@ -1,0 +1,61 @@
+/* journal.h - the database of a sweep: SQLite, one row a point, committed in batches.
+ *
+ * The file is made whole (beside its place, then renamed) with its identity inside: scene, axes, seed,
+ * direction of carrying, form of arithmetic.  From then on it only grows, by transactions.  It is written from
+ * one thread.
+ */
+#ifndef FST_IO_JOURNAL_H
+#define FST_IO_JOURNAL_H
+
+#include <festoon/festoon_tools.h>
+
+/* What a sweep is: two sweeps with the same identity have the same rows. */
+typedef struct fst_sweep_identity {
+    const fst_grid *grid;
+    uint64_t seed;
+    fst_carry carry;
+    fst_arithmetic arithmetic;
+    uint64_t fingerprint; /* of a short fixed run in this arithmetic */
+} fst_sweep_identity;
+
+/* A finished point. */
+typedef struct fst_sweep_record {
+    int64_t point;
+    int carried;       /* started from its neighbour's end */
+    fst_status status; /* other than FST_OK: the run failed, and the reason is in result.reason */
+    int dynamics;      /* fst_dynamics */
+    fst_run_result result;
+} fst_sweep_record;
+
+typedef struct fst_journal fst_journal;
+
+/* Open the database of a sweep, making it where there is none.  FST_BAD_INPUT: a foreign or damaged file, or
+ * one made by other parameters (the sentence says which); nothing is written then.  FST_IO: no permission, full
+ * disk. */
+fst_status fst_journal_open(const char *path, const fst_sweep_identity *identity, fst_journal **journal,
+                            fst_error *error);
+
+/* Add a row to the present transaction, beginning one where there is none; a point that is there is left as it
+ * is. */
+fst_status fst_journal_add(fst_journal *journal, const fst_sweep_record *record, fst_error *error);
+
+/* Make safe what was added. */
+fst_status fst_journal_commit(fst_journal *journal, fst_error *error);
+
+/* Number of rows. */
+fst_status fst_journal_count(fst_journal *journal, int64_t *rows, fst_error *error);
+
+/* Points from *next on that have no row: at most `room` of them; *next moves behind what was looked at, and is
+ * the number of points when all were. */
+fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *points, int room, int *found,
+                               fst_error *error);
+
+/* The end state of a point and whether it can be carried on from (the motion is still on the plate); *there is
+ * 0 where the point has no row. */
+fst_status fst_journal_end_state(fst_journal *journal, int64_t point, int *there, int *usable,
+                                 double state[FST_STATE_SIZE], fst_error *error);
+
+/* Finish the present transaction and close; the file is then a single one again. */
+fst_status fst_journal_close(fst_journal *journal, fst_error *error);
+
+#endif

@@ -1,0 +1,352 @@
+/* lane_rows.c - rows in lanes: the engine makes the steps and their integrals, the code of fst_run() looks at
+ * them.
+ *
+ * Each lane has the fst_run_state of its run.  Most steps hold nothing to be looked at closely, and only time
+ * and windings go on.  A step that may hold an end, a mark, a return to the section or a new extreme is taken
+ * out of the lanes into the run's own flow and quadrature, and fst_run_watch_step() does the rest: dense
+ * output, locating, marking.  So there is one writing of what a row is, and in the portable form its bits are
+ * those of fst_run().
+ */
+#include "study/lane_rows.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "ode/path_stages.h"
+#include "study/run_state.h"
+
+typedef struct lane {
+    fst_run_state *run; /* NULL: idle */
+    fst_row_job job;
+    fst_run_options options;
+    int observed; /* its steps are taken into the integrals */
+} lane;
+
+typedef struct crew {
+    const fst_row_work *work;
+    const fst_lane_engine *engine;
+    void *batch;
+    fst_lane_view view;
+    lane lanes[FST_MOST_LANES];
+    int occupied;
+    fst_row_job waiting; /* a job whose model shares no batch with those at work */
+    int has_waiting, no_more;
+} crew;
+
+static unsigned bit(int l)
+{
+    return 1u << l;
+}
+
+/* ------------------------------------------------------------------ beginning and ending */
+
+static void forget(crew *c, int l)
+{
+    lane *at = &c->lanes[l];
+    if (!at->run)
+        return;
+    fst_flow_free(at->run->flow);
+    fst_model_free(at->run->model);
+    free(at->run);
+    at->run = NULL;
+    c->view.h[l] = 0.0;
+    c->occupied -= 1;
+}
+
+/* Whether a model can share the batch with those in it: the integers of its coefficients are the same. */
+static int fits(const crew *c, const fst_model *model)
+{
+    for (int l = 0; l < c->engine->width; ++l)
+        if (c->lanes[l].run) {
+            const fst_coefficients_double *a = &c->lanes[l].run->model->coefficients, *b = &model->coefficients;
+            return a->lines == b->lines && a->magnetisable == b->magnetisable &&
+                   a->gyroscopic_term_lost == b->gyroscopic_term_lost;
+        }
+    return 1;
+}
+
+typedef enum { BEGUN, REFUSED, FAILED } beginning;
+
+/* Begin the job of a lane.  FAILED: `error` says why; REFUSED: it has to wait until the batch is empty. */
+static beginning begin(crew *c, int l, fst_status *status, fst_error *error)
+{
+    lane *at = &c->lanes[l];
+    fst_run_state *run = calloc(1, sizeof *run);
+    if (!run) {
+        *status = fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
+        return FAILED;
+    }
+    at->options = fst_default_run_options();
+    at->options.start = at->job.has_start ? at->job.start : NULL;
+    run->params = &at->job.params;
+    run->options = &at->options;
+    *status = fst_run_begin(run, error);
+    const int refused = *status == FST_OK && !fits(c, run->model);
+    if (*status != FST_OK || refused) {
+        fst_flow_free(run->flow);
+        fst_model_free(run->model);
+        free(run);
+        return refused ? REFUSED : FAILED;
+    }
+    at->run = run;
+    at->observed = !c->engine->fused;
+    c->occupied += 1;
+    c->engine->load(c->batch, l, run->flow);
+    fst_flow_plan(run->flow, run->t_end);
+    return BEGUN;
+}
+
+/* Hand over the result of a lane's job; 1 if another one follows in its place. */
+static int hand_over(crew *c, int l, fst_status status, const fst_run_result *result, const fst_error *error)
+{
+    return c->work->done(c->work->user, &c->lanes[l].job, status, result, error);
+}
+
+static void occupy(crew *c, int l, int has_job)
+{
+    lane *at = &c->lanes[l];
+    for (;;) {
+        if (!has_job && c->has_waiting) {
+            at->job = c->waiting;
+            c->has_waiting = 0;
+        } else if (!has_job && (c->no_more || !c->work->next(c->work->user, &at->job))) {
+            c->no_more = 1;
+            return;
+        }
+        fst_status status;
+        fst_error error = {FST_OK, "", ""};
+        switch (begin(c, l, &status, &error)) {
+        case BEGUN:
+            return;
+        case REFUSED:
+            c->waiting = at->job;
+            c->has_waiting = 1;
+            return;
+        case FAILED:
+            break;
+        }
+        fst_run_result nothing;
+        fst_result_clear(&nothing);
+        has_job = hand_over(c, l, status, &nothing, &error);
+    }
+}
+
+/* Idle lanes take new jobs, but for those that wait for the batch to empty. */
+static void occupy_idle(crew *c)
+{
+    for (int l = 0; l < c->engine->width; ++l)
+        if (!c->lanes[l].run && (!c->has_waiting || c->occupied == 0))
+            occupy(c, l, 0);
+}
+
+/* The run of a lane is over; `status` other than FST_OK: it failed. */
+static void finish(crew *c, int l, fst_status status, fst_error *error)
+{
+    fst_run_state *run = c->lanes[l].run;
+    fst_run_result result;
+    fst_result_clear(&result);
+    if (status == FST_OK)
+        status = fst_run_conclude(run, &result, error);
+    forget(c, l);
+    if (hand_over(c, l, status, &result, error))
+        occupy(c, l, 1);
+}
+
+/* ------------------------------------------------------------------ steps */
+
+/* The integrals of a lane's last step, as the scalar quadrature has them. */
+static void extract_quadrature(const crew *c, int l, fst_quadrature *q)
+{
+    const int width = c->engine->width;
+    const fst_lane_view *v = &c->view;
+    for (int i = 0; i < FST_Q_COUNT; ++i) {
+        q->total[i].high = v->total_high[i * width + l];
+        q->total[i].low = v->total_low[i * width + l];
+        q->increment[i] = v->increment[i * width + l];
+    }
+    q->r_reference = v->r_reference[l];
+    q->b_reference = v->b_reference[l];
+    for (int n = 0; n < FST_PATH_STAGES; ++n) {
+        for (int i = 0; i < FST_Q_COUNT; ++i)
+            q->stage[FST_PATH_STAGE[n]][i] = v->integrands[(n * FST_Q_COUNT + i) * width + l];
+        for (int i = 0; i < FST_TRACK_COUNT; ++i)
+            q->tracked[n][i] = v->tracked[(n * FST_TRACK_COUNT + i) * width + l];
+    }
+    q->has_dense = 0;
+}
+
+static void keep_records(crew *c, int l, const fst_quadrature *q)
+{
+    for (int i = 0; i < FST_TRACK_COUNT; ++i) {
+        c->view.greatest[i * c->engine->width + l] = q->extreme[i].greatest;
+        c->view.least[i * c->engine->width + l] = q->extreme[i].least;
+    }
+}
+
+/* Whether the last step is to be looked at closely, beside what the engine says. */
+static int is_eventful(const fst_run_state *run, const double *end, int observed)
+{
+    const fst_flow *flow = run->flow;
+    const double mark = run->t_discard + (double)run->next_period * run->drive_period;
+    const int side = (end[FST_X] > 0) - (end[FST_X] < 0);
+    return flow->t.high + 1e-9 * flow->attempt >= mark || flow->t.high >= run->t_end || side == 0 ||
+           side != run->returns.side || fst_winding_is_doubtful(&flow->phi, end[FST_X], end[FST_Y]) ||
+           (observed && fst_quadrature_phi_is_doubtful(&run->q, end));
+}
+
+/* Whether the orbit repeats itself so closely that later returns can raise no record by what counts (1e-6 after
+ * hundreds of returns): the fast form then looks for extremes no more. */
+static int repeats(const fst_run_state *run)
+{
+    return run->section_marks.offered >= 3 && run->section_marks.latest.full_distance < 1e-9;
+}
+
+/* Lanes in their window whose records may be beaten, and are worth it. */
+static unsigned worth_tracking(const crew *c, unsigned beaten)
+{
+    for (int l = 0; c->engine->fused && l < c->engine->width; ++l)
+        if (beaten & bit(l) && repeats(c->lanes[l].run))
+            beaten &= ~bit(l);
+    return beaten;
+}
+
+/* Look at a lane's accepted step; 1 if its run is over. */
+static int watch(crew *c, int l, int eventful)
+{
+    lane *at = &c->lanes[l];
+    fst_run_state *run = at->run;
+    fst_flow *flow = run->flow;
+    double end[FST_STATE_SIZE];
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        end[i] = c->view.end[i * c->engine->width + l];
+    eventful = eventful || is_eventful(run, end, at->observed);
+    if (eventful)
+        c->engine->extract(c->batch, l, &flow->step);
+    fst_flow_follow(flow, end);
+    if (at->observed)
+        fst_quadrature_follow(&run->q, flow, end);
+    if (!eventful) {
+        fst_run_watch_quietly(run, c->view.activity[l]);
+        return 0;
+    }
+    extract_quadrature(c, l, &run->q);
+    const int over = fst_run_watch_step(run);
+    keep_records(c, l, &run->q);
+    return over || flow->t.high >= run->t_end;
+}
+
+/* Bookkeeping of the tries: time and step sizes.  Returns the lanes whose step counts; *failed those that gave
+ * up. */
+static unsigned settle(crew *c, unsigned within, unsigned *failed)
+{
+    unsigned accepted = 0;
+    *failed = 0;
+    for (int l = 0; l < c->engine->width; ++l) {
+        if (!c->lanes[l].run)
+            continue;
+        fst_run_state *run = c->lanes[l].run;
+        fst_flow *flow = run->flow;
+        const double error = isfinite(c->view.error[l]) ? c->view.error[l] : INFINITY;
+        flow->rhs_calls += 11;
+        if (within & bit(l)) {
+            fst_flow_accept(flow, error, c->view.factor[l], c->view.drift[l], run->t_end);
+            accepted |= bit(l);
+        } else if (!fst_flow_reject(flow, error, c->view.factor[l])) {
+            *failed |= bit(l);
+        }
+    }
+    return accepted;
+}
+
+/* The lanes among `accepted` whose steps are taken into the integrals, and of these those in their window.  In
+ * the fast form, integrals begin with the step that the discard ends in. */
+static unsigned observed_lanes(crew *c, unsigned accepted, unsigned *in_window)
+{
+    unsigned observed = 0;
+    *in_window = 0;
+    for (int l = 0; l < c->engine->width; ++l) {
+        lane *at = &c->lanes[l];
+        if (!(accepted & bit(l)))
+            continue;
+        const fst_flow *flow = at->run->flow;
+        if (!at->observed && flow->t.high + 1e-9 * flow->attempt >= at->run->t_discard) {
+            double start[FST_STATE_SIZE];
+            for (int i = 0; i < FST_STATE_SIZE; ++i)
+                start[i] = c->view.y[i * c->engine->width + l];
+            fst_quadrature_begin_phi(&at->run->q, start);
+            at->observed = 1;
+        }
+        observed |= at->observed ? bit(l) : 0;
+        *in_window |= at->run->in_window ? bit(l) : 0;
+    }
+    return observed;
+}
+
+static void conclude(crew *c, int l)
+{
+    fst_error error = {FST_OK, "", ""};
+    finish(c, l, FST_OK, &error);
+}
+
+static void give_up(crew *c, int l)
+{
+    fst_flow *flow = c->lanes[l].run->flow;
+    fst_error error = {FST_OK, "", ""};
+    c->engine->extract(c->batch, l, &flow->step);
+    finish(c, l, fst_flow_fail(flow, &error), &error);
+}
+
+static void step(crew *c)
+{
+    for (int l = 0; l < c->engine->width; ++l)
+        c->view.h[l] = c->lanes[l].run ? c->lanes[l].run->flow->attempt : 0.0;
+    const unsigned within = c->engine->try_steps(c->batch);
+    unsigned failed, in_window, over = 0;
+    const unsigned accepted = settle(c, within, &failed);
+    const unsigned observed = observed_lanes(c, accepted, &in_window);
+    const unsigned beaten = observed ? c->engine->observe(c->batch, observed, in_window) & in_window : 0;
+    const unsigned eventful = c->engine->may_end(c->batch) | worth_tracking(c, beaten);
+    for (int l = 0; l < c->engine->width; ++l)
+        if (accepted & bit(l)) {
+            if (watch(c, l, (eventful & bit(l)) != 0))
+                over |= bit(l);
+            else
+                fst_flow_plan(c->lanes[l].run->flow, c->lanes[l].run->t_end);
+        }
+    c->engine->advance(c->batch, accepted & ~over);
+    for (int l = 0; l < c->engine->width; ++l) {
+        if (over & bit(l))
+            conclude(c, l);
+        else if (failed & bit(l))
+            give_up(c, l);
+    }
+}
+
+/* ------------------------------------------------------------------ */
+
+fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine, fst_error *error)
+{
+    crew *c = calloc(1, sizeof *c);
+    void *batch = aligned_alloc(64, (engine->bytes + 63) / 64 * 64);
+    fst_status status = c && batch ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
+    if (status == FST_OK) {
+        memset(batch, 0, engine->bytes);
+        c->work = work;
+        c->engine = engine;
+        c->batch = batch;
+        engine->view(batch, &c->view);
+        occupy_idle(c);
+    }
+    for (unsigned steps = 1; status == FST_OK && c->occupied > 0; ++steps) {
+        step(c);
+        occupy_idle(c);
+        if (steps % 64 == 0 && work->stopped(work->user))
+            status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+    }
+    for (int l = 0; c && l < engine->width; ++l)
+        forget(c, l);
+    free(batch);
+    free(c);
+    return status;
+}

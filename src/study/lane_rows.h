@@ -1,0 +1,10 @@
+/* lane_rows.h - rows in lanes. */
+#ifndef FST_STUDY_LANE_ROWS_H
+#define FST_STUDY_LANE_ROWS_H
+
+#include "ensemble/lanes.h"
+
+/* fst_rows() with this engine. */
+fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine, fst_error *error);
+
+#endif

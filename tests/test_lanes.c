@@ -1,0 +1,210 @@
+/* Lanes: in the portable form a row has the bits of fst_run() whatever runs beside it, in the fast forms it is
+ * as accurate and its bits depend on its parameters alone. */
+#include "physics.h"
+
+#include <stdlib.h>
+
+#include "ensemble/final_states.h"
+
+enum { JOBS = 24 };
+
+/* Beads of all sorts: both dynamics, materials, friction laws, short and odd windows, some that leave the
+ * plate, one that cannot start. */
+static fst_params job_params(int i)
+{
+    fst_params p = bead_at(0.15 + 0.04 * i, i % 5 == 1 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID);
+    p.run_periods = 12.0 + 0.7 * i;
+    p.run_discard = i % 7;
+    p.run_rtol = i % 2 ? 1e-9 : 1e-11;
+    p.model_kappa = 0.5 + 0.1 * i;
+    if (i % 6 == 2) {
+        p.bead_material = FST_MATERIAL_MIXED;
+        p.bead_a = 1e-4;
+        p.bead_b = 1e-3;
+    }
+    if (i % 8 == 3)
+        p.plate_radius = 0.0225; /* close to the start: ejected */
+    if (i == 9)
+        p.friction_law = FST_FRICTION_NONE;
+    if (i == 11)
+        p.magnet_lines = 3;
+    if (i == 13)
+        p.start_r = p.model_eps = 0.2; /* no rolling start there */
+    if (i == 17)
+        p.start_spin = FST_SPIN_REST;
+    return p;
+}
+
+typedef struct store {
+    int next, count, order[JOBS];
+    fst_run_result results[JOBS];
+    fst_status statuses[JOBS];
+} store;
+
+static int next_job(void *user, fst_row_job *job)
+{
+    store *s = user;
+    if (s->next == s->count)
+        return 0;
+    memset(job, 0, sizeof *job);
+    job->point = s->order[s->next++];
+    job->params = job_params((int)job->point);
+    return 1;
+}
+
+static int job_done(void *user, fst_row_job *job, fst_status status, const fst_run_result *result,
+                    const fst_error *error)
+{
+    store *s = user;
+    assert_int_equal(status, error->code);
+    s->results[job->point] = *result;
+    s->statuses[job->point] = status;
+    return 0;
+}
+
+static int never(void *user)
+{
+    (void)user;
+    return 0;
+}
+
+/* All jobs in the order of multiples of `stride`, which shares no factor with their number. */
+static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int stride)
+{
+    memset(s, 0, sizeof *s);
+    s->count = JOBS;
+    for (int i = 0; i < JOBS; ++i)
+        s->order[i] = i * stride % JOBS;
+    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, never};
+    fst_error error = {FST_OK, "", ""};
+    if (fst_rows(&work, &error) != FST_OK)
+        fail_msg("fst_rows: %s", error.sentence);
+}
+
+static void check_same(const store *a, const store *b)
+{
+    for (int i = 0; i < JOBS; ++i) {
+        assert_int_equal(a->statuses[i], b->statuses[i]);
+        const fst_run_result *x = &a->results[i], *y = &b->results[i];
+        for (int k = 0; k < fst_result_count(); ++k)
+            if (memcmp((const char *)x + fst_result_at(k)->offset, (const char *)y + fst_result_at(k)->offset,
+                       sizeof(double)) != 0)
+                fail_msg("job %d: %s differs", i, fst_result_at(k)->name);
+        assert_memory_equal(x->final_state, y->final_state, sizeof x->final_state);
+        assert_int_equal(x->regime, y->regime);
+        assert_int_equal(x->symmetry, y->symmetry);
+        assert_string_equal(x->reason, y->reason);
+        assert_int_equal(x->rhs_calls, y->rhs_calls);
+        assert_int_equal(x->accepted, y->accepted);
+        assert_int_equal(x->rejected, y->rejected);
+        assert_int_equal(x->returns, y->returns);
+    }
+}
+
+static void test_portable_rows_are_runs(void **state)
+{
+    (void)state;
+    static store alone, beside;
+    do_all(&alone, FST_ARITHMETIC_PORTABLE, 1, 1);
+    int left = 0;
+    for (int i = 0; i < JOBS; ++i) {
+        const fst_params p = job_params(i);
+        const fst_run_options options = fst_default_run_options();
+        fst_run_result run;
+        assert_int_equal(fst_run(&p, &options, &run, NULL), alone.statuses[i]);
+        assert_memory_equal(run.final_state, alone.results[i].final_state, sizeof run.final_state);
+        left += run.regime == FST_REGIME_EJECTED;
+    }
+    assert_true(left > 0);
+    assert_int_equal(alone.statuses[13], FST_BAD_INPUT);
+    for (int lanes = 4; lanes <= 8; lanes += 4) {
+        if (!fst_lane_engine_of(FST_ARITHMETIC_PORTABLE, lanes))
+            continue;
+        do_all(&beside, FST_ARITHMETIC_PORTABLE, lanes, 1);
+        check_same(&alone, &beside);
+        do_all(&beside, FST_ARITHMETIC_PORTABLE, lanes, 7);
+        check_same(&alone, &beside);
+    }
+}
+
+static void test_fast_rows_depend_on_nothing_else(void **state)
+{
+    (void)state;
+    static store portable, first, second;
+    do_all(&portable, FST_ARITHMETIC_PORTABLE, 0, 1);
+    for (int form = FST_ARITHMETIC_AVX2; form <= FST_ARITHMETIC_AVX512; ++form) {
+        if (!fst_lane_engine_of((fst_arithmetic)form, 0))
+            continue;
+        do_all(&first, (fst_arithmetic)form, 0, 1);
+        do_all(&second, (fst_arithmetic)form, 0, 11);
+        check_same(&first, &second);
+        for (int i = 0; i < JOBS; ++i) {
+            const fst_run_result *a = &first.results[i], *b = &portable.results[i];
+            assert_int_equal(a->regime, b->regime);
+            /* Close as two runs of one tolerance are; some of these motions are chaotic while they last. */
+            if (b->regime == FST_REGIME_COUNTER_ROTATING) {
+                assert_true(fabs(a->mean_r - b->mean_r) < 1e-6);
+                assert_true(fabs(a->max_b - b->max_b) < 1e-5);
+                assert_true(fabs(a->mean_friction_power - b->mean_friction_power) < 1e-6);
+            }
+        }
+    }
+}
+
+static void test_no_such_engine(void **state)
+{
+    (void)state;
+    const fst_row_work work = {NULL, FST_ARITHMETIC_AVX512, 4, next_job, job_done, never};
+    fst_error error;
+    assert_int_equal(fst_rows(&work, &error), FST_UNAVAILABLE);
+    assert_string_equal(fst_arithmetic_name(FST_ARITHMETIC_AVX2), "avx2");
+}
+
+/* Final states at the tightest tolerance: portable lanes have the bits of a flow, fast ones agree to rounding.
+ */
+static void test_final_states(void **state)
+{
+    (void)state;
+    enum { COUNT = 13 };
+    fst_model *models[COUNT];
+    fst_flow *flows[COUNT];
+    double t_end[COUNT], start[FST_STATE_SIZE], expected[COUNT][FST_STATE_SIZE], ends[COUNT][FST_STATE_SIZE];
+    for (int i = 0; i < COUNT; ++i) {
+        const fst_params p = bead_at(0.36 + 0.06 * i, FST_DYNAMICS_RIGID);
+        models[i] = model_of(&p);
+        start_of(&p, models[i], start);
+        t_end[i] = (2.0 + 0.1 * i) * TWO_PI / p.drive_omega;
+        state_after(models[i], 1e-14, start, t_end[i], expected[i]);
+    }
+    for (int form = FST_ARITHMETIC_PORTABLE; form <= FST_ARITHMETIC_AVX512; ++form) {
+        const fst_lane_engine *engine = fst_lane_engine_of((fst_arithmetic)form, 0);
+        if (!engine)
+            continue;
+        for (int i = 0; i < COUNT; ++i) {
+            const fst_params p = bead_at(0.36 + 0.06 * i, FST_DYNAMICS_RIGID);
+            start_of(&p, models[i], start);
+            flows[i] = flow_of(models[i], 1e-14, start);
+        }
+        assert_int_equal(fst_final_states(engine, flows, t_end, COUNT, ends, NULL), FST_OK);
+        for (int i = 0; i < COUNT; ++i) {
+            if (!engine->fused)
+                assert_memory_equal(ends[i], expected[i], sizeof ends[i]);
+            else
+                assert_true(greatest_difference(ends[i], expected[i], FST_STATE_SIZE) < 2e-13);
+            fst_flow_free(flows[i]);
+        }
+    }
+    for (int i = 0; i < COUNT; ++i)
+        fst_model_free(models[i]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_portable_rows_are_runs),
+        cmocka_unit_test(test_fast_rows_depend_on_nothing_else),
+        cmocka_unit_test(test_no_such_engine),
+        cmocka_unit_test(test_final_states),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

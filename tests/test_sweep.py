@@ -1,0 +1,257 @@
+"""Sweeps from outside: rows, resuming after SIGKILL and Ctrl-C, what is refused, carrying, exports, figures.
+
+Environment: FESTOON is the program, SOURCE_DIR the source tree.
+"""
+
+import csv
+import io
+import json
+import os
+import random
+import signal
+import sqlite3
+import subprocess
+import tempfile
+import time
+import unittest
+
+FESTOON = os.environ["FESTOON"]
+SHORT = ["--set", "run.periods=8", "--set", "run.discard=4", "--set", "run.rtol=1e-8"]
+SMALL = SHORT + ["--over", "drive.frequency=9Hz:20Hz:6", "--over", "model.kappa=1,1.5,2"]
+
+
+def festoon(*words, **options):
+    options.setdefault("timeout", 120)
+    done = subprocess.run([FESTOON, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, **options)
+    return done.returncode, done.stdout.decode(), done.stderr.decode(errors="replace")
+
+
+def content_of(path, mode="rb"):
+    with open(path, mode) as file:
+        return file.read()
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory(prefix="festoon-sweep-")
+        self.addCleanup(holder.cleanup)
+        self.directory = holder.name
+
+    def path(self, name):
+        return os.path.join(self.directory, name)
+
+    def good(self, *words, **options):
+        status, out, err = festoon(*words, **options)
+        self.assertEqual(status, 0, err)
+        return out
+
+    def refused(self, *words, status=2):
+        before = {name: content_of(self.path(name)) for name in os.listdir(self.directory)
+                  if os.path.isfile(self.path(name))}
+        found, out, err = festoon(*words)
+        self.assertEqual((found, out), (status, ""), err)
+        for name, content in before.items():
+            self.assertEqual(content_of(self.path(name)), content, name)
+        return err
+
+    def rows(self, name):
+        return self.good("export", self.path(name), "--csv")
+
+
+class Rows(Case):
+    def test_keys_values_and_order(self):
+        self.good("sweep", *SMALL, "-o", self.path("a.db"))
+        rows = json.loads(self.good("export", self.path("a.db"), "--json"))
+        self.assertEqual([row["point"] for row in rows], list(range(18)))
+        self.assertEqual([row["model.kappa"] for row in rows[:4]], [1, 1.5, 2, 1])
+        self.assertEqual(rows[0]["drive.frequency"], 9)
+        self.assertEqual(rows[-1]["drive.frequency"], 20)
+        run = json.loads(self.good("run", *SHORT, "--set", "drive.frequency=9", "--json"))
+        self.assertLess(set(run) - {"scene", "groups", "version"}, set(rows[1]))
+        self.assertAlmostEqual(run["mean_r"], rows[1]["mean_r"], 5)
+        self.assertEqual(run["regime"], rows[1]["regime"])
+
+    def test_portable_rows_have_the_bits_of_a_run(self):
+        self.good("sweep", *SMALL, "--portable", "-o", self.path("a.db"))
+        row = json.loads(self.good("export", self.path("a.db"), "--json"))[1]
+        run = json.loads(self.good("run", *SHORT, "--set", "drive.frequency=9", "--json"))
+        for key in set(run) - {"scene", "groups", "version"}:
+            self.assertEqual(run[key], row[key], key)
+
+    def test_nothing_depends_on_threads_or_lanes(self):
+        found = set()
+        for i, words in enumerate((["--threads", "1"], ["--threads", "2"], ["--threads", "5"])):
+            self.good("sweep", *SMALL, *words, "-o", self.path(f"{i}.db"))
+            found.add(self.rows(f"{i}.db"))
+        self.assertEqual(len(found), 1)
+        found = set()
+        for lanes in ("1", "4", "8"):
+            status, _, err = festoon("sweep", *SMALL, "--portable", "--lanes", lanes, "-o", self.path(f"p{lanes}.db"))
+            if status == 1 and "processor" in err:
+                continue
+            self.assertEqual(status, 0, err)
+            found.add(self.rows(f"p{lanes}.db"))
+        self.assertEqual(len(found), 1)
+
+    def test_failures_are_rows(self):
+        self.good("sweep", *SHORT, "--over", "start.r=0.05,0.95,2.9", "--set", "plate.radius=0.07", "-o", self.path("a.db"))
+        self.good("sweep", *SHORT, "--over", "start.r=0.10869565217391304,0.9", "--set",
+                  "model.eps=0.10869565217391304", "-o", self.path("b.db"))
+        rows = json.loads(self.good("export", self.path("b.db"), "--json"))
+        self.assertEqual(rows[0]["status"], "bad input")
+        self.assertIsNone(rows[0]["regime"])
+        self.assertIn("rolling", rows[0]["reason"])
+        self.assertEqual(rows[1]["status"], "done")
+
+    def test_carry_goes_on_from_the_neighbour(self):
+        for direction, order in (("up", [0, 1, 2, 3]), ("down", [3, 2, 1, 0])):
+            name = direction + ".db"
+            self.good("sweep", *SHORT, "--over", "drive.omega=0.3:0.36:4", "--over", "model.dynamics=rigid,farago2020",
+                      "--carry", direction, "--portable", "-o", self.path(name))
+            rows = json.loads(self.good("export", self.path(name), "--json"))
+            self.assertEqual([rows[2 * i]["carried"] for i in order], [0, 1, 1, 1])
+            run = json.loads(self.good("run", *SHORT, "--set", f"drive.omega={rows[2 * order[0]]['drive.omega']!r}", "--json"))
+            self.assertEqual(run["final_state"], rows[2 * order[0]]["final_state"])
+        up, down = self.rows("up.db"), self.rows("down.db")
+        self.assertNotEqual(up, down)
+        # A chain that was cut goes on with the same bits.
+        base = sqlite3.connect(self.path("up.db"))
+        base.execute("DELETE FROM rows WHERE point >= 3")
+        base.commit()
+        base.close()
+        self.good("sweep", *SHORT, "--over", "drive.omega=0.3:0.36:4", "--over", "model.dynamics=rigid,farago2020",
+                  "--carry", "up", "--portable", "-o", self.path("up.db"))
+        self.assertEqual(self.rows("up.db"), up)
+
+
+class Resuming(Case):
+    LONG = SHORT + ["--over", "drive.frequency=9Hz:20Hz:40", "--over", "model.kappa=1:2:20", "--threads", "2"]
+
+    def test_sigkill_and_resume(self):
+        self.good("sweep", *self.LONG, "-o", self.path("whole.db"))
+        expected = self.rows("whole.db")
+        rng = random.Random(4)
+        rounds = int(os.environ.get("FESTOON_KILLS", "6"))
+        broken_off = 0
+        for i in range(rounds):
+            name = f"cut{i}.db"
+            for _ in range(3):
+                process = subprocess.Popen([FESTOON, "sweep", *self.LONG, "-o", self.path(name)],
+                                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                time.sleep(rng.uniform(0.0, 1.2))
+                broken_off += process.poll() is None
+                process.kill()
+                process.wait()
+            self.good("sweep", *self.LONG, "-o", self.path(name))
+            self.assertEqual(self.rows(name), expected)
+        self.assertGreater(broken_off, 0)
+        self.assertEqual([name for name in os.listdir(self.directory) if not name.endswith((".db", ".part"))], [])
+
+    def test_interruption_ends_with_130(self):
+        words = ["sweep", "--set", "run.periods=100", "--set", "run.discard=50", "--over",
+                 "drive.frequency=9Hz:20Hz:2000", "-o", self.path("a.db")]
+        process = subprocess.Popen([FESTOON, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        for _ in range(600):  # until the first rows are committed
+            time.sleep(0.1)
+            if os.path.exists(self.path("a.db-wal")) and os.path.getsize(self.path("a.db-wal")) > 0:
+                break
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=30)
+        self.assertEqual((process.returncode, out), (130, b""), err)
+        self.assertIn(b"the same command goes on", err)
+        base = sqlite3.connect(self.path("a.db"))
+        rows = base.execute("SELECT count(*) FROM rows").fetchone()[0]
+        base.close()
+        self.assertTrue(0 < rows < 2000, rows)
+
+
+class Refusals(Case):
+    def test_other_parameters(self):
+        self.good("sweep", *SMALL, "-o", self.path("a.db"))
+        to = ["-o", self.path("a.db")]
+        self.assertIn("run.rtol", self.refused("sweep", *SMALL, "--set", "run.rtol=1e-7", *to))
+        self.assertIn("axis_1", self.refused("sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:7", "--over",
+                                             "model.kappa=1,1.5,2", *to))
+        self.assertIn("carry", self.refused("sweep", *SMALL, "--carry", "up", *to))
+
+    def test_foreign_files(self):
+        for name, content in (("text.db", b"precious text, not a database"), ("short.db", b"x")):
+            with open(self.path(name), "wb") as out:
+                out.write(content)
+            self.refused("sweep", *SMALL, "-o", self.path(name))
+            self.refused("export", self.path(name), "--csv")
+        base = sqlite3.connect(self.path("other.db"))
+        base.execute("CREATE TABLE t(a)")
+        base.commit()
+        base.close()
+        self.refused("sweep", *SMALL, "-o", self.path("other.db"))
+        os.mkdir(self.path("dir.db"))
+        self.refused("sweep", *SMALL, "-o", self.path("dir.db"))
+        self.refused("sweep", *SMALL, "-o", self.path("none/a.db"), status=1)
+        self.refused("export", self.path("missing.db"), "--csv")
+
+    def test_damaged_pages(self):
+        self.good("sweep", *SMALL, "-o", self.path("a.db"))
+        sound = content_of(self.path("a.db"))
+        for offset in range(4096, len(sound) - 4096, 4096):
+            with open(self.path("a.db"), "wb") as out:
+                out.write(sound[:offset] + bytes([0x5A]) * 4096 + sound[offset + 4096:])
+            self.assertIn("damaged", self.refused("export", self.path("a.db"), "--csv"))
+            self.assertIn("damaged", self.refused("sweep", *SMALL, "-o", self.path("a.db")))
+
+    def test_full_disk(self):
+        mount = self.path("small")
+        os.mkdir(mount)
+        if os.getuid() != 0 or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=512k", "none", mount],
+                                              stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("a small file system needs root")
+        try:
+            words = ["sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:1500", "-o", os.path.join(mount, "a.db")]
+            status, out, err = festoon(*words)
+            self.assertEqual((status, out), (1, ""), err)
+            self.assertIn("disk is full", err)
+            subprocess.run(["mount", "-o", "remount,size=64m", mount], check=True)
+            base = sqlite3.connect(os.path.join(mount, "a.db"))
+            kept = base.execute("SELECT count(*) FROM rows").fetchone()[0]
+            base.close()
+            self.assertGreater(kept, 0)
+            out = self.good(*words, "--json")
+            self.assertEqual(json.loads(out)["added"], 1500 - kept)
+        finally:
+            subprocess.run(["umount", mount], check=True)
+
+
+class Exports(Case):
+    def test_csv_and_json_agree(self):
+        self.good("sweep", *SMALL, "-o", self.path("a.db"))
+        text = self.rows("a.db")
+        rows = json.loads(self.good("export", self.path("a.db"), "--json"))
+        for fields, row in zip(csv.DictReader(io.StringIO(text)), rows):
+            self.assertEqual(float(fields["mean_r"]), row["mean_r"])
+            self.assertEqual(float(fields["final_WZ"]), row["final_state"][9])
+            self.assertEqual(fields["regime"], row["regime"])
+            self.assertEqual(fields["festoons"] == "", row["festoons"] is None)
+        self.good("export", self.path("a.db"), "--csv", "-o", self.path("a.csv"))
+        self.assertEqual(content_of(self.path("a.csv"), "r"), text)
+        status, _, err = festoon("export", self.path("a.db"), "--hdf5", "-o", self.path("a.h5"))
+        self.assertTrue(status == 0 or "HDF5" in err, err)
+        self.refused("export", self.path("a.db"), "--hdf5")
+        self.refused("export", self.path("a.db"), "--csv", "--json")
+
+    def test_figures(self):
+        self.good("sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:12", "-o", self.path("line.db"))
+        self.good("sweep", *SMALL, "-o", self.path("map.db"))
+        for name, words in (("line.db", []), ("line.db", ["--key", "festoons,max_b"]), ("map.db", []),
+                            ("map.db", ["--key", "mean_r"])):
+            status, _, err = festoon("plot", self.path(name), *words, "-o", self.path("figure.svg"))
+            if status == 1 and "gnuplot" in err:
+                self.skipTest("no gnuplot")
+            self.assertEqual(status, 0, err)
+            self.assertIn("<svg", content_of(self.path("figure.svg"), "r")[:2000])
+        self.assertIn("mean_r", self.refused("plot", self.path("map.db"), "--key", "mean_rr", "-o", self.path("f.svg")))
+        self.refused("plot", self.path("map.db"), "--colour", "slip", "-o", self.path("f.svg"))
+
+
+if __name__ == "__main__":
+    unittest.main()
