@@ -1,5 +1,6 @@
 # What the tools need (the physics in libfestoon needs the C library alone).  POSIX threads, libyaml, jansson and
-# SQLite are required; HDF5 and gnuplot are optional, and a program without them says so in `festoon --version`.
+# SQLite are required; HDF5, LAPACK, Cairo, gnuplot and ffmpeg are optional, and a program without them says so in
+# `festoon --version`.
 
 # libfestoon itself needs the C library alone; what seeks orbits loads LAPACK as a module.
 find_package(PkgConfig REQUIRED)
@@ -10,6 +11,7 @@ if(NOT FESTOON_HAVE_LAPACK)
 endif()
 
 set(FESTOON_HAVE_HDF5 OFF)
+set(FESTOON_HAVE_CAIRO OFF)
 if(NOT FESTOON_TOOLS)
     return()
 endif()
@@ -26,6 +28,13 @@ if(HDF5_FOUND)
     set(FESTOON_HAVE_HDF5 ON)
 else()
     message(STATUS "HDF5 not found (libhdf5-dev): festoon will read and write no .h5 files")
+endif()
+
+pkg_check_modules(CAIRO QUIET IMPORTED_TARGET cairo)
+if(CAIRO_FOUND)
+    set(FESTOON_HAVE_CAIRO ON)
+else()
+    message(STATUS "Cairo not found (libcairo2-dev): festoon will make no films")
 endif()
 
 # gnuplot is run as a process when a figure is drawn; it need not be there now.

@@ -8,9 +8,9 @@
 set -eu
 
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansson-dev libsqlite3-dev libhdf5-dev
-    liblapacke-dev"
+    liblapacke-dev libcairo2-dev"
 demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
-test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p"
+test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg"
 bench_packages="$build_packages libgsl-dev libsundials-dev"
 docs_packages="$build_packages doxygen"
 format_packages="clang-format"

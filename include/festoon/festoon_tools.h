@@ -200,11 +200,35 @@ FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, i
 /* Whether a file begins like a sweep's database. */
 FST_API int fst_is_sweep(const char *path);
 
+/* ------------------------------------------------------------------ films */
+
+typedef struct fst_film_options {
+    uint32_t cookie;
+    int width, height;       /* pixels, both even */
+    double fps;              /* frames a second */
+    double from, to;         /* drive periods shown; NAN: all there is */
+    double seconds_per_turn; /* of film for a turn of the magnet */
+    const char *colour;      /* the column that colours the trail; NULL: "slip" */
+    void *user;
+    fst_status (*progress)(void *user, double fraction, fst_error *error);
+} fst_film_options;
+/* 720 x 720 pixels, 30 frames a second, one second a turn. */
+FST_API fst_film_options fst_default_film_options(void);
+
+/* Make a film of a trajectory: the plate from above with the magnet turning beneath it, the bead with its poles
+ * and surface marks, its trail, and a view from the front.  `out` ends in .mp4 or .gif, or is a folder for PNG
+ * frames.  FST_BAD_INPUT: an odd size, no samples there, an unknown column; FST_UNAVAILABLE: no Cairo in this
+ * build, or no ffmpeg, and then the frames are kept in a folder that the sentence names. */
+FST_API fst_status fst_film(const fst_table *table, const char *out, const fst_film_options *options,
+                            fst_error *error);
+
 /* ------------------------------------------------------------------ the paper */
 
 typedef struct fst_paper_options {
     uint32_t cookie;
     int reduced;    /* fewer points and shorter runs, for tests */
+    int starts;     /* of the search for a paramagnetic bead that counter-rotates; 0: as usual */
+    int films;      /* the supplement's two films as well, film_0215.mp4 and film_04.mp4 */
     char **summary; /* if not NULL: set to Table 1 and a count of the verdicts as text; free() it */
     void *user;
     fst_status (*progress)(void *user, double fraction, const char *what, fst_error *error);

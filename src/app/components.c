@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "app/film_present.h"
 #include "io/hdf5_present.h"
 
 /* Whether a program is found along PATH. */
@@ -26,10 +27,21 @@ static int program_present(const char *name)
 
 const char *fst_tools_components(void)
 {
-    static const char *const texts[2][2] = {
-        {"gnuplot no (install gnuplot-nox), hdf5 no (install libhdf5-dev and build again)",
-         "gnuplot no (install gnuplot-nox), hdf5 yes"},
-        {"gnuplot yes, hdf5 no (install libhdf5-dev and build again)", "gnuplot yes, hdf5 yes"},
+    static const char *const texts[2][2][2][2] = {
+#define GNUPLOT(yes_or_no)                                                                                     \
+    {HDF5(yes_or_no ", hdf5 no (install libhdf5-dev and build again)"), HDF5(yes_or_no ", hdf5 yes")}
+#define HDF5(before)                                                                                           \
+    {                                                                                                          \
+        CAIRO(before ", cairo no (install libcairo2-dev and build again)"), CAIRO(before ", cairo yes")        \
+    }
+#define CAIRO(before)                                                                                          \
+    {                                                                                                          \
+        before ", ffmpeg no (install ffmpeg)", before ", ffmpeg yes"                                           \
+    }
+        GNUPLOT("gnuplot no (install gnuplot-nox)"), GNUPLOT("gnuplot yes")
+#undef GNUPLOT
+#undef HDF5
+#undef CAIRO
     };
-    return texts[program_present("gnuplot")][fst_hdf5_present()];
+    return texts[program_present("gnuplot")][fst_hdf5_present()][fst_film_present()][program_present("ffmpeg")];
 }

@@ -191,10 +191,10 @@ MEASURE(greatest_radius_phi)
 
 MEASURE(halving)
 {
-    fst_paper_bracket bracket = paper->changes[FST_CHANGE_HALVING][dynamics];
-    (void)snprintf(note, size, "between %.5g and %.5g, where the asymmetry |⟨n_z⟩| falls under 0.001",
-                   bracket.low, bracket.high);
-    return 0.5 * (bracket.low + bracket.high);
+    (void)snprintf(note, size,
+                   "where the straight line through ⟨n_z⟩² of settled S1 orbits below vanishes; "
+                   "festoon branch --kind counter locates it exactly");
+    return fst_paper_halving_drive(paper, dynamics);
 }
 
 MEASURE(corotation)

@@ -31,6 +31,45 @@ FST_MEASURE(rolling_phi)         /* the same for <phi'> */
 FST_MEASURE(friction_share)      /* omega = 0.4: |<V_r>| over the magnetic term of Eq. (eq21), % */
 FST_MEASURE(energy)              /* |<drive power> - <f.V>| over the latter, greatest over Table 1 */
 
+/* measures_motion.c */
+FST_MEASURE(turning_points)         /* share of the loss next to the turning points, % */
+FST_MEASURE(friction_follows_angle) /* correlation of |V| with the angle of n and B */
+FST_MEASURE(corner_nz)              /* |n_z| where r is greatest */
+FST_MEASURE(conjugate)              /* <n_z> from the conjugate start over <n_z> */
+FST_MEASURE(fluctuation)            /* delta r at omega = 0.215 over that at 0.4 */
+FST_MEASURE(circling_estimate)      /* |alpha'| <r>/(eps omega) */
+FST_MEASURE(strict_corotation)      /* alpha'/omega at the slowest drive */
+FST_MEASURE(phase_lock)             /* chi = phi + Phi, degrees */
+FST_MEASURE(frequency_lock)         /* (<phi'> + <alpha'>)/omega */
+FST_MEASURE(rolling_on_average)     /* <V_alpha> over r alpha', % */
+FST_MEASURE(spin_share)             /* the spin's part of <V_r>, % */
+FST_MEASURE(dropped_part)           /* error of the printed magnetic term of Eq. (eq21), % */
+FST_MEASURE(asymptotic_rolling)     /* deviation from free rolling far beyond, % */
+FST_MEASURE(asymptotic_frequency)   /* log10 of the Hz at which friction is a tenth */
+FST_MEASURE(halving_nz)             /* exponents at the period halving */
+FST_MEASURE(halving_p)
+FST_MEASURE(halving_relaxation)
+
+/* measures_theory.c */
+FST_MEASURE(line_length) /* l/l_m */
+FST_MEASURE(line_spacing)
+FST_MEASURE(bead_radius)
+FST_MEASURE(orthoradial)         /* B_r over |B| near the maximum, % */
+FST_MEASURE(estimate_energy)     /* mu B0, 1e-4 J */
+FST_MEASURE(estimate_corotation) /* omega_c/2 pi, Hz */
+FST_MEASURE(estimate_moment)     /* log10 of A m^2 */
+FST_MEASURE(estimate_field)      /* log10 of T */
+FST_MEASURE(dry_friction_weight) /* log10 of 1/s */
+FST_MEASURE(dry_friction_pull)
+FST_MEASURE(corotation_beads) /* beads that stay on the corotating motion, % */
+FST_MEASURE(corotation_force) /* its mean radial force over the counter-rotating one */
+FST_MEASURE(paramagnet_counter)
+FST_MEASURE(tondu) /* residuals of the identities */
+FST_MEASURE(friction_moment)
+FST_MEASURE(friction_on_centre)
+FST_MEASURE(friction_moment_sign)
+FST_MEASURE(remanence) /* kappa that a steel bead needs, % of the neodymium bead's */
+
 #undef FST_MEASURE
 
 #endif

@@ -100,8 +100,12 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
     fst_paper_state paper = {.options = options, .directory = directory};
     status = fst_paper_make_runs(&paper, error);
     if (status == FST_OK)
+        status = fst_paper_make_probes(&paper, error);
+    if (status == FST_OK)
         status = fst_paper_draw_figures(&paper, error);
     paper.seconds = seconds_now() - began;
+    if (status == FST_OK && options->films)
+        status = fst_paper_make_films(&paper, error);
     if (status == FST_OK)
         status = fst_paper_write_json(&paper, error);
     if (status == FST_OK)

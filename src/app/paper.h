@@ -6,6 +6,9 @@
 #ifndef FST_APP_PAPER_H
 #define FST_APP_PAPER_H
 
+#include "app/paramagnet.h"
+#include "app/paper_probes.h"
+
 #include <festoon/festoon_tools.h>
 
 /* ------------------------------------------------------------------ runs */
@@ -20,6 +23,8 @@ typedef enum {
     FST_SCAN_TABLE,      /* the rows of Table 1 */
     FST_SCAN_FOLD4,      /* omega = 0.215, with its trajectory */
     FST_SCAN_FOLD15,     /* omega = 0.4, with its trajectory */
+    FST_SCAN_CONJUGATE,  /* omega = 0.215 from the start with all poles exchanged */
+    FST_SCAN_ASYMPTOTIC, /* far beyond all experiments */
     FST_SCAN_COUNT
 } fst_scan;
 
@@ -47,6 +52,30 @@ typedef enum { FST_VERDICT_REPRODUCED, FST_VERDICT_CLOSE, FST_VERDICT_NOT } fst_
 /* "reproduced", "close", "not reproduced" */
 const char *fst_verdict_name(fst_verdict verdict);
 
+/* ------------------------------------------------------------------ probes */
+
+enum {
+    FST_HALVING_BELOW = 8, /* drives under the threshold, the nearest last */
+    FST_HALVING_ABOVE = 6, /* and over it, the nearest first */
+    FST_HALVING_POINTS = FST_HALVING_BELOW + FST_HALVING_ABOVE,
+    FST_HALVING_SHOWN = 400, /* values of r(t) in the figure's inset */
+    FST_ANSATZ_DRIVES = 4,
+    FST_ANSATZ_STARTS = 16,
+    FST_REMANENCE_DRIVES = 2,
+    FST_REMANENCE_STRENGTHS = 6,
+    FST_BALANCE_CASES = 3
+};
+
+typedef struct fst_paper_halving {
+    fst_halving_point points[FST_HALVING_POINTS];
+    double r[FST_HALVING_SHOWN]; /* r(t) at points[0], where p is large */
+} fst_paper_halving;
+
+/* Beads set on the Appendix's corotating motion. */
+typedef struct fst_paper_ansatz {
+    double speed, survived; /* fst_probe_ansatz() */
+} fst_paper_ansatz;
+
 /* ------------------------------------------------------------------ the whole */
 
 typedef struct fst_paper_state {
@@ -55,7 +84,13 @@ typedef struct fst_paper_state {
     int counts[FST_SCAN_COUNT];
     fst_paper_run *scans[FST_SCAN_COUNT][FST_PAPER_DYNAMICS];
     fst_paper_bracket changes[FST_CHANGE_COUNT][FST_PAPER_DYNAMICS];
-    double seconds; /* the time that all took */
+    fst_paper_halving halving[FST_PAPER_DYNAMICS];
+    fst_paper_ansatz ansatz[FST_PAPER_DYNAMICS][FST_ANSATZ_DRIVES][FST_ANSATZ_STARTS];
+    fst_search_entry *search; /* the same for both dynamics: a paramagnetic bead has no magnetic axis to turn */
+    int search_count;
+    fst_balance balances[FST_BALANCE_CASES][FST_BALANCE_COUNT];
+    double remanence[FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS]; /* least kappa, dynamics rigid */
+    double seconds;                                                  /* the time that all took */
 } fst_paper_state;
 
 /* A part of the work, done on all processors; its progress goes from `from` to `to`. */
@@ -70,6 +105,14 @@ fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_stage *stage, fs
 /* Make all runs; the rest of the paper only reads them. */
 fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error);
 void fst_paper_free_runs(fst_paper_state *paper);
+
+/* Make the probes, for which the runs must be there (paper_stages.c). */
+fst_status fst_paper_make_probes(fst_paper_state *paper, fst_error *error);
+/* Drives and strengths of the probes. */
+extern const double fst_ansatz_drives[FST_ANSATZ_DRIVES], fst_remanence_drives[FST_REMANENCE_DRIVES],
+    fst_remanence_strengths[FST_REMANENCE_STRENGTHS];
+/* The drive at which |<n_z>|^2, a straight line near the threshold, reaches zero; NAN: no halving was found. */
+double fst_paper_halving_drive(const fst_paper_state *paper, fst_dynamics dynamics);
 
 /* The one run of a scan that has only one. */
 const fst_paper_run *fst_paper_single(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics);
@@ -174,6 +217,21 @@ fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_fig
                                fst_error *error);
 fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_paper_figure *figure,
                                     const char *out, fst_error *error);
+
+/* Figures of the experiment and of the probes (paper_probe_charts.c). */
+fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                 fst_error *error);
+fst_status fst_paper_draw_supercritical(const fst_paper_state *paper, const fst_paper_figure *figure,
+                                        const char *out, fst_error *error);
+fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_paper_figure *figure,
+                                    const char *out, fst_error *error);
+fst_status fst_paper_draw_sketch(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                 fst_error *error);
+fst_status fst_paper_draw_camera(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                 fst_error *error);
+
+/* The supplement's two films, beside the figures. */
+fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error);
 
 /* ------------------------------------------------------------------ what is written */
 

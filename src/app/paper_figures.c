@@ -29,6 +29,52 @@ static fst_status draw_field(const fst_paper_state *paper, const fst_paper_figur
 }
 
 static const fst_paper_figure figures[] = {
+    {.name = "sketch",
+     .source = "Fig. 0",
+     .title = "The setup to scale",
+     .caption = "A bead (vermilion) on a plate, and below it a bar magnet that turns anticlockwise; blue: the "
+                "lines of "
+                "dipoles that model it.",
+     .statements = "length|spacing|eps",
+     .scan = FST_SCAN_FOLD4,
+     .draw = fst_paper_draw_sketch},
+    {.name = "camera",
+     .source = "Fig. blender",
+     .title = "A path at 10.7 Hz, as filmed",
+     .caption =
+         "The simulated path sampled like the experiment's, at 200 frames a second. The paper gives no scale; "
+         "here a millimetre has 10 pixels.",
+     .each = 1,
+     .statements = "fold4-festoons",
+     .scan = FST_SCAN_FOLD4,
+     .draw = fst_paper_draw_camera},
+    {.name = "radius",
+     .source = "Fig. radius",
+     .title = "Radius and its deviation in the laboratory's units",
+     .caption =
+         "Mean radius of the path and its standard deviation against the magnet's frequency, where the bead "
+         "counter-rotates.",
+     .statements = "shrinking",
+     .scan = FST_SCAN_COMPARISON,
+     .draw = fst_paper_draw_radius},
+    {.name = "supercritical",
+     .source = "Fig. supercritical",
+     .title = "The period halving is supercritical",
+     .caption =
+         "Ratio of successive swings of r, mean of n_z, and the time in which the motion settles, near the "
+         "threshold; bottom: r(t) at the lowest drive, where the two swings differ.",
+     .each = 1,
+     .statements = "halving|halving-root|halving-time",
+     .scan = FST_SCAN_COMPARISON,
+     .draw = fst_paper_draw_supercritical},
+    {.name = "remanence",
+     .source = "section on the paramagnetic bead, carried on",
+     .title = "How much remanence a steel bead needs",
+     .caption = "Least magnetic strength κ with which a bead that the field magnetises isotropically still "
+                "counter-rotates 600 turns of the magnet after a free-rolling start (rigid).",
+     .statements = "remanence",
+     .scan = FST_SCAN_COMPARISON,
+     .draw = fst_paper_draw_remanence},
     {.name = "portrait",
      .source = "Fig. portrait",
      .title = "The magnet's field",
@@ -233,6 +279,6 @@ static fst_status draw_piece(fst_paper_state *paper, int index, fst_error *error
 
 fst_status fst_paper_draw_figures(fst_paper_state *paper, fst_error *error)
 {
-    fst_paper_stage stage = {"figures", 0.85, 1.0, fst_paper_figure_count(), draw_piece};
+    fst_paper_stage stage = {"figures", 0.9, 1.0, fst_paper_figure_count(), draw_piece};
     return fst_paper_do(paper, &stage, error);
 }

@@ -22,6 +22,8 @@ static const struct {
     [FST_SCAN_TABLE] = {0.0, 0.0, FST_TABLE1_ROWS, FST_TABLE1_ROWS, "rolling", NULL},
     [FST_SCAN_FOLD4] = {0.215, 0.215, 1, 1, "rolling", "128"},
     [FST_SCAN_FOLD15] = {0.4, 0.4, 1, 1, "rolling", "128"},
+    [FST_SCAN_CONJUGATE] = {0.215, 0.215, 1, 1, "rolling", NULL},
+    [FST_SCAN_ASYMPTOTIC] = {2.5, 3.0, 2, 2, "rolling", NULL},
 };
 
 /* Where a change of the motion is looked for: in which scan, and how many halvings refine it. */
@@ -68,6 +70,8 @@ static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_d
     fst_status status = fst_params_set(params, "drive.omega", text, error);
     params->model_dynamics = (int)dynamics;
     status = set(params, "start.spin", scans[scan].spin, status, error);
+    if (scan == FST_SCAN_CONJUGATE) /* the image of the usual start, 3 deg, under S2 */
+        status = set(params, "start.phi", "183", status, error);
     if (scans[scan].samples)
         status = set(params, "run.samples", scans[scan].samples, status, error);
     if (paper->options->reduced) {
@@ -105,7 +109,10 @@ void fst_paper_scan_command(const fst_paper_state *paper, fst_scan scan, fst_dyn
                        scans[scan].low, scans[scan].high);
     (void)snprintf(text, size, "festoon run --set drive.omega=%s --set model.dynamics=%s%s%s%s", omega,
                    dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020",
-                   strcmp(scans[scan].spin, "rest") ? "" : " --set start.spin=rest", lengths, values);
+                   strcmp(scans[scan].spin, "rest") == 0 ? " --set start.spin=rest"
+                   : scan == FST_SCAN_CONJUGATE          ? " --set start.phi=183"
+                                                         : "",
+                   lengths, values);
 }
 
 /* ------------------------------------------------------------------ all scans */
@@ -204,14 +211,16 @@ fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error)
                 return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d runs", paper->counts[scan]);
         }
     }
-    fst_paper_stage runs = {"runs", 0.0, 0.7, piece_count(paper), scan_piece};
-    fst_paper_stage thresholds = {"thresholds", 0.7, 0.85, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, find_change};
+    fst_paper_stage runs = {"runs", 0.0, 0.5, piece_count(paper), scan_piece};
+    fst_paper_stage thresholds = {"thresholds", 0.5, 0.65, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, find_change};
     fst_status status = fst_paper_do(paper, &runs, error);
     return status == FST_OK ? fst_paper_do(paper, &thresholds, error) : status;
 }
 
 void fst_paper_free_runs(fst_paper_state *paper)
 {
+    free(paper->search);
+    paper->search = NULL;
     for (int scan = 0; scan < FST_SCAN_COUNT; scan++) {
         for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
             for (int i = 0; paper->scans[scan][dynamics] && i < paper->counts[scan]; i++)

@@ -6,9 +6,9 @@
 #include "cli/terminal.h"
 
 static const command *const commands[] = {
-    &run_command,    &sweep_command,  &export_command,   &field_command, &orbit_command,
-    &locked_command, &branch_command, &lyapunov_command, &plot_command,  &paper_command,
-    &init_command,   &check_command,  &schema_command,
+    &run_command,    &sweep_command,  &export_command,   &field_command,  &orbit_command,
+    &locked_command, &branch_command, &lyapunov_command, &plot_command,   &movie_command,
+    &paper_command,  &init_command,   &check_command,    &schema_command,
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 

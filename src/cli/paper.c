@@ -7,6 +7,8 @@
 static const option options[] = {
     {"output", 'o', "DIR", "the directory for paper.json, the figures and report.html; made if missing"},
     {"reduced", '\0', NULL, "fewer points and shorter runs, for a quick look"},
+    {"films", '\0', NULL, "make the supplement's two films as well (takes a minute more)"},
+    {"starts", '\0', "N", "starts of the search for a paramagnetic bead that counter-rotates (240)"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -21,9 +23,20 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (!directory)
         return fail(error, FST_BAD_INPUT, "", "tell where the results go: -o DIR");
     progress_line line;
-    progress_begin(&line);
     fst_paper_options paper = fst_default_paper_options();
     paper.reduced = option_value(given, "reduced") != NULL;
+    paper.films = option_value(given, "films") != NULL;
+    const char *starts = option_value(given, "starts");
+    double count = 0.0;
+    if (starts) {
+        fst_status read = read_numbers("--starts", starts, &count, 1, error);
+        if (read == FST_OK && !(count >= 1.0 && count <= 1e6 && count == floor(count)))
+            read = fail(error, FST_BAD_INPUT, "--starts", "a whole number from 1 to 1000000");
+        if (read != FST_OK)
+            return read;
+    }
+    paper.starts = (int)count;
+    progress_begin(&line);
     paper.user = &line;
     paper.progress = show;
     char *summary = NULL;
@@ -40,7 +53,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command paper_command = {
     .name = "paper",
-    .synopsis = "-o DIR [--reduced]",
+    .synopsis = "-o DIR [--reduced] [--films] [--starts N]",
     .summary = "Compute what the paper shows, and report it beside the published numbers",
     .details = "",
     .options = options,

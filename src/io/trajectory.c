@@ -1,9 +1,6 @@
 /* trajectory.c - trajectories in files: choosing the format, the temporary file, and the module for HDF5. */
-/* dladdr() is an extension of the C library. */
-#define _GNU_SOURCE
 #include <festoon/festoon_tools.h>
 
-#include <dlfcn.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -15,13 +12,11 @@
 #include "io/hdf5_module.h"
 #include "io/hdf5_present.h"
 #include "io/json.h"
+#include "io/module.h"
 #include "io/regular_file.h"
 #include "io/trajectory_module.h"
 
 #define MODULE_FILE "festoon-hdf5.so"
-
-/* Where the module lies, seen from this library: in the build tree, and installed. */
-static const char *const places[] = {"/" MODULE_FILE, "/festoon/" MODULE_FILE};
 
 struct fst_trajectory {
     fst_params params;
@@ -33,40 +28,26 @@ struct fst_trajectory {
 
 fst_status fst_load_hdf5_module(const fst_hdf5_module_table **module, const char *path, fst_error *error)
 {
-    void *library = dlopen(MODULE_FILE, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    *module = library ? dlsym(library, FST_HDF5_MODULE_SYMBOL) : NULL;
+    int found;
+    *module = fst_module_table(MODULE_FILE, FST_HDF5_MODULE_SYMBOL, &found);
     fst_status status = FST_OK;
     if (!*module)
         status =
             fst_fail(error, FST_UNAVAILABLE, path,
                      "this festoon has no HDF5 (%s): install libhdf5-dev and build festoon again, or give the "
                      "file a name that ends in .csv",
-                     library ? MODULE_FILE " is no module of festoon" : MODULE_FILE " cannot be loaded");
+                     found ? MODULE_FILE " is no module of festoon" : MODULE_FILE " cannot be loaded");
     else if (strcmp((*module)->version, fst_version()) != 0)
         status =
             fst_fail(error, FST_UNAVAILABLE, path, "%s belongs to festoon %s, not to %s: install festoon again",
                      MODULE_FILE, (*module)->version, fst_version());
-    if (library)
-        (void)dlclose(library);
     return status;
 }
 
-/* Found as the dynamic loader would find it, along the RUNPATH of this library, but not loaded: asking for the
- * version must not cost the time of loading HDF5. */
+/* Asking for the version must not cost the time of loading HDF5. */
 int fst_hdf5_present(void)
 {
-    Dl_info here;
-    char path[4096];
-    if (!dladdr((void *)&places, &here) || !here.dli_fname)
-        return 0;
-    const char *slash = strrchr(here.dli_fname, '/');
-    int directory = slash ? (int)(slash - here.dli_fname) : 1;
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        int length = snprintf(path, sizeof path, "%.*s%s", directory, slash ? here.dli_fname : ".", places[i]);
-        if (length > 0 && (size_t)length < sizeof path && access(path, R_OK) == 0)
-            return 1;
-    }
-    return 0;
+    return fst_module_present(MODULE_FILE);
 }
 
 static int ends_in(const char *path, const char *ending)

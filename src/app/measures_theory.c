@@ -1,0 +1,232 @@
+/* measures_theory.c - the paper's estimates, its Appendix on corotation, and beads that the field magnetises.
+ */
+#include "app/measures.h"
+
+#include <stdio.h>
+
+#define PI 3.14159265358979323846
+#define MEASURE(name)                                                                                          \
+    double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)
+#define NO_NOTE ((void)note, (void)size)
+
+static const fst_params *scene(const fst_paper_state *paper, fst_dynamics dynamics)
+{
+    return &fst_paper_single(paper, FST_SCAN_FOLD4, dynamics)->params;
+}
+
+/* ------------------------------------------------------------------ geometry */
+
+MEASURE(line_length)
+{
+    NO_NOTE;
+    return scene(paper, dynamics)->magnet_half_length / 28e-3; /* half the length of the real magnet */
+}
+
+MEASURE(line_spacing)
+{
+    NO_NOTE;
+    const fst_params *p = scene(paper, dynamics);
+    return p->magnet_width / (4.0 * p->magnet_half_length);
+}
+
+MEASURE(bead_radius)
+{
+    NO_NOTE;
+    const fst_params *p = scene(paper, dynamics);
+    return p->bead_radius / p->magnet_half_length;
+}
+
+MEASURE(orthoradial)
+{
+    fst_model *model = NULL;
+    double along = 0.0, all = 0.0;
+    if (fst_model_new(scene(paper, dynamics), &model, NULL) != FST_OK)
+        return NAN;
+    for (int i = 0; i < 360; i++) {
+        double phi = PI * i / 180.0, c = cos(phi), s = sin(phi), b[3], gradient[3][3];
+        fst_field(model, 0.9 * c, 0.9 * s, b, gradient);
+        double radial = b[0] * c + b[1] * s;
+        along += radial * radial;
+        all += b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
+    }
+    fst_model_free(model);
+    (void)snprintf(note, size,
+                   "share of the radial part in the field (root mean squares) on the circle r = 0.9");
+    return 100.0 * sqrt(along / all);
+}
+
+/* ------------------------------------------------------------------ estimates */
+
+/* mu B0 in J: kappa m R^2 gamma^2. */
+static double energy_scale(const fst_params *p)
+{
+    return p->model_kappa * p->bead_mass * p->bead_radius * p->bead_radius * p->friction_gamma *
+           p->friction_gamma;
+}
+
+MEASURE(estimate_energy)
+{
+    NO_NOTE;
+    return 1e4 * energy_scale(scene(paper, dynamics));
+}
+
+MEASURE(estimate_corotation)
+{
+    const fst_params *p = scene(paper, dynamics);
+    double force = energy_scale(p) / p->magnet_half_length;
+    double hertz = force / (p->bead_mass * p->friction_gamma * p->bead_radius) / (2.0 * PI);
+    (void)snprintf(
+        note, size,
+        "with μB₀ = %.2g J; the paper's rounded 4e-4 J gives %.1f Hz; the field at the bead is not B₀ but "
+        "3.6 B₀, which would give %.0f Hz",
+        energy_scale(p), hertz * 4e-4 / energy_scale(p), 3.6 * hertz);
+    return hertz;
+}
+
+MEASURE(estimate_moment)
+{
+    const fst_params *p = scene(paper, dynamics);
+    double cube = p->bead_radius * p->bead_radius * p->bead_radius;
+    (void)snprintf(note, size,
+                   "R³ BH_max/B_rem = %.1e A m² with the values given; a sphere of remanence 1 T has %.1e A m²",
+                   cube * 1e5, 4.0 * PI / 3.0 * cube / (4e-7 * PI));
+    return log10(cube * 1e5);
+}
+
+MEASURE(estimate_field)
+{
+    const fst_params *p = scene(paper, dynamics);
+    double cube = p->bead_radius * p->bead_radius * p->bead_radius,
+           moment = 4.0 * PI / 3.0 * cube / (4e-7 * PI);
+    double field = energy_scale(p) / moment;
+    (void)snprintf(
+        note, size,
+        "B₀ = %.1f mT with the moment of a sphere of remanence 1 T; with the paper's 1e-2 A m² it is %.0f mT",
+        1e3 * field, 1e3 * energy_scale(p) / 1e-2);
+    return log10(field);
+}
+
+MEASURE(dry_friction_weight)
+{
+    const fst_params *p = scene(paper, dynamics);
+    double rate = p->friction_mu * p->plate_gravity / (p->bead_radius * 2.0 * PI * 10.0);
+    (void)snprintf(note, size, "μ_d g/(Rω₀) at 10 Hz with μ_d = %g is %.1f 1/s", p->friction_mu, rate);
+    return log10(rate);
+}
+
+MEASURE(dry_friction_pull)
+{
+    const fst_run_result *result = &fst_paper_single(paper, FST_SCAN_FOLD4, dynamics)->result;
+    (void)snprintf(note, size,
+                   "the magnet presses the bead down with %.0f weights on average: %.0f 1/s at 10.7 Hz",
+                   result->mean_load_weights, result->dry_friction_rate);
+    return log10(result->dry_friction_rate);
+}
+
+/* ------------------------------------------------------------------ rapid corotation */
+
+MEASURE(corotation_beads)
+{
+    int staying = 0;
+    double longest = 0.0;
+    for (int drive = 0; drive < FST_ANSATZ_DRIVES; drive++)
+        for (int start = 0; start < FST_ANSATZ_STARTS; start++) {
+            const fst_paper_ansatz *bead = &paper->ansatz[dynamics][drive][start];
+            staying += bead->speed > 0.5;
+            longest = fmax(longest, bead->survived);
+        }
+    (void)snprintf(
+        note, size,
+        "of %d beads set on the corotating motion, drives 0.5 to 2; the longest followed it for %.0f turns "
+        "of the magnet",
+        FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS, longest);
+    return 100.0 * staying / (FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS);
+}
+
+MEASURE(corotation_force)
+{
+    fst_model *model = NULL;
+    if (fst_model_new(scene(paper, dynamics), &model, NULL) != FST_OK)
+        return NAN;
+    double with = fst_ansatz_force(model, 1.05, 1), against = fst_ansatz_force(model, 1.05, -1);
+    fst_model_free(model);
+    (void)snprintf(
+        note, size,
+        "at r = 1.05: corotating %+.4f, counter-rotating %+.4f; with the whole field the corotating force is "
+        "not small but points outwards, so it precludes that motion all the more",
+        with, against);
+    return fabs(with / against);
+}
+
+/* ------------------------------------------------------------------ beads that the field magnetises */
+
+MEASURE(paramagnet_counter)
+{
+    (void)dynamics;
+    int fates[FST_FATE_COUNT] = {0}, at_first = 0;
+    for (int i = 0; i < paper->search_count; i++) {
+        fates[paper->search[i].last]++;
+        at_first += paper->search[i].first == FST_FATE_COUNTER;
+    }
+    (void)snprintf(
+        note, size,
+        "%d starts, drives 0.02 to 2, strengths a from 3e-4 to 3e-2: %d end circling with the magnet, %d "
+        "standing, %d off the plate; %d went against it for 150 turns of the magnet and then changed; weaker "
+        "beads "
+        "(one at a = 1.6e-5 went against it for 9600 turns) are not decided",
+        paper->search_count, fates[FST_FATE_WITH], fates[FST_FATE_STANDING], fates[FST_FATE_AWAY],
+        at_first - fates[FST_FATE_COUNTER]);
+    return fates[FST_FATE_COUNTER];
+}
+
+static double worst_residual(const fst_paper_state *paper, fst_balance_kind kind, char *note, size_t size)
+{
+    double residual = 0.0, boundary = 0.0;
+    for (int i = 0; i < FST_BALANCE_CASES; i++) {
+        residual = fmax(residual, fst_balance_residual(&paper->balances[i][kind]));
+        boundary = fmax(boundary, fst_balance_boundary(&paper->balances[i][kind]));
+    }
+    (void)snprintf(
+        note, size,
+        "greatest of three motions over 100 turns of the magnet; what the state's change between the ends "
+        "adds is up to %.0f %% and taken into account",
+        100.0 * boundary);
+    return residual;
+}
+
+MEASURE(tondu)
+{
+    (void)dynamics;
+    return worst_residual(paper, FST_BALANCE_ENERGY, note, size);
+}
+
+MEASURE(friction_moment)
+{
+    (void)dynamics;
+    return worst_residual(paper, FST_BALANCE_MOMENT, note, size);
+}
+
+MEASURE(friction_on_centre)
+{
+    (void)dynamics;
+    return worst_residual(paper, FST_BALANCE_KINETIC, note, size);
+}
+
+MEASURE(friction_moment_sign)
+{
+    (void)dynamics;
+    double least = INFINITY;
+    for (int i = 0; i < FST_BALANCE_CASES; i++)
+        least = fmin(least, paper->balances[i][FST_BALANCE_MOMENT].friction);
+    (void)snprintf(note, size, "least ⟨rV_α⟩ of three motions, drives 0.1, 0.3 and 0.6, in 1e-5 ℓ²γ²");
+    return 1e5 * least;
+}
+
+MEASURE(remanence)
+{
+    (void)dynamics;
+    (void)snprintf(note, size,
+                   "least κ of a magnetisable bead, a = %g, at the drive %g (rigid); a neodymium bead has 1.5",
+                   fst_remanence_strengths[0], fst_remanence_drives[0]);
+    return 100.0 * paper->remanence[0][0] / 1.5;
+}

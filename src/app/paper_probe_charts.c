@@ -1,0 +1,219 @@
+/* paper_probe_charts.c - the paper's figures of the experiment, drawn from the model, and those of the probes.
+ */
+#include "app/collect.h"
+#include "app/paper.h"
+#include "base/error.h"
+#include "draw/chart.h"
+#include "draw/figure_setup.h"
+
+#include <stdlib.h>
+
+/* ------------------------------------------------------------------ Fig. radius */
+
+enum { MOST_RUNS = 128 };
+
+typedef struct radius_curves {
+    double hertz[MOST_RUNS], mean[MOST_RUNS], deviation[MOST_RUNS];
+    int count;
+} radius_curves;
+
+static void read_radius(const fst_paper_state *paper, fst_dynamics dynamics, radius_curves *read)
+{
+    read->count = 0;
+    for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON] && i < MOST_RUNS; i++) {
+        const fst_paper_run *run = &paper->scans[FST_SCAN_COMPARISON][dynamics][i];
+        double millimetres = 1e3 * run->params.magnet_half_length;
+        int regular = fst_paper_counter_rotates(run);
+        read->hertz[i] = run->result.frequency_hz;
+        read->mean[i] = regular ? millimetres * run->result.mean_r : NAN;
+        read->deviation[i] = regular ? millimetres * run->result.std_r : NAN;
+        read->count++;
+    }
+}
+
+fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                 fst_error *error)
+{
+    static radius_curves const empty = {.count = 0};
+    radius_curves read[FST_PAPER_DYNAMICS] = {empty, empty};
+    fst_chart_curve mean[FST_PAPER_DYNAMICS], deviation[FST_PAPER_DYNAMICS];
+    for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
+        read_radius(paper, (fst_dynamics)d, &read[d]);
+        fst_chart_curve curve = {.title = d == FST_DYNAMICS_RIGID ? "rigid (exact)" : "farago2020 (as printed)",
+                                 .x = read[d].hertz,
+                                 .y = read[d].mean,
+                                 .count = (size_t)read[d].count,
+                                 .colour = d == FST_DYNAMICS_RIGID ? FST_COLOUR_VERMILION : FST_COLOUR_BLUE,
+                                 .style = d == FST_DYNAMICS_RIGID ? FST_CURVE_DASHED : FST_CURVE_LINE};
+        mean[d] = curve;
+        curve.y = read[d].deviation;
+        curve.title = NULL;
+        deviation[d] = curve;
+    }
+    const fst_chart_panel panels[2] = {{.left_label = "mean radius (mm)",
+                                        .low = 10.0,
+                                        .high = 25.0,
+                                        .key = "bottom right",
+                                        .curves = mean,
+                                        .curve_count = FST_PAPER_DYNAMICS},
+                                       {.left_label = "its standard deviation (mm)",
+                                        .low = 0.0,
+                                        .high = 7.0,
+                                        .curves = deviation,
+                                        .curve_count = FST_PAPER_DYNAMICS}};
+    double hertz_per_omega = paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma / 6.283185307179586;
+    fst_chart chart = {.title = figure->title,
+                       .x_label = "drive (Hz)",
+                       .x_low = 7.0,
+                       .x_high = 25.0,
+                       .x2_label = "drive ω (γ)",
+                       .x2_factor = 1.0 / hertz_per_omega,
+                       .panels = panels,
+                       .panel_count = 2};
+    return fst_figure_chart(out, &chart, error);
+}
+
+/* ------------------------------------------------------------------ Fig. supercritical */
+
+typedef struct halving_curves {
+    double omega[FST_HALVING_POINTS], p[FST_HALVING_POINTS], nz[FST_HALVING_POINTS], tau[FST_HALVING_POINTS];
+    double line_x[64], line_y[64], time[FST_HALVING_SHOWN], threshold;
+} halving_curves;
+
+static void read_halving(const fst_paper_state *paper, fst_dynamics dynamics, halving_curves *c)
+{
+    const fst_halving_point *points = paper->halving[dynamics].points;
+    const fst_halving_point *near = &points[FST_HALVING_BELOW - 3]; /* the line goes through it */
+    c->threshold = fst_paper_halving_drive(paper, dynamics);
+    for (int i = 0; i < FST_HALVING_POINTS; i++) {
+        c->omega[i] = points[i].omega;
+        c->p[i] = fmin(points[i].order, 6.0);
+        c->nz[i] = points[i].mean_nz;
+        c->tau[i] = 1e-3 * points[i].relaxation;
+    }
+    double factor = near->mean_nz / sqrt(fabs(c->threshold - near->omega));
+    for (int i = 0; i < 64; i++) {
+        c->line_x[i] = c->omega[0] + (c->threshold - c->omega[0]) * i / 63.0;
+        c->line_y[i] = factor * sqrt(fmax(c->threshold - c->line_x[i], 0.0));
+    }
+    /* r(t) has its own panel, whose time is stretched over the common abscissa. */
+    double span = c->omega[FST_HALVING_POINTS - 1] - c->omega[0];
+    for (int i = 0; i < FST_HALVING_SHOWN; i++)
+        c->time[i] = c->omega[0] + span * i / (FST_HALVING_SHOWN - 1);
+}
+
+static fst_chart_curve halving_curve(const char *title, const double *x, const double *y, size_t count,
+                                     fst_colour colour, fst_curve_style style)
+{
+    return (fst_chart_curve){.title = title, .x = x, .y = y, .count = count, .colour = colour, .style = style};
+}
+
+fst_status fst_paper_draw_supercritical(const fst_paper_state *paper, const fst_paper_figure *figure,
+                                        const char *out, fst_error *error)
+{
+    halving_curves c;
+    read_halving(paper, figure->dynamics, &c);
+    const fst_chart_curve curves[5] = {
+        halving_curve("p = Δ+/Δ− − 1 (cut off at 6)", c.omega, c.p, FST_HALVING_POINTS, FST_COLOUR_BLUE,
+                      FST_CURVE_POINTS),
+        halving_curve("|⟨n_z⟩|", c.omega, c.nz, FST_HALVING_POINTS, FST_COLOUR_VERMILION, FST_CURVE_POINTS),
+        halving_curve("square root of the distance", c.line_x, c.line_y, 64, FST_COLOUR_GREY, FST_CURVE_LINE),
+        halving_curve("relaxation time (1000/γ)", c.omega, c.tau, FST_HALVING_POINTS, FST_COLOUR_GREEN,
+                      FST_CURVE_POINTS),
+        halving_curve("r(t) over 5 turns of the magnet, at the lowest drive: two unequal swings", c.time,
+                      paper->halving[figure->dynamics].r, FST_HALVING_SHOWN, FST_COLOUR_PURPLE,
+                      FST_CURVE_LINE)};
+    const fst_chart_panel panels[4] = {
+        {.left_label = "p", .low = 0.0, .high = 6.5, .key = "top right", .curves = curves, .curve_count = 1},
+        {.left_label = "|⟨n_z⟩|",
+         .low = 0.0,
+         .high = NAN,
+         .key = "top right",
+         .curves = curves + 1,
+         .curve_count = 2},
+        {.left_label = "τ (1000/γ)",
+         .low = NAN,
+         .high = NAN,
+         .key = "top left",
+         .curves = curves + 3,
+         .curve_count = 1},
+        {.left_label = "r (ℓ)",
+         .low = NAN,
+         .high = NAN,
+         .key = "top right",
+         .curves = curves + 4,
+         .curve_count = 1}};
+    const fst_chart_mark marks[] = {{c.threshold, "threshold"}};
+    char title[160];
+    (void)snprintf(title, sizeof title, "%s, %s", figure->title,
+                   figure->dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
+    fst_chart chart = {.title = title,
+                       .x_label = "drive ω (γ)",
+                       .x_low = c.omega[0],
+                       .x_high = c.omega[FST_HALVING_POINTS - 1],
+                       .panels = panels,
+                       .panel_count = 4,
+                       .marks = marks,
+                       .mark_count = 1};
+    if (!isfinite(c.threshold)) /* no halving was found: an empty figure says so */
+        chart = (fst_chart){.title = "no period halving was found",
+                            .x_label = "drive ω (γ)",
+                            .x_low = 0.25,
+                            .x_high = 0.3,
+                            .panels = panels,
+                            .panel_count = 1};
+    return fst_figure_chart(out, &chart, error);
+}
+
+/* ------------------------------------------------------------------ how much remanence */
+
+fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_paper_figure *figure,
+                                    const char *out, fst_error *error)
+{
+    static const char *const names[FST_REMANENCE_DRIVES] = {"drive 0.3 (14.9 Hz)", "drive 0.4 (19.9 Hz)"};
+    double share[FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS], strength[FST_REMANENCE_STRENGTHS];
+    fst_chart_curve curves[FST_REMANENCE_DRIVES];
+    for (int d = 0; d < FST_REMANENCE_DRIVES; d++) {
+        for (int i = 0; i < FST_REMANENCE_STRENGTHS; i++) {
+            strength[i] = 1e3 * fst_remanence_strengths[i];
+            share[d][i] = 100.0 * paper->remanence[d][i] / 1.5;
+        }
+        curves[d] = (fst_chart_curve){.title = names[d],
+                                      .x = strength,
+                                      .y = share[d],
+                                      .count = FST_REMANENCE_STRENGTHS,
+                                      .colour = d ? FST_COLOUR_VERMILION : FST_COLOUR_BLUE,
+                                      .style = d ? FST_CURVE_DASHED : FST_CURVE_LINE};
+    }
+    const fst_chart_panel panel = {.left_label = "least κ, % of a neodymium bead's",
+                                   .low = 0.0,
+                                   .high = NAN,
+                                   .key = "top left",
+                                   .curves = curves,
+                                   .curve_count = FST_REMANENCE_DRIVES};
+    fst_chart chart = {.title = figure->title,
+                       .x_label = "magnetisability a (1000 a/(m ℓ²γ²/B_0²))",
+                       .x_low = 0.9,
+                       .x_high = 3.1,
+                       .height = 420,
+                       .panels = &panel,
+                       .panel_count = 1};
+    return fst_figure_chart(out, &chart, error);
+}
+
+/* ------------------------------------------------------------------ the setup */
+
+fst_status fst_paper_draw_sketch(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                 fst_error *error)
+{
+    return fst_figure_sketch(&fst_paper_single(paper, figure->scan, FST_DYNAMICS_RIGID)->params, out, error);
+}
+
+fst_status fst_paper_draw_camera(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                 fst_error *error)
+{
+    const fst_paper_run *run = fst_paper_single(paper, figure->scan, figure->dynamics);
+    return fst_figure_camera(fst_collected(&run->trajectory, "t"), fst_collected(&run->trajectory, "x"),
+                             fst_collected(&run->trajectory, "y"), run->trajectory.rows, &run->params, out,
+                             error);
+}

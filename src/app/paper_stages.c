@@ -1,0 +1,123 @@
+/* paper_stages.c - the probes of the paper: near the period halving, on the corotating motion, and of beads
+ * that the field magnetises. */
+#include "app/paper.h"
+
+#include "base/error.h"
+
+#include <stdlib.h>
+
+const double fst_ansatz_drives[FST_ANSATZ_DRIVES] = {0.5, 0.8, 1.2, 2.0};
+const double fst_remanence_drives[FST_REMANENCE_DRIVES] = {0.3, 0.4};
+const double fst_remanence_strengths[FST_REMANENCE_STRENGTHS] = {1e-3, 1.4e-3, 1.8e-3, 2.2e-3, 2.6e-3, 3e-3};
+
+/* Distances of the drive from the threshold. */
+static const double halving_offsets[FST_HALVING_POINTS] = {-0.010,  -0.008,  -0.006,  -0.0045, -0.0035,
+                                                           -0.0025, -0.0018, -0.0012, 0.0015,  0.0022,
+                                                           0.003,   0.0045,  0.0065,  0.010};
+
+enum { SEARCH = 240, REDUCED_SEARCH = 24 };
+
+static fst_params probe_params(fst_dynamics dynamics, double omega)
+{
+    fst_params params = fst_default_params();
+    params.model_dynamics = (int)dynamics;
+    params.drive_omega = omega;
+    params.drive_frequency = NAN;
+    return params;
+}
+
+/* ------------------------------------------------------------------ the period halving */
+
+static fst_status halving_piece(fst_paper_state *paper, int index, fst_error *error)
+{
+    fst_dynamics dynamics = (fst_dynamics)(index % FST_PAPER_DYNAMICS);
+    int point = index / FST_PAPER_DYNAMICS;
+    fst_paper_halving *halving = &paper->halving[dynamics];
+    fst_paper_bracket bracket = paper->changes[FST_CHANGE_HALVING][dynamics];
+    double centre = 0.5 * (bracket.low + bracket.high);
+    halving->points[point] = (fst_halving_point){NAN, NAN, NAN, NAN};
+    if (!isfinite(centre))
+        return FST_OK;
+    /* A reduced paper knows the threshold less well and follows the motion for less long: it keeps further off.
+     */
+    double wider = paper->options->reduced ? 4.0 : 1.0;
+    fst_params params = probe_params(dynamics, centre + wider * halving_offsets[point]);
+    double periods = paper->options->reduced ? 700.0 : 1000.0;
+    return fst_probe_halving(&params, periods, &halving->points[point], point == 0 ? halving->r : NULL,
+                             point == 0 ? FST_HALVING_SHOWN : 0, error);
+}
+
+double fst_paper_halving_drive(const fst_paper_state *paper, fst_dynamics dynamics)
+{
+    enum { NEAREST = 5 };
+    double omega[NEAREST], square[NEAREST];
+    for (int i = 0; i < NEAREST; i++) {
+        const fst_halving_point *point = &paper->halving[dynamics].points[FST_HALVING_BELOW - NEAREST + i];
+        omega[i] = point->omega;
+        square[i] = point->mean_nz * point->mean_nz;
+    }
+    return fst_line_zero(omega, square, NEAREST);
+}
+
+/* ------------------------------------------------------------------ rapid corotation */
+
+static fst_status ansatz_piece(fst_paper_state *paper, int index, fst_error *error)
+{
+    int start = index % FST_ANSATZ_STARTS, drive = index / FST_ANSATZ_STARTS % FST_ANSATZ_DRIVES;
+    fst_dynamics dynamics = (fst_dynamics)(index / (FST_ANSATZ_STARTS * FST_ANSATZ_DRIVES));
+    fst_paper_ansatz *bead = &paper->ansatz[dynamics][drive][start];
+    fst_params params = probe_params(dynamics, fst_ansatz_drives[drive]);
+    double r = 0.75 + 0.15 * (start / 4), phi = 0.1 + 1.5707963267948966 * (start % 4);
+    return fst_probe_ansatz(&params, r, phi, paper->options->reduced ? 40.0 : 120.0, &bead->speed,
+                            &bead->survived, error);
+}
+
+/* ------------------------------------------------------------------ beads that the field magnetises */
+
+static fst_status search_piece(fst_paper_state *paper, int index, fst_error *error)
+{
+    return fst_search_one(index, &paper->search[index], error);
+}
+
+static fst_status balance_piece(fst_paper_state *paper, int index, fst_error *error)
+{
+    /* Strengths and drives where the bead is locked, and where it circles and is far from any period. */
+    static const double cases[FST_BALANCE_CASES][2] = {{5e-3, 0.1}, {1e-3, 0.3}, {5e-3, 0.6}};
+    fst_params params = probe_params(FST_DYNAMICS_RIGID, cases[index][1]);
+    params.bead_material = FST_MATERIAL_PARAMAGNETIC;
+    params.bead_a = cases[index][0];
+    return fst_paramagnet_balances(&params, 50.0, 100.0, paper->balances[index], error);
+}
+
+static fst_status remanence_piece(fst_paper_state *paper, int index, fst_error *error)
+{
+    int strength = index % FST_REMANENCE_STRENGTHS, drive = index / FST_REMANENCE_STRENGTHS;
+    fst_params params = probe_params(FST_DYNAMICS_RIGID, fst_remanence_drives[drive]);
+    params.bead_material = FST_MATERIAL_MIXED;
+    params.bead_a = fst_remanence_strengths[strength];
+    params.run_rtol = 1e-8;
+    return fst_least_kappa(&params, 2e-3, 1.5, paper->options->reduced ? 3 : 8,
+                           paper->options->reduced ? 100.0 : 600.0, &paper->remanence[drive][strength], error);
+}
+
+fst_status fst_paper_make_probes(fst_paper_state *paper, fst_error *error)
+{
+    paper->search_count = paper->options->starts > 0 ? paper->options->starts
+                          : paper->options->reduced  ? REDUCED_SEARCH
+                                                     : SEARCH;
+    paper->search = calloc((size_t)paper->search_count, sizeof *paper->search);
+    if (!paper->search)
+        return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d starts", paper->search_count);
+    const fst_paper_stage stages[] = {
+        {"period halving", 0.65, 0.70, FST_HALVING_POINTS * FST_PAPER_DYNAMICS, halving_piece},
+        {"rapid corotation", 0.70, 0.73, FST_PAPER_DYNAMICS * FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS,
+         ansatz_piece},
+        {"paramagnetic beads", 0.73, 0.82, paper->search_count, search_piece},
+        {"identities", 0.82, 0.83, FST_BALANCE_CASES, balance_piece},
+        {"remanence", 0.83, 0.9, FST_REMANENCE_DRIVES * FST_REMANENCE_STRENGTHS, remanence_piece},
+    };
+    fst_status status = FST_OK;
+    for (size_t i = 0; i < sizeof stages / sizeof stages[0] && status == FST_OK; i++)
+        status = fst_paper_do(paper, &stages[i], error);
+    return status;
+}

@@ -1,0 +1,228 @@
+#include "app/paramagnet.h"
+
+#include "base/error.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#define PI 3.14159265358979323846
+
+static const double STANDS = 1e-4; /* |<alpha'>| in units of omega that is no circling */
+
+typedef struct followed {
+    fst_model *model;
+    fst_flow *flow;
+    fst_groups groups;
+    double period;
+} followed;
+
+static fst_status begin(followed *bead, const fst_params *params, fst_error *error)
+{
+    double state[FST_STATE_SIZE];
+    *bead = (followed){.model = NULL};
+    fst_status status = fst_model_new(params, &bead->model, error);
+    if (status == FST_OK)
+        status = fst_start_state(params, bead->model, state, error);
+    if (status != FST_OK)
+        return status;
+    bead->groups = fst_model_groups(bead->model);
+    bead->period = 2.0 * PI / bead->groups.omega;
+    fst_flow_options options = fst_default_flow_options();
+    options.rtol = params->run_rtol;
+    for (int i = 0; i < FST_STATE_SIZE; i++)
+        options.atol[i] = params->run_rtol;
+    return fst_flow_new(bead->model, &options, state, &bead->flow, error);
+}
+
+static void end(followed *bead)
+{
+    fst_flow_free(bead->flow);
+    fst_model_free(bead->model);
+}
+
+static const unsigned leaving = 1u << FST_STOP_TIME | 1u << FST_STOP_EDGE | 1u << FST_STOP_LIFT_OFF;
+
+/* ------------------------------------------------------------------ one bead, followed */
+
+/* Go on to t1 and say how the bead circled between the middle of that stretch and its end. */
+static fst_status fate_until(followed *bead, double t1, fst_fate *fate, double *mean_alpha_dot,
+                             fst_error *error)
+{
+    fst_flow_info info = fst_flow_get(bead->flow);
+    double middle = 0.5 * (info.t + t1), at_middle = 0.0;
+    fst_stop stop;
+    fst_status status = fst_flow_advance(bead->flow, middle, leaving, &stop, error);
+    if (status == FST_OK && stop == FST_STOP_TIME) {
+        at_middle = fst_flow_get(bead->flow).alpha;
+        status = fst_flow_advance(bead->flow, t1, leaving, &stop, error);
+    }
+    *mean_alpha_dot = NAN;
+    *fate = FST_FATE_AWAY;
+    if (status != FST_OK || stop != FST_STOP_TIME)
+        return status;
+    *mean_alpha_dot = (fst_flow_get(bead->flow).alpha - at_middle) / (t1 - middle);
+    double share = *mean_alpha_dot / bead->groups.omega;
+    *fate = share < -STANDS ? FST_FATE_COUNTER : share > STANDS ? FST_FATE_WITH : FST_FATE_STANDING;
+    return FST_OK;
+}
+
+fst_status fst_fate_of(const fst_params *params, double periods, fst_fate *fate, double *mean_alpha_dot,
+                       fst_error *error)
+{
+    followed bead;
+    fst_status status = begin(&bead, params, error);
+    if (status == FST_OK)
+        status = fate_until(&bead, periods * bead.period, fate, mean_alpha_dot, error);
+    end(&bead);
+    return status;
+}
+
+/* ------------------------------------------------------------------ the search */
+
+/* Halton's sequence: the digits of `index` in a prime base, mirrored at the point. */
+static double halton(int index, int base)
+{
+    double value = 0.0, place = 1.0;
+    for (int left = index + 1; left > 0; left /= base) {
+        place /= base;
+        value += place * (left % base);
+    }
+    return value;
+}
+
+fst_status fst_search_params(int index, fst_params *params, fst_error *error)
+{
+    char text[32];
+    *params = fst_default_params();
+    params->bead_material = FST_MATERIAL_PARAMAGNETIC;
+    (void)snprintf(text, sizeof text, "%.6g", 0.02 * pow(100.0, halton(index, 2)));
+    fst_status status = fst_params_set(params, "drive.omega", text, error);
+    params->bead_a = 3e-4 * pow(100.0, halton(index, 3));
+    params->start_r = 0.2 + 1.4 * halton(index, 5);
+    params->start_phi = 360.0 * halton(index, 7);
+    params->start_spin = halton(index, 11) < 0.75 ? FST_SPIN_ROLLING : FST_SPIN_REST;
+    params->run_rtol = 1e-8;
+    return status;
+}
+
+fst_status fst_search_one(int index, fst_search_entry *entry, fst_error *error)
+{
+    enum { FIRST_PERIODS = 150, DOUBLINGS = 5 };
+    followed bead;
+    fst_params params;
+    fst_status status = fst_search_params(index, &params, error);
+    if (status != FST_OK)
+        return status;
+    status = begin(&bead, &params, error);
+    entry->periods = FIRST_PERIODS;
+    if (status == FST_OK)
+        status = fate_until(&bead, FIRST_PERIODS * bead.period, &entry->first, &entry->mean_alpha_dot, error);
+    entry->last = entry->first;
+    for (int i = 0; i < DOUBLINGS && status == FST_OK && entry->last == FST_FATE_COUNTER; i++) {
+        entry->periods *= 2.0;
+        status = fate_until(&bead, entry->periods * bead.period, &entry->last, &entry->mean_alpha_dot, error);
+    }
+    end(&bead);
+    return status;
+}
+
+/* ------------------------------------------------------------------ the identities */
+
+/* What is averaged, and what only its change counts of. */
+typedef struct moment_in_time {
+    double slip2, field_moment, friction_moment, friction_on_centre;
+    double energy, angular_momentum, kinetic_less_field;
+} moment_in_time;
+
+static void look(const followed *bead, moment_in_time *now)
+{
+    fst_flow_info info = fst_flow_get(bead->flow);
+    const double *s = info.state, eps = bead->groups.eps, a = bead->groups.a;
+    double x = s[FST_X], y = s[FST_Y], b[3], g[3][3], b2 = 0.0, along = 0.0;
+    fst_field(bead->model, x, y, b, g);
+    for (int i = 0; i < 3; i++) {
+        b2 += b[i] * b[i];
+        along += 2.0 * b[i] * (g[i][1] * x - g[i][0] * y);
+    }
+    double slip_x = s[FST_VX] - eps * s[FST_WY], slip_y = s[FST_VY] + eps * s[FST_WX];
+    double v2 = s[FST_VX] * s[FST_VX] + s[FST_VY] * s[FST_VY];
+    double w2 = s[FST_WX] * s[FST_WX] + s[FST_WY] * s[FST_WY] + s[FST_WZ] * s[FST_WZ];
+    now->slip2 = slip_x * slip_x + slip_y * slip_y;
+    now->field_moment = a * along;
+    now->friction_moment = x * slip_y - y * slip_x;
+    now->friction_on_centre = s[FST_VX] * slip_x + s[FST_VY] * slip_y;
+    now->energy = 0.5 * v2 + 0.2 * eps * eps * w2 - a * b2;
+    now->angular_momentum = x * s[FST_VY] - y * s[FST_VX];
+    now->kinetic_less_field = 0.5 * v2 - a * b2;
+}
+
+fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
+                                   fst_balance balances[FST_BALANCE_COUNT], fst_error *error)
+{
+    enum { PARTS = 200 }; /* per drive period; Simpson's rule */
+    followed bead;
+    moment_in_time first = {0}, now = {0};
+    double slip2 = 0, moment = 0, friction_moment = 0, centre = 0;
+    int steps = 2 * (int)(0.5 * periods * PARTS);
+    fst_status status = begin(&bead, params, error);
+    double step = bead.period / PARTS, t0 = discard * bead.period;
+    for (int i = 0; i <= steps && status == FST_OK; i++) {
+        fst_stop stop;
+        status = fst_flow_advance(bead.flow, t0 + i * step, 1u << FST_STOP_TIME, &stop, error);
+        if (status != FST_OK)
+            break;
+        look(&bead, &now);
+        if (i == 0)
+            first = now;
+        double weight = (i == 0 || i == steps ? 1.0 : i % 2 ? 4.0 : 2.0) / (3.0 * steps);
+        slip2 += weight * now.slip2;
+        moment += weight * now.field_moment;
+        friction_moment += weight * now.friction_moment;
+        centre += weight * now.friction_on_centre;
+    }
+    double omega = bead.groups.omega, time = steps * step;
+    balances[FST_BALANCE_ENERGY] = (fst_balance){slip2, omega * moment, (now.energy - first.energy) / time};
+    balances[FST_BALANCE_MOMENT] =
+        (fst_balance){friction_moment, moment, (now.angular_momentum - first.angular_momentum) / time};
+    balances[FST_BALANCE_KINETIC] =
+        (fst_balance){centre, omega * moment, (now.kinetic_less_field - first.kinetic_less_field) / time};
+    end(&bead);
+    return status;
+}
+
+static double scale_of(const fst_balance *balance)
+{
+    return fmax(fabs(balance->friction), fabs(balance->field));
+}
+
+double fst_balance_residual(const fst_balance *balance)
+{
+    return fabs(balance->friction + balance->boundary - balance->field) / scale_of(balance);
+}
+
+double fst_balance_boundary(const fst_balance *balance)
+{
+    return fabs(balance->boundary) / scale_of(balance);
+}
+
+/* ------------------------------------------------------------------ how much remanence */
+
+fst_status fst_least_kappa(const fst_params *params, double low, double high, int halvings, double periods,
+                           double *kappa, fst_error *error)
+{
+    fst_params tried = *params;
+    fst_fate fate;
+    double speed;
+    *kappa = NAN;
+    tried.model_kappa = high;
+    fst_status status = fst_fate_of(&tried, periods, &fate, &speed, error);
+    if (status != FST_OK || fate != FST_FATE_COUNTER)
+        return status;
+    for (int i = 0; i < halvings && status == FST_OK; i++) {
+        tried.model_kappa = sqrt(low * high);
+        status = fst_fate_of(&tried, periods, &fate, &speed, error);
+        *(fate == FST_FATE_COUNTER ? &high : &low) = tried.model_kappa;
+    }
+    *kappa = sqrt(low * high);
+    return status;
+}

@@ -1,0 +1,68 @@
+/* paramagnet.h - beads that are magnetised by the field (the paper's section "Paramagnetic bead"): identities,
+ * the search for counter-rotation, and how much remanence is enough.
+ */
+#ifndef FST_APP_PARAMAGNET_H
+#define FST_APP_PARAMAGNET_H
+
+#include <festoon/festoon.h>
+
+/* ------------------------------------------------------------------ one bead, followed */
+
+typedef enum {
+    FST_FATE_COUNTER,  /* circles against the magnet */
+    FST_FATE_WITH,     /* circles with it, or stays with it */
+    FST_FATE_STANDING, /* no circling either way to speak of */
+    FST_FATE_AWAY,     /* left the plate, sideways or upwards */
+    FST_FATE_COUNT
+} fst_fate;
+
+/* Follow the bead of `params` and say how it circles: the sign of the mean alpha' over the second half, where
+ * its size exceeds 1e-4 omega. */
+fst_status fst_fate_of(const fst_params *params, double periods, fst_fate *fate, double *mean_alpha_dot,
+                       fst_error *error);
+
+/* ------------------------------------------------------------------ the search */
+
+/* Start `index` of the search, a point of Halton's sequence: drive 0.02 to 2 and strength a 3e-4 to 3e-2 (both
+ * in logarithms), start at r 0.2 to 1.6 and any Phi, rolling or at rest. */
+fst_status fst_search_params(int index, fst_params *params, fst_error *error);
+
+/* What became of a start: beads that still circle against the magnet are followed on, up to 32 times as long,
+ * for a weakly magnetised one forgets its start slowly. */
+typedef struct fst_search_entry {
+    fst_fate first, last; /* after 150 drive periods, and in the end */
+    double periods;       /* drive periods followed in all */
+    double mean_alpha_dot;
+} fst_search_entry;
+fst_status fst_search_one(int index, fst_search_entry *entry, fst_error *error);
+
+/* ------------------------------------------------------------------ the identities */
+
+/* The time means that the paper's three identities are about, over a window of the motion of a paramagnetic
+ * bead. Over a finite window each lacks what the state's change adds; with it only the integration's error is
+ * left. */
+typedef enum {
+    FST_BALANCE_ENERGY,  /* Eq. (tondu): <V_r^2 + V_alpha^2> = a omega <dB^2/dalpha> */
+    FST_BALANCE_MOMENT,  /* Eq. (17): <r V_alpha> = a <dB^2/dalpha> */
+    FST_BALANCE_KINETIC, /* <r' V_r + r alpha' V_alpha> = a omega <dB^2/dalpha> */
+    FST_BALANCE_COUNT
+} fst_balance_kind;
+typedef struct fst_balance {
+    double friction, field, boundary; /* friction + boundary = field; boundary: change of state over the time */
+} fst_balance;
+fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
+                                   fst_balance balances[FST_BALANCE_COUNT], fst_error *error);
+
+/* |friction + boundary - field| and |boundary|, over the larger of friction and field. */
+double fst_balance_residual(const fst_balance *balance);
+double fst_balance_boundary(const fst_balance *balance);
+
+/* ------------------------------------------------------------------ how much remanence */
+
+/* Least kappa with which the bead of `params` (material mixed, bead.a given) still counter-rotates `periods`
+ * drive periods after the rolling start, by bisection in log kappa between `low` and `high`; NAN where it does
+ * not even at `high`. */
+fst_status fst_least_kappa(const fst_params *params, double low, double high, int halvings, double periods,
+                           double *kappa, fst_error *error);
+
+#endif

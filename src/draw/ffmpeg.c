@@ -1,0 +1,151 @@
+#define _GNU_SOURCE /* pipe2 */
+
+#include "draw/ffmpeg.h"
+
+#include "base/error.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char **environ;
+
+enum { WORDS_SIZE = 512, MOST_ARGUMENTS = 40 };
+
+static int spawn(pid_t *child, char *const arguments[], int input, int words)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    int failed = posix_spawn_file_actions_init(&actions);
+    if (failed)
+        return failed;
+    failed = posix_spawnattr_init(&attributes);
+    if (failed) {
+        (void)posix_spawn_file_actions_destroy(&actions);
+        return failed;
+    }
+    /* The caller may have signals blocked or ignored; ffmpeg starts with a clean slate. */
+    sigset_t none, restored;
+    (void)sigemptyset(&none);
+    (void)sigemptyset(&restored);
+    (void)sigaddset(&restored, SIGPIPE);
+    (void)posix_spawnattr_setsigmask(&attributes, &none);
+    (void)posix_spawnattr_setsigdefault(&attributes, &restored);
+    (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    failed = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    if (!failed)
+        failed = posix_spawn_file_actions_adddup2(&actions, words, STDERR_FILENO);
+    if (!failed)
+        failed = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (!failed)
+        failed = posix_spawnp(child, "ffmpeg", &actions, &attributes, arguments, environ);
+    (void)posix_spawnattr_destroy(&attributes);
+    (void)posix_spawn_file_actions_destroy(&actions);
+    return failed;
+}
+
+fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps, const char *format,
+                            const char *out, fst_error *error)
+{
+    /* posix_spawn wants writable words, and touches none of them. */
+    char size[32], rate[32], file[4096], kind[8];
+    (void)snprintf(size, sizeof size, "%dx%d", width, height);
+    (void)snprintf(rate, sizeof rate, "%.6g", fps);
+    (void)snprintf(kind, sizeof kind, "%s", format);
+    if (snprintf(file, sizeof file, "file:%s", out) >= (int)sizeof file)
+        return fst_fail(error, FST_BAD_INPUT, out, "the file name is too long");
+    static const char *const mp4[] = {"-c:v",     "libx264", "-preset",   "veryfast",   "-crf", "20",
+                                      "-pix_fmt", "yuv420p", "-movflags", "+faststart", NULL};
+    static const char *const gif[] = {
+        "-vf", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=none", "-loop", "0", NULL};
+    const char *arguments[MOST_ARGUMENTS] = {
+        "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f",     "rawvideo", "-pix_fmt",
+        "bgr0",   "-s",       size,           "-r",        rate,    "-i", "pipe:0", "-threads", "2"};
+    int count = 18;
+    for (const char *const *word = strcmp(format, "gif") ? mp4 : gif; *word; word++)
+        arguments[count++] = *word;
+    arguments[count++] = "-f";
+    arguments[count++] = kind;
+    arguments[count] = file;
+    int input[2], words[2];
+    /* A socket, because send() can be told to raise no SIGPIPE when ffmpeg dies. */
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0)
+        return fst_fail(error, FST_IO, out, "no socket to ffmpeg: %s", strerror(errno));
+    if (pipe2(words, O_CLOEXEC) != 0) {
+        (void)close(input[0]);
+        (void)close(input[1]);
+        return fst_fail(error, FST_IO, out, "no pipe from ffmpeg: %s", strerror(errno));
+    }
+    char *writable[MOST_ARGUMENTS];
+    memcpy(writable, arguments, sizeof writable);
+    int failed = spawn(&film->child, writable, input[1], words[1]);
+    (void)close(input[1]);
+    (void)close(words[1]);
+    film->frames = input[0];
+    film->words = words[0];
+    if (!failed)
+        return FST_OK;
+    (void)close(input[0]);
+    (void)close(words[0]);
+    if (failed == ENOENT)
+        return fst_fail(error, FST_UNAVAILABLE, out,
+                        "films need ffmpeg, which is not installed: install the package ffmpeg");
+    return fst_fail(error, FST_IO, out, "cannot start ffmpeg: %s", strerror(failed));
+}
+
+fst_status fst_ffmpeg_frame(fst_ffmpeg *film, const unsigned char *bytes, size_t size, fst_error *error)
+{
+    while (size > 0) {
+        ssize_t sent = send(film->frames, bytes, size, MSG_NOSIGNAL);
+        if (sent < 0 && errno == EINTR)
+            continue;
+        if (sent <= 0)
+            return fst_fail(error, FST_IO, "ffmpeg", "it takes no more frames: %s", strerror(errno));
+        bytes += sent;
+        size -= (size_t)sent;
+    }
+    return FST_OK;
+}
+
+/* Its last words on one line. */
+static void listen_to(int input, char *words, size_t size)
+{
+    size_t kept = 0;
+    for (;;) {
+        char piece[512];
+        ssize_t got = read(input, piece, sizeof piece);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            break;
+        for (ssize_t i = 0; i < got && kept + 1 < size; i++)
+            words[kept++] = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
+    }
+    words[kept] = '\0';
+}
+
+fst_status fst_ffmpeg_end(fst_ffmpeg *film, int abandon, fst_error *error)
+{
+    char words[WORDS_SIZE];
+    if (abandon)
+        (void)kill(film->child, SIGKILL);
+    (void)close(film->frames);
+    listen_to(film->words, words, sizeof words);
+    (void)close(film->words);
+    int outcome = 0;
+    pid_t done;
+    do
+        done = waitpid(film->child, &outcome, 0);
+    while (done < 0 && errno == EINTR);
+    if (abandon)
+        return FST_OK;
+    if (done == film->child && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0)
+        return FST_OK;
+    return fst_fail(error, FST_IO, "ffmpeg", "it failed: %s", words[0] ? words : "it said nothing");
+}
