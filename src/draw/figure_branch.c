@@ -162,7 +162,7 @@ fst_status fst_figure_branch(const fst_branch *branch, const char *observable, c
                                        .left_colour = FST_COLOUR_BLACK,
                                        .low = NAN,
                                        .high = NAN,
-                                       .key = "top left",
+                                       .key = branch->kind == FST_BRANCH_LOCKED ? "top right" : "bottom right",
                                        .curves = curves,
                                        .curve_count = count};
         const fst_chart chart = {.title = circle ? "multipliers along the branch" : "branches",
