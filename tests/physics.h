@@ -29,6 +29,27 @@ static inline fst_params bead_at(double omega, fst_dynamics dynamics)
     return p;
 }
 
+/* Every material, friction law and dynamics in turn: case 0 to 11, with numbers in which every term counts. */
+enum { CASES = 12 };
+static inline fst_params params_of_case(int which)
+{
+    fst_params p = bead_at(0.31, which & 1 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID);
+    p.friction_law = which & 2 ? FST_FRICTION_NONE : FST_FRICTION_VISCOUS;
+    p.bead_material = which / 4;
+    p.bead_a = 2.3e-3;
+    p.bead_b = -1.7e-3;
+    return p;
+}
+
+/* The paper's bead without friction, far enough inside to stay on the plate. */
+static inline fst_params frictionless_bead(fst_dynamics dynamics)
+{
+    fst_params p = bead_at(0.3, dynamics);
+    p.friction_law = FST_FRICTION_NONE;
+    p.start_r = 0.8;
+    return p;
+}
+
 static inline fst_model *model_of(const fst_params *p)
 {
     fst_model *model;

@@ -17,18 +17,6 @@
 
 typedef fst_coefficients_long_double coefficients_ld;
 
-/* Every material, friction law and dynamics in turn: case 0 to 11, with numbers in which every term counts. */
-enum { CASES = 12 };
-static inline fst_params params_of_case(int which)
-{
-    fst_params p = bead_at(0.31, which & 1 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID);
-    p.friction_law = which & 2 ? FST_FRICTION_NONE : FST_FRICTION_VISCOUS;
-    p.bead_material = which / 4;
-    p.bead_a = 2.3e-3;
-    p.bead_b = -1.7e-3;
-    return p;
-}
-
 static inline coefficients_ld coefficients_of(const fst_params *p)
 {
     fst_model *model = model_of(p);

@@ -55,9 +55,7 @@ static void test_jacobi_integral(void **unused)
 {
     (void)unused;
     for (int dynamics = 0; dynamics < 2; ++dynamics) {
-        fst_params p = bead_at(0.3, (fst_dynamics)dynamics);
-        p.friction_law = FST_FRICTION_NONE;
-        p.start_r = 0.8;
+        const fst_params p = frictionless_bead((fst_dynamics)dynamics);
         fst_model *model = model_of(&p);
         const double eps = fst_model_groups(model).eps;
         double state[FST_STATE_SIZE], first = NAN, worst = 0;

@@ -65,9 +65,7 @@ static void test_reversible_without_friction(void **unused)
 {
     (void)unused;
     for (int dynamics = 0; dynamics < 2; ++dynamics) {
-        fst_params p = bead_at(0.3, (fst_dynamics)dynamics);
-        p.friction_law = FST_FRICTION_NONE;
-        p.start_r = 0.8;
+        const fst_params p = frictionless_bead((fst_dynamics)dynamics);
         fst_model *model = model_of(&p);
         double start[FST_STATE_SIZE];
         start_of(&p, model, start);

@@ -120,15 +120,16 @@ static double phi_defect(const angles *a, int gyroscopic)
     return left - right;
 }
 
-/* A random state away from the poles of the angles, where they lose digits. */
-static void state_with_angles(uint64_t *seed, double *y)
+/* The angles of a random state away from their poles, where they lose digits. */
+static angles random_angles(const fst_model *model, uint64_t *seed)
 {
-    double r, nr;
+    double y[FST_STATE_SIZE], r, nr;
     do {
         random_state(seed, y);
         r = hypot(y[FST_X], y[FST_Y]);
         nr = (y[FST_NX] * y[FST_X] + y[FST_NY] * y[FST_Y]) / r;
     } while (r < 0.4 || fabs(nr) > 0.9);
+    return angles_of(model, y);
 }
 
 /* Roundoff of the terms, some of which reach 1e3: 1e-12 of what they amount to. */
@@ -149,9 +150,7 @@ static void test_corrected_form_is_the_vector_form(void **unused)
         fst_model *model = model_of(&p);
         const int gyroscopic = dynamics == FST_DYNAMICS_RIGID;
         for (int trial = 0; trial < TRIALS; ++trial) {
-            double y[FST_STATE_SIZE];
-            state_with_angles(&seed, y);
-            const angles a = angles_of(model, y);
+            const angles a = random_angles(model, &seed);
             CHECK_CLOSE(theta_defect(&a, gyroscopic), 0, roundoff(&a));
             CHECK_CLOSE(phi_defect(&a, gyroscopic), 0, roundoff(&a));
             /* V_r, V_alpha and the psi equation are right as printed. */
@@ -179,9 +178,7 @@ static void test_printed_slips_are_errors(void **unused)
     fst_model *model = model_of(&p);
     double theta_worst = 0, phi_worst = 0;
     for (int trial = 0; trial < TRIALS; ++trial) {
-        double y[FST_STATE_SIZE];
-        state_with_angles(&seed, y);
-        const angles a = angles_of(model, y);
+        const angles a = random_angles(model, &seed);
         /* printed +alpha'^2 sin cos sin^2(phi) for -alpha'^2 sin cos cos^2(phi): too much by alpha'^2 sin cos
          */
         const double theta_slip =
@@ -209,9 +206,7 @@ static void test_gyroscopic_terms_are_missing(void **unused)
     fst_model *model = model_of(&p);
     double theta_worst = 0, phi_worst = 0;
     for (int trial = 0; trial < TRIALS; ++trial) {
-        double y[FST_STATE_SIZE];
-        state_with_angles(&seed, y);
-        const angles a = angles_of(model, y);
+        const angles a = random_angles(model, &seed);
         theta_worst = fmax(theta_worst, fabs(theta_defect(&a, 0)));
         phi_worst = fmax(phi_worst, fabs(phi_defect(&a, 0)));
     }

@@ -3,16 +3,6 @@
 
 #include "model/model.h"
 
-static fst_params params_of_case(int which)
-{
-    fst_params p = bead_at(0.31, which & 1 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID);
-    p.friction_law = which & 2 ? FST_FRICTION_NONE : FST_FRICTION_VISCOUS;
-    p.bead_material = which / 4;
-    p.bead_a = 2.3e-3;
-    p.bead_b = -1.7e-3;
-    return p;
-}
-
 /* M = diag(1, -1, 1): (x, v, n, W) -> (M x, M v, M n, -M W). */
 static void mirror(const double *state, double *image)
 {
@@ -36,7 +26,7 @@ static void test_equations(void **unused)
 {
     (void)unused;
     uint64_t seed = 101;
-    for (int which = 0; which < 12; ++which) {
+    for (int which = 0; which < CASES; ++which) {
         const fst_params p = params_of_case(which);
         fst_model *model = model_of(&p);
         const fst_model back = reversed(model);
