@@ -69,6 +69,18 @@ static void free_lines(identity_line *lines, int count)
         free(lines[i].value);
 }
 
+uint64_t fst_journal_identity_hash(const fst_sweep_identity *identity)
+{
+    identity_line lines[IDENTITY_SIZE];
+    const int count = identity_lines(identity, lines);
+    uint64_t hash = 0xcbf29ce484222325u; /* FNV-1a */
+    for (int i = 0; i < count; ++i)
+        for (const char *c = lines[i].value ? lines[i].value : ""; *c; ++c)
+            hash = (hash ^ (unsigned char)*c) * 0x100000001b3u;
+    free_lines(lines, count);
+    return hash;
+}
+
 /* Which parameter differs between the scene of the file and the wanted one. */
 static fst_status fail_scene(const char *path, const char *there, const fst_params *wanted, fst_error *error)
 {
