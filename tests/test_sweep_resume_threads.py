@@ -56,5 +56,56 @@ class Resuming(Case):
         self.assertTrue(0 < rows < 2000, rows)
 
 
+class FarAway(Case):
+    """On a network file system there is no write-ahead log: processes share no memory there."""
+
+    def setUp(self):
+        super().setUp()
+        self.preloaded = os.path.join(os.environ["BUILD_DIR"], "tests", "far_away.so")
+        if not os.path.exists(self.preloaded):
+            self.skipTest("nothing can be preloaded into a program with sanitizers")
+        self.far = dict(os.environ, LD_PRELOAD=self.preloaded)
+
+    def mode_of(self, name):
+        base = sqlite3.connect(self.path(name))
+        try:
+            return base.execute("PRAGMA journal_mode").fetchone()[0]
+        finally:
+            base.close()
+
+    def test_a_rollback_journal_survives_kills_too(self):
+        words = ["sweep", *Resuming.LONG, "-o"]
+        self.good(*words, self.path("whole.db"))
+        self.assertEqual(self.mode_of("whole.db"), "wal")
+        rng = random.Random(5)
+        seen = set()
+        for _ in range(6):
+            process = subprocess.Popen([FESTOON, *words, self.path("far.db")], env=self.far,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(rng.uniform(0.0, 0.8))
+            seen |= set(os.listdir(self.directory))
+            process.kill()
+            process.wait()
+        self.assertNotIn("far.db-wal", seen)
+        self.assertNotIn("far.db-shm", seen)
+        self.good(*words, self.path("far.db"), env=self.far)
+        self.assertEqual(self.mode_of("far.db"), "delete")
+        self.assertEqual(self.rows("far.db"), self.rows("whole.db"))
+
+    def test_a_log_from_elsewhere(self):
+        """A sweep begun on a disk of the machine, killed, and moved to the network with its log."""
+        words = ["sweep", *Resuming.LONG, "-o", self.path("a.db")]
+        process = subprocess.Popen([FESTOON, *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while process.poll() is None and not (os.path.exists(self.path("a.db-wal")) and
+                                              os.path.getsize(self.path("a.db-wal")) > 0):
+            time.sleep(0.01)
+        process.kill()
+        process.wait()
+        self.assertTrue(os.path.exists(self.path("a.db-wal")))
+        self.good(*words, env=self.far)
+        self.assertEqual(self.mode_of("a.db"), "delete")
+        self.assertEqual(self.good("export", self.path("a.db"), "--csv", env=self.far).count("\n"), 801)
+
+
 if __name__ == "__main__":
     unittest.main()
