@@ -1,5 +1,5 @@
 # What the tools need (the physics in libfestoon needs the C library alone).  POSIX threads, libyaml, jansson and
-# SQLite are required; HDF5, LAPACK, Cairo, gnuplot and ffmpeg are optional, and a program without them says so in
+# SQLite are required; HDF5, LAPACK, Cairo, MPI, gnuplot and ffmpeg are optional, and a program without them says so in
 # `festoon --version`.
 
 # libfestoon itself needs the C library alone; what seeks orbits loads LAPACK as a module.
@@ -12,6 +12,7 @@ endif()
 
 set(FESTOON_HAVE_HDF5 OFF)
 set(FESTOON_HAVE_CAIRO OFF)
+set(FESTOON_HAVE_MPI OFF)
 if(NOT FESTOON_TOOLS)
     return()
 endif()
@@ -35,6 +36,14 @@ if(CAIRO_FOUND)
     set(FESTOON_HAVE_CAIRO ON)
 else()
     message(STATUS "Cairo not found (libcairo2-dev): festoon will make no films")
+endif()
+
+# Open MPI: sweeps by several processes, on one machine or many.
+pkg_check_modules(MPI QUIET IMPORTED_TARGET ompi-c)
+if(MPI_FOUND)
+    set(FESTOON_HAVE_MPI ON)
+else()
+    message(STATUS "Open MPI not found (libopenmpi-dev): festoon sweep will run as one process only")
 endif()
 
 # gnuplot is run as a process when a figure is drawn; it need not be there now.

@@ -1,4 +1,4 @@
-"""Sweeps from outside: rows, resuming after SIGKILL and Ctrl-C, what is refused, carrying, exports, figures.
+"""Sweeps from outside: rows, what is refused, carrying, exports, figures.
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
@@ -7,56 +7,11 @@ import csv
 import io
 import json
 import os
-import random
-import signal
 import sqlite3
 import subprocess
-import tempfile
-import time
 import unittest
 
-FESTOON = os.environ["FESTOON"]
-SHORT = ["--set", "run.periods=8", "--set", "run.discard=4", "--set", "run.rtol=1e-8"]
-SMALL = SHORT + ["--over", "drive.frequency=9Hz:20Hz:6", "--over", "model.kappa=1,1.5,2"]
-
-
-def festoon(*words, **options):
-    options.setdefault("timeout", 120)
-    done = subprocess.run([FESTOON, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, **options)
-    return done.returncode, done.stdout.decode(), done.stderr.decode(errors="replace")
-
-
-def content_of(path, mode="rb"):
-    with open(path, mode) as file:
-        return file.read()
-
-
-class Case(unittest.TestCase):
-    def setUp(self):
-        holder = tempfile.TemporaryDirectory(prefix="festoon-sweep-")
-        self.addCleanup(holder.cleanup)
-        self.directory = holder.name
-
-    def path(self, name):
-        return os.path.join(self.directory, name)
-
-    def good(self, *words, **options):
-        status, out, err = festoon(*words, **options)
-        self.assertEqual(status, 0, err)
-        return out
-
-    def refused(self, *words, status=2):
-        before = {name: content_of(self.path(name)) for name in os.listdir(self.directory)
-                  if os.path.isfile(self.path(name))}
-        found, out, err = festoon(*words)
-        self.assertEqual((found, out), (status, ""), err)
-        for name, content in before.items():
-            self.assertEqual(content_of(self.path(name)), content, name)
-        return err
-
-    def rows(self, name):
-        return self.good("export", self.path(name), "--csv")
+from sweep_tools import SHORT, SMALL, Case, content_of, festoon
 
 
 class Rows(Case):
@@ -123,47 +78,6 @@ class Rows(Case):
         self.good("sweep", *SHORT, "--over", "drive.omega=0.3:0.36:4", "--over", "model.dynamics=rigid,farago2020",
                   "--carry", "up", "--portable", "-o", self.path("up.db"))
         self.assertEqual(self.rows("up.db"), up)
-
-
-class Resuming(Case):
-    LONG = SHORT + ["--over", "drive.frequency=9Hz:20Hz:40", "--over", "model.kappa=1:2:20", "--threads", "2"]
-
-    def test_sigkill_and_resume(self):
-        self.good("sweep", *self.LONG, "-o", self.path("whole.db"))
-        expected = self.rows("whole.db")
-        rng = random.Random(4)
-        rounds = int(os.environ.get("FESTOON_KILLS", "6"))
-        broken_off = 0
-        for i in range(rounds):
-            name = f"cut{i}.db"
-            for _ in range(3):
-                process = subprocess.Popen([FESTOON, "sweep", *self.LONG, "-o", self.path(name)],
-                                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-                time.sleep(rng.uniform(0.0, 1.2))
-                broken_off += process.poll() is None
-                process.kill()
-                process.wait()
-            self.good("sweep", *self.LONG, "-o", self.path(name))
-            self.assertEqual(self.rows(name), expected)
-        self.assertGreater(broken_off, 0)
-        self.assertEqual([name for name in os.listdir(self.directory) if not name.endswith((".db", ".part"))], [])
-
-    def test_interruption_ends_with_130(self):
-        words = ["sweep", "--set", "run.periods=100", "--set", "run.discard=50", "--over",
-                 "drive.frequency=9Hz:20Hz:2000", "-o", self.path("a.db")]
-        process = subprocess.Popen([FESTOON, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        for _ in range(600):  # until the first rows are committed
-            time.sleep(0.1)
-            if os.path.exists(self.path("a.db-wal")) and os.path.getsize(self.path("a.db-wal")) > 0:
-                break
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=30)
-        self.assertEqual((process.returncode, out), (130, b""), err)
-        self.assertIn(b"the same command goes on", err)
-        base = sqlite3.connect(self.path("a.db"))
-        rows = base.execute("SELECT count(*) FROM rows").fetchone()[0]
-        base.close()
-        self.assertTrue(0 < rows < 2000, rows)
 
 
 class Refusals(Case):

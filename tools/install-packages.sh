@@ -8,10 +8,10 @@
 set -eu
 
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansson-dev libsqlite3-dev libhdf5-dev
-    liblapacke-dev libcairo2-dev"
+    liblapacke-dev libcairo2-dev libopenmpi-dev"
 demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
-test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg"
-bench_packages="$build_packages libgsl-dev libsundials-dev"
+test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
+bench_packages="$build_packages g++ gnuplot-nox libgsl-dev libboost-dev python3-scipy"
 docs_packages="$build_packages doxygen"
 format_packages="clang-format"
 ci_packages="$test_packages clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev librsvg2-bin"

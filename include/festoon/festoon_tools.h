@@ -148,6 +148,7 @@ typedef struct fst_sweep_progress {
     int64_t points, there; /* of the grid; with a row */
     int64_t added, failed; /* rows added by this call; of these, runs that failed */
     double seconds;        /* since the call */
+    int rank, ranks;       /* of this process among those of an MPI job: only rank 0 counts; 0 of 1 without */
 } fst_sweep_progress;
 
 typedef struct fst_sweep_options {
@@ -159,6 +160,10 @@ typedef struct fst_sweep_options {
     fst_arithmetic arithmetic; /* the fastest that the processor has, unless set */
     int threads;               /* 0: as many as there are processors */
     int lanes;                 /* runs side by side on a thread, 1, 4 or 8; 0: as many as the processor likes */
+    /* Share the points with the other processes that mpirun (Open MPI) or srun --mpi=pmix started with this
+     * one; all make the same call, rank 0 alone touches the database, and what fails is told by rank 0: the
+     * error of the others has the code only.  0: work alone, whoever started this process. */
+    int with_ranks;
     void *user;
     /* Called every tenth of a second or so; another status than FST_OK ends the sweep, keeping what is done. */
     fst_status (*progress)(void *user, const fst_sweep_progress *progress, fst_error *error);

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "app/film_present.h"
+#include "app/ranks.h"
 #include "io/hdf5_present.h"
 
 /* Whether a program is found along PATH. */
@@ -27,7 +28,7 @@ static int program_present(const char *name)
 
 const char *fst_tools_components(void)
 {
-    static const char *const texts[2][2][2][2] = {
+    static const char *const texts[2][2][2][2][2] = {
 #define GNUPLOT(yes_or_no)                                                                                     \
     {HDF5(yes_or_no ", hdf5 no (install libhdf5-dev and build again)"), HDF5(yes_or_no ", hdf5 yes")}
 #define HDF5(before)                                                                                           \
@@ -36,12 +37,18 @@ const char *fst_tools_components(void)
     }
 #define CAIRO(before)                                                                                          \
     {                                                                                                          \
+        MPI(before ", mpi no (install libopenmpi-dev and build again)"), MPI(before ", mpi yes")               \
+    }
+#define MPI(before)                                                                                            \
+    {                                                                                                          \
         before ", ffmpeg no (install ffmpeg)", before ", ffmpeg yes"                                           \
     }
         GNUPLOT("gnuplot no (install gnuplot-nox)"), GNUPLOT("gnuplot yes")
 #undef GNUPLOT
 #undef HDF5
 #undef CAIRO
+#undef MPI
     };
-    return texts[program_present("gnuplot")][fst_hdf5_present()][fst_film_present()][program_present("ffmpeg")];
+    return texts[program_present("gnuplot")][fst_hdf5_present()][fst_film_present()][fst_mpi_present()]
+                [program_present("ffmpeg")];
 }

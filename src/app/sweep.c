@@ -1,50 +1,39 @@
-/* sweep.c - a sweep as a job: threads compute rows, the calling thread alone keeps the journal.
+/* sweep.c - a sweep as a job: crews of threads compute rows, one thread of one process keeps the journal.
  *
- * The calling thread fills a queue of tasks from what the journal lacks and writes the rows that come back;
- * both queues are bounded, so that the memory of a sweep does not grow with its points.  A task is a point, or
- * with carrying the first point of a chain without a row, the rest of which follows in the same place.
+ * That thread looks in the journal for points without a row, gives them to its own crew and, where mpirun
+ * started several processes, to the crews of the others, and writes the rows that come back.
  */
+#define _GNU_SOURCE /* sched_getaffinity() */
 #include "app/sweep.h"
 
-#include <pthread.h>
+#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "app/ranks.h"
+#include "app/sweep_crew.h"
 #include "base/error.h"
 #include "model/params.h"
 
-enum { TASKS = 1024, ROWS = 512, MOST_THREADS = 256, COMMIT_ROWS = 256 };
-static const double COMMIT_SECONDS = 0.5, WAIT_SECONDS = 0.05;
-
-typedef struct task {
-    int64_t point;
-    int has_start;
-    double start[FST_STATE_SIZE];
-} task;
+enum { COMMIT_ROWS = 256 };
+static const double COMMIT_SECONDS = 0.5;
+static const double WAIT_SECONDS = 0.05, WAIT_SECONDS_RANKS = 0.002; /* for rows; between looks for messages */
+static const double FAREWELL_SECONDS = 10.0;                         /* for followers that were told to stop */
 
 typedef struct job {
     fst_sweep_identity identity;
-    fst_grid *grid;
     fst_journal *journal;
     const fst_sweep_options *options;
+    fst_ranks ranks;
+    fst_leader *leader; /* NULL where there is one rank */
+    fst_crew *crew;
     int64_t next; /* point or chain from which on the journal is yet to be looked through */
     fst_sweep_progress progress;
     double started, committed;
     int uncommitted;
-
-    pthread_mutex_t lock; /* guards everything below */
-    pthread_cond_t task_came, row_came, room_came;
-    task tasks[TASKS];
-    int first_task, task_count, no_more_tasks;
-    fst_sweep_record rows[ROWS];
-    int first_row, row_count;
-    int busy;          /* threads at work */
-    int stopping;      /* no new tasks, runs are broken off */
-    int abandoned;     /* rows are not taken any more */
-    fst_status status; /* of threads */
-    fst_error error;
+    int no_answer; /* a follower that was told to stop said nothing more */
 } job;
 
 fst_sweep_options fst_default_sweep_options(void)
@@ -63,42 +52,17 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* ------------------------------------------------------------------ chains */
-
-static int64_t chain_count(const job *j)
-{
-    return j->progress.points / fst_grid_axis_points(j->grid, 0);
-}
-
-/* The point at place `place` of a chain, in the direction of carrying. */
-static int64_t chain_point(const job *j, int64_t chain, int64_t place)
-{
-    const int64_t stride = fst_grid_axis_stride(j->grid, 0), count = fst_grid_axis_points(j->grid, 0);
-    const int64_t first = chain / stride * (stride * count) + chain % stride;
-    const int rises =
-        fst_grid_value(j->grid, 0, first) <= fst_grid_value(j->grid, 0, first + (count - 1) * stride);
-    const int forward = rises == (j->identity.carry == FST_CARRY_UP);
-    return first + (forward ? place : count - 1 - place) * stride;
-}
-
-/* The place of a point in its chain, and the chain. */
-static int64_t place_of(const job *j, int64_t point, int64_t *chain)
-{
-    const int64_t stride = fst_grid_axis_stride(j->grid, 0), count = fst_grid_axis_points(j->grid, 0);
-    *chain = point / (stride * count) * stride + point % stride;
-    const int64_t index = point / stride % count;
-    return chain_point(j, *chain, index) == point ? index : count - 1 - index;
-}
+/* ------------------------------------------------------------------ tasks */
 
 /* The task that goes on with a chain, if there is anything left of it. */
-static fst_status resume_chain(job *j, int64_t chain, task *t, int *found, fst_error *error)
+static fst_status resume_chain(job *j, int64_t chain, fst_sweep_task *t, int *found, fst_error *error)
 {
-    const int64_t count = fst_grid_axis_points(j->grid, 0);
+    const int64_t count = fst_chain_length(&j->identity);
     int there = 1, usable = 0;
     *found = 0;
     t->has_start = 0;
     for (int64_t place = 0; place < count; ++place) {
-        t->point = chain_point(j, chain, place);
+        t->point = fst_chain_point(&j->identity, chain, place);
         double end[FST_STATE_SIZE];
         const fst_status status = fst_journal_end_state(j->journal, t->point, &there, &usable, end, error);
         if (status != FST_OK)
@@ -113,113 +77,13 @@ static fst_status resume_chain(job *j, int64_t chain, task *t, int *found, fst_e
     return FST_OK;
 }
 
-/* ------------------------------------------------------------------ the threads' side */
-
-static int next_task(void *user, fst_row_job *row)
-{
-    job *j = user;
-    pthread_mutex_lock(&j->lock);
-    while (j->task_count == 0 && !j->no_more_tasks && !j->stopping)
-        pthread_cond_wait(&j->task_came, &j->lock);
-    const int more = j->task_count > 0 && !j->stopping;
-    if (more) {
-        const task *t = &j->tasks[j->first_task];
-        row->point = t->point;
-        row->has_start = t->has_start;
-        memcpy(row->start, t->start, sizeof row->start);
-        j->first_task = (j->first_task + 1) % TASKS;
-        j->task_count -= 1;
-        if (j->task_count == TASKS / 4)
-            pthread_cond_signal(&j->row_came);
-    }
-    pthread_mutex_unlock(&j->lock);
-    if (more)
-        (void)fst_grid_params(j->grid, row->point, &row->params, NULL); /* checked when the grid was made */
-    return more;
-}
-
-static void hand_over(job *j, const fst_sweep_record *record)
-{
-    pthread_mutex_lock(&j->lock);
-    while (j->row_count == ROWS && !j->abandoned)
-        pthread_cond_wait(&j->room_came, &j->lock);
-    if (!j->abandoned)
-        j->rows[(j->first_row + j->row_count++) % ROWS] = *record;
-    if (j->row_count == ROWS / 2)
-        pthread_cond_signal(&j->row_came);
-    pthread_mutex_unlock(&j->lock);
-}
-
-static int row_done(void *user, fst_row_job *row, fst_status status, const fst_run_result *result,
-                    const fst_error *error)
-{
-    job *j = user;
-    fst_sweep_record record;
-    memset(&record, 0, sizeof record);
-    record.point = row->point;
-    record.carried = row->has_start;
-    record.status = status;
-    record.dynamics = row->params.model_dynamics;
-    record.result = *result;
-    if (status != FST_OK)
-        (void)snprintf(record.result.reason, sizeof record.result.reason, "%.255s", error->sentence);
-    hand_over(j, &record);
-    if (j->identity.carry == FST_CARRY_NO)
-        return 0;
-    int64_t chain;
-    const int64_t place = place_of(j, row->point, &chain) + 1;
-    if (place == fst_grid_axis_points(j->grid, 0))
-        return 0;
-    row->point = chain_point(j, chain, place);
-    row->has_start =
-        status == FST_OK && result->regime != FST_REGIME_EJECTED && result->regime != FST_REGIME_LIFTED;
-    memcpy(row->start, result->final_state, sizeof row->start);
-    (void)fst_grid_params(j->grid, row->point, &row->params, NULL);
-    return 1;
-}
-
-static int stopped(void *user)
-{
-    job *j = user;
-    pthread_mutex_lock(&j->lock);
-    const int stop = j->stopping;
-    pthread_mutex_unlock(&j->lock);
-    return stop;
-}
-
-static void *labour(void *user)
-{
-    job *j = user;
-    fst_error error = {FST_OK, "", ""};
-    const fst_row_work work = {.user = j,
-                               .arithmetic = j->identity.arithmetic,
-                               .lanes = j->options->lanes,
-                               .next = next_task,
-                               .done = row_done,
-                               .stopped = stopped};
-    const fst_status status = fst_rows(&work, &error);
-    pthread_mutex_lock(&j->lock);
-    if (status != FST_OK && status != FST_INTERRUPTED && j->status == FST_OK) {
-        j->status = status;
-        j->error = error;
-        j->stopping = 1;
-        pthread_cond_broadcast(&j->task_came);
-    }
-    j->busy -= 1;
-    pthread_cond_signal(&j->row_came);
-    pthread_mutex_unlock(&j->lock);
-    return NULL;
-}
-
-/* ------------------------------------------------------------------ the journal's side */
-
 /* Tasks from the journal into `fresh`; *found is 0 when there are no more. */
-static fst_status look_for_tasks(job *j, task *fresh, int room, int *found, fst_error *error)
+static fst_status look_for_tasks(job *j, fst_sweep_task *fresh, int room, int *found, fst_error *error)
 {
     fst_status status = FST_OK;
     *found = 0;
     if (j->identity.carry == FST_CARRY_NO) {
-        int64_t points[TASKS];
+        int64_t points[FST_CREW_TASKS];
         status = fst_journal_missing(j->journal, &j->next, points, room, found, error);
         for (int i = 0; i < *found; ++i) {
             fresh[i].point = points[i];
@@ -227,7 +91,7 @@ static fst_status look_for_tasks(job *j, task *fresh, int room, int *found, fst_
         }
         return status;
     }
-    for (; j->next < chain_count(j) && *found < room && status == FST_OK; ++j->next) {
+    for (; j->next < fst_chain_count(&j->identity) && *found < room && status == FST_OK; ++j->next) {
         int is_open;
         status = resume_chain(j, j->next, &fresh[*found], &is_open, error);
         *found += status == FST_OK && is_open;
@@ -235,27 +99,30 @@ static fst_status look_for_tasks(job *j, task *fresh, int room, int *found, fst_
     return status;
 }
 
-/* Fill the queue of tasks up; called by the journal's thread alone, without the lock. */
+/* Fill the crew's queue of tasks up. */
 static fst_status refill(job *j, fst_error *error)
 {
-    static const int few = TASKS / 4;
-    pthread_mutex_lock(&j->lock);
-    const int room = j->no_more_tasks || j->stopping || j->task_count > few ? 0 : TASKS - j->task_count;
-    pthread_mutex_unlock(&j->lock);
+    const int room = fst_crew_room(j->crew);
     if (room == 0)
         return FST_OK;
-    task *fresh = malloc((size_t)room * sizeof *fresh);
+    fst_sweep_task *fresh = malloc((size_t)room * sizeof *fresh);
     if (!fresh)
         return fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
     int found;
     const fst_status status = look_for_tasks(j, fresh, room, &found, error);
-    pthread_mutex_lock(&j->lock);
-    for (int i = 0; status == FST_OK && i < found; ++i)
-        j->tasks[(j->first_task + j->task_count++) % TASKS] = fresh[i];
-    j->no_more_tasks = found == 0;
-    pthread_cond_broadcast(&j->task_came);
-    pthread_mutex_unlock(&j->lock);
+    if (status == FST_OK)
+        fst_crew_give(j->crew, fresh, found);
     free(fresh);
+    return status;
+}
+
+/* ------------------------------------------------------------------ rows */
+
+static fst_status commit(job *j, fst_error *error)
+{
+    const fst_status status = fst_journal_commit(j->journal, error);
+    j->committed = now();
+    j->uncommitted = 0;
     return status;
 }
 
@@ -269,11 +136,8 @@ static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fs
         j->progress.failed += rows[i].status != FST_OK;
     j->uncommitted += count;
     if (status == FST_OK && j->uncommitted > 0 &&
-        (j->uncommitted >= COMMIT_ROWS || now() - j->committed > COMMIT_SECONDS)) {
-        status = fst_journal_commit(j->journal, error);
-        j->committed = now();
-        j->uncommitted = 0;
-    }
+        (j->uncommitted >= COMMIT_ROWS || now() - j->committed > COMMIT_SECONDS))
+        status = commit(j, error);
     if (status == FST_OK) {
         j->progress.added += count;
         j->progress.there += count;
@@ -281,105 +145,124 @@ static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fs
     return status;
 }
 
-static struct timespec soon(void)
+/* The rows of the other ranks.  What failed there is put into *outcome: rows that have come are written all the
+ * same, unless the journal has failed. */
+static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, fst_status *outcome,
+                                 fst_error *error)
 {
-    struct timespec time;
-    (void)clock_gettime(CLOCK_REALTIME, &time);
-    time.tv_nsec += (long)(1e9 * WAIT_SECONDS);
-    time.tv_sec += time.tv_nsec / 1000000000;
-    time.tv_nsec %= 1000000000;
-    return time;
+    fst_status status = FST_OK;
+    int count = j->leader != NULL;
+    while (count > 0 && status == FST_OK) {
+        fst_error trouble;
+        const fst_status heard = fst_leader_attend(j->leader, j->crew, rows, &count, &trouble);
+        if (*outcome == FST_OK && heard != FST_OK) {
+            *outcome = heard;
+            if (error)
+                *error = trouble;
+        }
+        if (abandoned)
+            continue;
+        status = write_rows(j, rows, count, error);
+    }
+    return status;
 }
 
-/* Rows that have come, waiting a little for them; *busy tells whether more can follow. */
-static int take_rows(job *j, fst_sweep_record *rows, int *busy)
+/* No more runs are wanted.  The first thing to do is to make safe what there is: whoever ends the other ranks
+ * may end this one soon. */
+static fst_status stop(job *j, fst_status status, fst_error *error)
 {
-    const struct timespec until = soon();
-    pthread_mutex_lock(&j->lock);
-    const int hungry = j->task_count <= TASKS / 4 && !j->no_more_tasks && !j->stopping;
-    if (j->row_count < ROWS / 2 && j->busy > 0 && !hungry)
-        (void)pthread_cond_timedwait(&j->row_came, &j->lock, &until);
-    const int count = j->row_count;
-    for (int i = 0; i < count; ++i)
-        rows[i] = j->rows[(j->first_row + i) % ROWS];
-    j->first_row = (j->first_row + count) % ROWS;
-    j->row_count = 0;
-    *busy = j->busy > 0;
-    pthread_cond_broadcast(&j->room_came);
-    pthread_mutex_unlock(&j->lock);
-    return count;
+    fst_crew_stop(j->crew, status != FST_OK);
+    if (j->leader)
+        fst_leader_stop(j->leader);
+    return status == FST_OK ? commit(j, error) : status;
 }
 
-static void stop(job *j, int abandon)
+static int followers(const job *j)
 {
-    pthread_mutex_lock(&j->lock);
-    j->stopping = 1;
-    j->abandoned = j->abandoned || abandon;
-    pthread_cond_broadcast(&j->task_came);
-    pthread_cond_broadcast(&j->room_came);
-    pthread_mutex_unlock(&j->lock);
+    return j->leader ? fst_leader_followers(j->leader) : 0;
 }
 
-/* Keep the journal until no thread works any more.  An interruption still writes what the threads had done. */
-static fst_status keep_journal(job *j, fst_error *error)
+static void wait_for_messages(const job *j, int busy)
 {
-    fst_sweep_record *rows = malloc(ROWS * sizeof *rows);
-    fst_status status = rows ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
-    if (status != FST_OK)
-        stop(j, 1);
-    fst_status outcome = status;
-    int busy = rows != NULL;
-    while (busy) {
+    const struct timespec time = {0, (long)(1e9 * WAIT_SECONDS_RANKS)};
+    if (!busy && followers(j) > 0)
+        (void)nanosleep(&time, NULL);
+}
+
+/* Keep the journal until nobody works any more.  An interruption still writes what was done. */
+static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
+{
+    const double seconds = j->leader ? WAIT_SECONDS_RANKS : WAIT_SECONDS;
+    fst_status status = FST_OK, outcome = FST_OK; /* of the journal; of everything else */
+    double stopped = 0.0;
+    int busy = 1;
+    while (busy || followers(j) > 0) {
         if (status == FST_OK && outcome == FST_OK)
             status = refill(j, error);
-        const int count = take_rows(j, rows, &busy);
+        const int failed = status != FST_OK;
+        const fst_status heard = hear_followers(j, rows, failed, &outcome, failed ? NULL : error);
+        status = failed ? status : heard;
+        const int count = fst_crew_take(j->crew, rows, seconds, &busy);
         if (status == FST_OK)
             status = write_rows(j, rows, count, error);
         j->progress.seconds = now() - j->started;
         if (status == FST_OK && outcome == FST_OK && j->options->progress)
             outcome = j->options->progress(j->options->user, &j->progress, error);
-        if (status != FST_OK || outcome != FST_OK)
-            stop(j, status != FST_OK);
+        if (stopped == 0.0 && (status != FST_OK || outcome != FST_OK)) {
+            status = stop(j, status, error);
+            stopped = now();
+        }
+        j->no_answer = stopped > 0.0 && followers(j) > 0 && now() - stopped > FAREWELL_SECONDS;
+        if (j->no_answer && !busy)
+            break;
+        wait_for_messages(j, busy);
     }
-    free(rows);
     return status != FST_OK ? status : outcome;
 }
 
 /* ------------------------------------------------------------------ the job */
 
+/* As many threads as this process has processors, or its share of them where it has neighbours. */
 static int thread_count(const job *j)
 {
+    cpu_set_t mine;
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int wanted = j->options->threads > 0 ? j->options->threads : processors > 0 ? (int)processors : 1;
-    const int64_t tasks = j->identity.carry == FST_CARRY_NO ? j->progress.points : chain_count(j);
-    if (wanted > MOST_THREADS)
-        wanted = MOST_THREADS;
+    int wanted = j->options->threads;
+    if (wanted <= 0) {
+        wanted = processors > 0 ? (int)processors / j->ranks.neighbours : 1;
+        if (sched_getaffinity(0, sizeof mine, &mine) == 0 && CPU_COUNT(&mine) < wanted)
+            wanted = CPU_COUNT(&mine);
+        if (wanted < 1)
+            wanted = 1;
+    }
+    const int64_t tasks = fst_sweep_task_count(&j->identity);
     return wanted > tasks ? (int)tasks : wanted;
 }
 
 static fst_status work(job *j, fst_error *error)
 {
-    pthread_t threads[MOST_THREADS];
-    const int wanted = thread_count(j);
-    int started = 0;
-    fst_status status = refill(j, error);
-    pthread_mutex_lock(&j->lock);
-    while (status == FST_OK && started < wanted && pthread_create(&threads[started], NULL, labour, j) == 0) {
-        started += 1;
-        j->busy += 1;
-    }
-    pthread_mutex_unlock(&j->lock);
-    if (status == FST_OK && started == 0)
-        return fst_fail(error, FST_NO_MEMORY, "fst_sweep", "no thread could be started");
+    fst_sweep_record *rows = malloc(FST_CREW_ROWS * sizeof *rows);
+    fst_status status = rows ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
+    if (status == FST_OK && j->ranks.link)
+        status = fst_leader_new(&j->ranks, &j->leader, error);
     if (status == FST_OK)
-        status = keep_journal(j, error);
-    for (int i = 0; i < started; ++i)
-        pthread_join(threads[i], NULL);
-    if (status == FST_OK && j->status != FST_OK) {
-        status = j->status;
-        if (error)
-            *error = j->error;
+        status =
+            fst_crew_new(&j->identity, j->options->lanes, thread_count(j), FST_CREW_TASKS, &j->crew, error);
+    if (status == FST_OK) {
+        status = keep_journal(j, rows, error);
+        fst_error own = {FST_OK, "", ""};
+        const fst_status computed = fst_crew_end(j->crew, &own);
+        if (status == FST_OK && computed != FST_OK) {
+            status = computed;
+            if (error)
+                *error = own;
+        }
+    } else {
+        j->no_answer =
+            j->ranks.link != NULL; /* the followers wait in vain; the end of this process ends them */
     }
+    fst_leader_free(j->leader);
+    free(rows);
     return status;
 }
 
@@ -395,12 +278,20 @@ static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid
     return FST_OK;
 }
 
-static fst_status run_job(job *j, const char *path, fst_error *error)
+/* The rank with the journal, or the only one. */
+static fst_status lead(job *j, const char *path, fst_error *error)
 {
-    fst_status status = fst_journal_open(path, &j->identity, &j->journal, error);
+    fst_status status =
+        fst_arithmetic_fingerprint(j->identity.arithmetic, j->options->lanes, &j->identity.fingerprint, error);
+    if (status == FST_OK)
+        status = fst_journal_open(path, &j->identity, &j->journal, error);
     if (status == FST_OK)
         status = fst_journal_count(j->journal, &j->progress.there, error);
-    if (status == FST_OK && j->progress.there < j->progress.points)
+    fst_ranks_start start = {status, j->identity.arithmetic, fst_journal_identity_hash(&j->identity)};
+    fst_error silence;
+    const fst_status shared = fst_ranks_share_start(&j->ranks, &start, status == FST_OK ? error : &silence);
+    status = status == FST_OK ? shared : status;
+    if (status == FST_OK && (j->progress.there < j->progress.points || j->ranks.link))
         status = work(j, error);
     fst_error closing;
     const fst_status closed = fst_journal_close(j->journal, &closing);
@@ -409,6 +300,40 @@ static fst_status run_job(job *j, const char *path, fst_error *error)
         if (error)
             *error = closing;
     }
+    return status;
+}
+
+/* Another rank: it computes what the leader computes, or says that it cannot. */
+static fst_status follow(job *j, fst_error *error)
+{
+    fst_ranks_start start;
+    fst_status status = fst_ranks_share_start(&j->ranks, &start, error);
+    if (status != FST_OK || start.status != FST_OK)
+        return status == FST_OK ? start.status : status;
+    j->identity.arithmetic = start.arithmetic;
+    status = fst_arithmetic_fingerprint(start.arithmetic, j->options->lanes, &j->identity.fingerprint, error);
+    if (status == FST_OK && fst_journal_identity_hash(&j->identity) != start.identity)
+        status =
+            fst_fail(error, FST_BAD_INPUT, "fst_sweep",
+                     "this rank would compute other rows than rank 0: its processor, its festoon, its scene or "
+                     "its options differ");
+    return fst_follow(&j->ranks, &j->identity, j->options, thread_count(j), status, error);
+}
+
+/* Lead, follow, or work alone.  What happened to followers, the leader tells. */
+static fst_status run_job(job *j, const char *path, fst_error *error)
+{
+    fst_status status = j->options->with_ranks ? fst_ranks_open(&j->ranks, error) : FST_OK;
+    if (status != FST_OK) {
+        fst_ranks_close(&j->ranks, 0);
+        return status;
+    }
+    j->progress.rank = j->ranks.rank;
+    j->progress.ranks = j->ranks.count;
+    status = j->ranks.rank == 0 ? lead(j, path, error) : follow(j, error);
+    if (j->ranks.rank != 0 && error)
+        *error = (fst_error){status, "", ""};
+    fst_ranks_close(&j->ranks, !j->no_answer);
     return status;
 }
 
@@ -423,32 +348,16 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
     fst_status status = fst_grid_new(params, options->axes, options->axis_count, options->seed, &grid, error);
     if (status != FST_OK)
         return status;
-    job *j = calloc(1, sizeof *j);
-    if (!j)
-        status = fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
-    else
-        status = check_options(options, grid, error);
+    status = check_options(options, grid, error);
     if (status == FST_OK) {
-        const fst_arithmetic form = options->arithmetic;
-        j->identity = (fst_sweep_identity){grid, options->seed, options->carry, form, 0};
-        j->grid = grid;
-        j->options = options;
-        j->progress.points = fst_grid_points(grid);
-        j->started = j->committed = now();
-        pthread_mutex_init(&j->lock, NULL);
-        pthread_cond_init(&j->task_came, NULL);
-        pthread_cond_init(&j->row_came, NULL);
-        pthread_cond_init(&j->room_came, NULL);
-        status = fst_arithmetic_fingerprint(form, options->lanes, &j->identity.fingerprint, error);
-        if (status == FST_OK)
-            status = run_job(j, path, error);
-        *result = j->progress;
-        pthread_cond_destroy(&j->room_came);
-        pthread_cond_destroy(&j->row_came);
-        pthread_cond_destroy(&j->task_came);
-        pthread_mutex_destroy(&j->lock);
+        job j = {.identity = {grid, options->seed, options->carry, options->arithmetic, 0},
+                 .options = options,
+                 .ranks = {.count = 1, .neighbours = 1}};
+        j.progress.points = fst_grid_points(grid);
+        j.started = j.committed = now();
+        status = run_job(&j, path, error);
+        *result = j.progress;
     }
-    free(j);
     fst_grid_free(grid);
     return status;
 }

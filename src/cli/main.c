@@ -126,8 +126,11 @@ static int exit_status(fst_status status)
     }
 }
 
+/* An error without a sentence has been told by another process of the same job. */
 static void print_error(const fst_error *error)
 {
+    if (!error->sentence[0])
+        return;
     (void)fprintf(stderr, "festoon: %s%s%s\n", error->where, error->where[0] ? ": " : "", error->sentence);
 }
 
@@ -151,7 +154,7 @@ int main(int argc, char **argv)
         int reason = write_standard_output(text, size);
         if (reason)
             status = fail(&error, FST_IO, "standard output", "writing failed: %s", strerror(reason));
-    } else if (interrupted() && status != FST_INTERRUPTED) {
+    } else if (interrupted() && status != FST_INTERRUPTED && error.sentence[0]) {
         /* Also where the signal reached a helper process such as gnuplot first. */
         status = fail(&error, FST_INTERRUPTED, "", "interrupted");
     }

@@ -80,6 +80,8 @@ static fst_status read_sweep(const arguments *given, const char **axes, fst_swee
 static fst_status show(void *user, const fst_sweep_progress *p, fst_error *error)
 {
     char what[64];
+    if (p->rank != 0)
+        return interrupted() ? fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
     int64_t wanted = p->points - p->there + p->added;
     (void)snprintf(what, sizeof what, "%lld of %lld points, %.3g a second", (long long)p->there,
                    (long long)p->points, p->seconds > 0 ? (double)p->added / p->seconds : 0.0);
@@ -123,8 +125,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     progress_begin(&line);
     sweep.user = &line;
     sweep.progress = show;
+    sweep.with_ranks = 1;
     status = fst_sweep(&params, path, &sweep, &result, error);
     progress_end(&line);
+    if (result.rank != 0) /* rank 0 tells what happened to all */
+        return status;
     if (status == FST_INTERRUPTED)
         return fail(error, FST_INTERRUPTED, path,
                     "interrupted with %lld of %lld points done; the same command goes on",

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "io/file_system.h"
 #include "io/regular_file.h"
 
 fst_status fst_database_fail(sqlite3 *database, const char *path, fst_error *error)
@@ -70,6 +71,9 @@ static fst_status open_checked(const char *path, int flags, sqlite3 **database, 
         return fst_database_fail(*database, path, error);
     (void)sqlite3_extended_result_codes(*database, 1);
     (void)sqlite3_busy_timeout(*database, 5000);
+    /* Without memory that processes share, a log can be read by one alone. */
+    if (fst_on_network(path))
+        (void)sqlite3_exec(*database, "PRAGMA locking_mode = EXCLUSIVE", NULL, NULL, NULL);
     sqlite3_stmt *check = NULL;
     int sound = 0, code = sqlite3_prepare_v2(*database, "PRAGMA quick_check(1)", -1, &check, NULL);
     if (code == SQLITE_OK && sqlite3_step(check) == SQLITE_ROW)

@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/vfs.h>
 
 #include "base/error.h"
 #include "base/whole_file.h"
 #include "io/database.h"
+#include "io/file_system.h"
 #include "io/sweep_columns.h"
 
 struct fst_journal {
@@ -67,6 +67,18 @@ static void free_lines(identity_line *lines, int count)
 {
     for (int i = 0; i < count; ++i)
         free(lines[i].value);
+}
+
+uint64_t fst_journal_identity_hash(const fst_sweep_identity *identity)
+{
+    identity_line lines[IDENTITY_SIZE];
+    const int count = identity_lines(identity, lines);
+    uint64_t hash = 0xcbf29ce484222325u; /* FNV-1a */
+    for (int i = 0; i < count; ++i)
+        for (const char *c = lines[i].value ? lines[i].value : ""; *c; ++c)
+            hash = (hash ^ (unsigned char)*c) * 0x100000001b3u;
+    free_lines(lines, count);
+    return hash;
 }
 
 /* Which parameter differs between the scene of the file and the wanted one. */
@@ -182,26 +194,13 @@ static fst_status make(const char *path, const fst_sweep_identity *identity, fst
 
 /* ------------------------------------------------------------------ opening */
 
-/* WAL needs memory that processes share, which network file systems do not have. */
-static int on_network(const char *path)
-{
-    static const unsigned long kinds[] = {
-        0x6969 /* NFS */,      0xff534d42 /* CIFS */,        0xfe534d42 /* SMB2 */,
-        0x517b /* SMB */,      0x65735546 /* FUSE: sshfs */, 0x0bd00bd0 /* Lustre */,
-        0x47504653 /* GPFS */, 0x19830326 /* BeeGFS */,      0x00c36400 /* Ceph */};
-    struct statfs found;
-    if (statfs(path, &found) != 0)
-        return 0;
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; ++i)
-        if (((unsigned long)found.f_type & 0xffffffff) == kinds[i])
-            return 1;
-    return 0;
-}
-
 static fst_status prepare(fst_journal *journal, fst_error *error)
 {
-    const char *mode = on_network(journal->path) ? "PRAGMA journal_mode = DELETE; PRAGMA synchronous = FULL"
-                                                 : "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL";
+    /* A database that was begun elsewhere with a log is turned into one without where it lies on a network. */
+    const char *mode =
+        fst_on_network(journal->path)
+            ? "PRAGMA journal_mode = DELETE; PRAGMA locking_mode = NORMAL; PRAGMA synchronous = FULL"
+            : "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL";
     fst_status status = fst_database_do(journal->database, journal->path, mode, error);
     char *insert = fst_sweep_insert_sql(journal->grid);
     char *state = fst_sweep_state_sql();

@@ -18,6 +18,9 @@ typedef struct fst_sweep_identity {
     uint64_t fingerprint; /* of a short fixed run in this arithmetic */
 } fst_sweep_identity;
 
+/* A hash of all that must agree for rows to belong into one database. */
+uint64_t fst_journal_identity_hash(const fst_sweep_identity *identity);
+
 /* A finished point. */
 typedef struct fst_sweep_record {
     int64_t point;

@@ -7,7 +7,8 @@
 
 /* Thresholds, scaled.  docs/regimes.md says why these. */
 static const double AT_REST = 1e-8;  /* greatest |d(state)/dt| of a locked bead, or run.rtol if larger */
-static const double NOISE = 100.0;   /* times run.rtol: slower motion may be the integrator's noise */
+static const double NOISE = 100.0;   /* times run.rtol: slower motion is not told from the integrator's noise */
+static const double GROWING = 2.0;   /* activity of the last half over the first: above, it is no mere noise */
 static const double CLOSED = 1e-6;   /* greatest distance of successive section states of a closed orbit */
 static const double STEADY = 0.01;   /* relative change of the half distance over half the window: S1 */
 static const double RELAXING = 1e-2; /* below this, distances that halve over half the window are relaxing */
@@ -141,6 +142,16 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
     const fst_mark_series *marks = &run->period_marks;
     const int half = 1 + (marks->count - 1) / 2;
     const double early = activity_over(marks, 1, half), late = activity_over(marks, half, marks->count);
+    /* At an equilibrium the step size grows until the error of a step is the tolerance, and the state jitters.
+     */
+    if (late < NOISE * run->params->run_rtol && late <= GROWING * early) {
+        result->regime = FST_REGIME_LOCKED;
+        REASON("at rest in the turning frame to within the integrator's noise: |d(state)/dt| stays below %.2g, "
+               "that "
+               "is %.2g run.rtol, and does not grow",
+               late, late / run->params->run_rtol);
+        return FST_OK;
+    }
     if (late < STILL_FALLING * early) {
         REASON("Phi is bounded and the motion is dying out (speed in the turning frame from %.2g to %.2g): run "
                "longer to see whether it locks",
@@ -148,9 +159,10 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
         return FST_OK;
     }
     if (late < NOISE * run->params->run_rtol) {
-        REASON("what motion is left (speed %.2g in the turning frame) may be the integrator's noise: lower "
-               "run.rtol",
-               late);
+        REASON("the motion is no faster than the integrator's noise but grows (speed in the turning frame from "
+               "%.2g "
+               "to %.2g): run longer, or lower run.rtol",
+               early, late);
         return FST_OK;
     }
     int chaotic;

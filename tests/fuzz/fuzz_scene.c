@@ -1,9 +1,5 @@
-/* fuzz_scene.c - the scene reader under libFuzzer: whatever the bytes, it returns, and what it accepts reads
- * back the same.
- *
- *   clang -g -O1 -fsanitize=fuzzer,address,undefined -Iinclude -Isrc tests/fuzz/fuzz_scene.c src/base/[a-z]*.c
- * ...
- */
+/* fuzz_scene.c - the scene reader: whatever the bytes, it returns, a refusal has a sentence, and what it
+ * accepts reads back the same. */
 #include <festoon/festoon_tools.h>
 
 #include <stdlib.h>
@@ -14,9 +10,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     fst_params params = fst_default_params(), again = fst_default_params();
-    fst_error error;
-    if (fst_scene_parse((const char *)data, size, "fuzz", &params, &error) != FST_OK)
+    fst_error error = {FST_OK, "", ""};
+    if (fst_scene_parse((const char *)data, size, "fuzz", &params, &error) != FST_OK) {
+        if (error.code == FST_OK || !error.sentence[0])
+            abort();
         return 0;
+    }
     char *text = fst_scene_text(&params, 0);
     if (!text || fst_scene_parse(text, strlen(text), "again", &again, &error) != FST_OK)
         abort();
