@@ -425,7 +425,8 @@ FST_API const char *fst_special_name(fst_special_type type);
 
 /* A point of a branch. */
 typedef struct fst_branch_point {
-    double value; /* of the parameter */
+    double value;  /* of the parameter */
+    double second; /* of the second one, NAN where there is none */
     double omega, mean_r, mean_alpha_dot, mean_nz, festoons, period, min_r, phi_deg, slip;
     fst_symmetry symmetry;
     int stable, turns, branch;
@@ -455,6 +456,11 @@ typedef struct fst_branch {
     fst_branch_kind kind;
     char key[64];
     double from, to;
+    /* Over two parameters (else second_key is empty): points are special points of the type `followed`, each
+     * branch is the curve of one, and `stable` says whether all attracts but the critical direction. */
+    char second_key[64];
+    double second_from, second_to;
+    fst_special_type followed;
     fst_branch_point *points; /* in order along each branch */
     size_t point_count;
     fst_special *specials;
@@ -469,16 +475,22 @@ typedef struct fst_branch_options {
     fst_branch_kind kind;
     const char *key; /* "drive.omega" */
     double from, to;
-    double tolerance;    /* of the integration; 1e-13 */
-    double longest_step; /* along the curve, scaled; 0.25 */
+    double tolerance;    /* of the integration; 1e-12 */
+    double longest_step; /* along the curve, scaled; 0.5 */
     int follow;          /* switch branches at pitchforks, period doublings and Hopf points */
+    /* A second parameter (NULL: none) and its range: special points of the type `special` are sought over `key`
+     * at the scene's value of the second, and each is then followed as a curve over both. */
+    const char *second_key;
+    double second_from, second_to;
+    fst_special_type special;
     void *user;
     fst_status (*progress)(void *user, double fraction, fst_error *error);
 } fst_branch_options;
 FST_API fst_branch_options fst_default_branch_options(void);
 
 /* Follow the counter-rotating family (the S2 branch both ways, the S1 branches that leave it, through r = 0 and
- * beyond), or every family of equilibria, over a parameter.  Free it with fst_branch_free(). */
+ * beyond), or every family of equilibria, over a parameter; or the curves of special points over two.  Free it
+ * with fst_branch_free(). */
 FST_API fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options,
                                      fst_branch *branch, fst_error *error);
 FST_API void fst_branch_free(fst_branch *branch);

@@ -9,20 +9,22 @@ static const option options[] = {
     JSON_OPTION,
     {"kind", '\0', "KIND", "counter: the counter-rotating family; locked: every family of equilibria"},
     {"over", '\0', "KEY=LO:HI", "the parameter and its range, as in drive.omega=0.2:3"},
+    {"with", '\0', "KEY=LO:HI", "a second parameter and its range: the curves of special points over both"},
+    {"follow", '\0', "TYPE", "which: fold, pitchfork, period-doubling, hopf, neimark-sacker, origin-crossing"},
     {"output", 'o', "FILE.json", "write the branch to a file, for festoon plot"},
     {"tolerance", '\0', "T", "of the integration, 1e-12"},
     {"step", '\0', "S", "greatest step along the branch, scaled, 0.5"},
     {NULL, '\0', NULL, NULL},
 };
 
-/* KEY=LO:HI into key and ends; values may carry the key's unit. */
-static fst_status read_over(const char *text, char key[64], double *from, double *to, fst_error *error)
+/* KEY=LO:HI of an option into key and ends; values may carry the key's unit. */
+static fst_status read_range(const char *name, const char *text, char key[64], double *from, double *to,
+                             fst_error *error)
 {
     char low[64], high[64];
     const char *equals = strchr(text, '='), *colon = equals ? strchr(equals, ':') : NULL;
     if (!colon || equals == text || equals - text > 63 || colon - equals > 63 || strlen(colon) > 63)
-        return fail(error, FST_BAD_INPUT, "--over", "\"%.80s\" must be KEY=LO:HI, as in drive.omega=0.2:3",
-                    text);
+        return fail(error, FST_BAD_INPUT, name, "\"%.80s\" must be KEY=LO:HI, as in drive.omega=0.2:3", text);
     (void)snprintf(key, 64, "%.*s", (int)(equals - text), text);
     (void)snprintf(low, sizeof low, "%.*s", (int)(colon - equals - 1), equals + 1);
     (void)snprintf(high, sizeof high, "%s", colon + 1);
@@ -36,18 +38,48 @@ static fst_status read_over(const char *text, char key[64], double *from, double
                                fst_param_at(i)->key);
         }
         (void)fst_nearest_name(key, names, nearest, sizeof nearest);
-        return fail(error, FST_BAD_INPUT, "--over",
-                    "\"%s\" is no parameter with real values; the nearest is %s", key, nearest);
+        return fail(error, FST_BAD_INPUT, name, "\"%s\" is no parameter with real values; the nearest is %s",
+                    key, nearest);
     }
     fst_status status = fst_parse_value(low, fst_param_at(row)->unit, from, error);
     if (status == FST_OK)
         status = fst_parse_value(high, fst_param_at(row)->unit, to, error);
     if (status == FST_OK && !(*from < *to))
-        status = fail(error, FST_BAD_INPUT, "--over", "the range %s:%s must rise", low, high);
+        status = fail(error, FST_BAD_INPUT, name, "the range %s:%s must rise", low, high);
     return status;
 }
 
-static fst_status read_options(const arguments *given, char key[64], fst_branch_options *o, fst_error *error)
+/* The second parameter, and the type of the special points that are followed over both. */
+static fst_status read_second(const arguments *given, char key[64], fst_branch_options *o, fst_error *error)
+{
+    const char *with = option_value(given, "with"), *follow = option_value(given, "follow");
+    if (!with && !follow)
+        return FST_OK;
+    if (!with || !follow)
+        return fail(error, FST_BAD_INPUT, with ? "--follow" : "--with",
+                    "curves over two parameters need both, as in --follow pitchfork --with model.kappa=1:3");
+    char names[160] = "", nearest[32];
+    int found = 0;
+    for (int type = FST_SPECIAL_FOLD; type <= FST_SPECIAL_ORIGIN_CROSSING; type++) {
+        const char *name = fst_special_name((fst_special_type)type);
+        const size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name);
+        if (strcmp(follow, name) == 0) {
+            o->special = (fst_special_type)type;
+            found = 1;
+        }
+    }
+    if (!found) {
+        (void)fst_nearest_name(follow, names, nearest, sizeof nearest);
+        return fail(error, FST_BAD_INPUT, "--follow", "unknown type \"%.60s\"; the nearest is %s (%s)", follow,
+                    nearest, names);
+    }
+    o->second_key = key;
+    return read_range("--with", with, key, &o->second_from, &o->second_to, error);
+}
+
+static fst_status read_options(const arguments *given, char keys[2][64], fst_branch_options *o,
+                               fst_error *error)
 {
     *o = fst_default_branch_options();
     const char *kind = option_value(given, "kind"), *over = option_value(given, "over");
@@ -57,8 +89,10 @@ static fst_status read_options(const arguments *given, char key[64], fst_branch_
     if (!over)
         return fail(error, FST_BAD_INPUT, "--over", "tell over what: --over drive.omega=0.2:3");
     o->kind = strcmp(kind, "locked") == 0 ? FST_BRANCH_LOCKED : FST_BRANCH_COUNTER;
-    fst_status status = read_over(over, key, &o->from, &o->to, error);
-    o->key = key;
+    fst_status status = read_range("--over", over, keys[0], &o->from, &o->to, error);
+    o->key = keys[0];
+    if (status == FST_OK)
+        status = read_second(given, keys[1], o, error);
     if (status == FST_OK && tolerance)
         status = read_numbers("--tolerance", tolerance, &o->tolerance, 1, error);
     if (status == FST_OK && step)
@@ -66,8 +100,36 @@ static fst_status read_options(const arguments *given, char key[64], fst_branch_
     return status;
 }
 
+/* A curve over two parameters: a few of its points. */
+static void print_curve(FILE *out, const fst_branch *b, int curve)
+{
+    size_t first = 0, count = 0;
+    for (size_t i = 0; i < b->point_count; i++)
+        if (b->points[i].branch == curve && count++ == 0)
+            first = i;
+    (void)fprintf(out, "\n%s, curve %d: %zu points\n  %16s %16s\n", fst_special_name(b->followed), curve, count,
+                  b->key, b->second_key);
+    const size_t rows = count < 16 ? count : 16;
+    for (size_t k = 0; k < rows; k++) {
+        const fst_branch_point *p = &b->points[first + (rows > 1 ? k * (count - 1) / (rows - 1) : 0)];
+        (void)fprintf(out, "  %16.10f %16.10f  %s\n", p->value, p->second,
+                      p->stable ? "of a stable state" : "");
+    }
+}
+
 static void print_branch(FILE *out, const fst_branch *b)
 {
+    if (b->second_key[0]) {
+        (void)fprintf(out, "%d curves of %s points over %s and %s\n", b->branches,
+                      fst_special_name(b->followed), b->key, b->second_key);
+        for (int curve = 0; curve < b->branches; curve++)
+            print_curve(out, b, curve);
+        (void)fprintf(out, "\nends\n");
+        for (size_t i = 0; i < b->end_count; i++)
+            (void)fprintf(out, "  curve %d at %s = %.10g: %s\n", b->ends[i].branch, b->key, b->ends[i].value,
+                          b->ends[i].reason);
+        return;
+    }
     (void)fprintf(out, "%d branches, %zu points over %s = %.10g to %.10g\n\nspecial points\n", b->branches,
                   b->point_count, b->key, b->from, b->to);
     for (size_t i = 0; i < b->special_count; i++) {
@@ -94,10 +156,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_params params;
     fst_branch_options o;
     fst_branch branch;
-    char key[64];
+    char keys[2][64];
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
-        status = read_options(given, key, &o, error);
+        status = read_options(given, keys, &o, error);
     if (status != FST_OK)
         return status;
     progress_line line;
@@ -126,7 +188,12 @@ const command branch_command = {
     .summary = "Follow families of orbits or locked states over a parameter, with their bifurcations",
     .details =
         "counter: the symmetric counter-rotating branch both ways through the range, and the branches that\n"
-        "leave it, through r = 0 and beyond.  locked: every family of equilibria.  festoon plot draws the "
+        "leave it, through r = 0 and beyond.  locked: every family of equilibria, and the orbits born at "
+        "their\n"
+        "Hopf points.  With --with and --follow, special points of one type are sought over the first "
+        "parameter\n"
+        "at the scene's value of the second, and each is followed as a curve over both.  festoon plot draws "
+        "the\n"
         "file.\n",
     .options = options,
     .most_operands = 1,

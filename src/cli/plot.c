@@ -27,7 +27,9 @@ static const option options[] = {
     {"to", '\0', "P", "last drive period shown"},
     {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
     {"observable", '\0', "NAME",
-     "of a branch: mean_r, mean_alpha_dot, mean_nz, festoons, min_r, period, multipliers"},
+     "of a branch: mean_r, mean_alpha_dot, mean_nz, festoons, min_r, period, phi_deg, slip, multipliers; of "
+     "curves\n"
+     "over two parameters: second"},
     {"runs", '\0', "FILE", "dots over a branch, from documents of festoon run --json"},
     {NULL, '\0', NULL, NULL},
 };
@@ -102,11 +104,11 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     const char *observable = option_value(given, "observable"), *runs = option_value(given, "runs");
     double *dots = NULL;
     size_t dot_count = 0;
-    if (!observable)
-        observable = "mean_r";
     fst_status status = fst_branch_read(path, &branch, error);
     if (status != FST_OK)
         return status;
+    if (!observable)
+        observable = branch.second_key[0] ? "second" : "mean_r";
     if (runs)
         status = fst_run_dots_read(runs, branch.key, observable, &dots, &dot_count, error);
     if (status == FST_OK)

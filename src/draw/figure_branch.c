@@ -14,6 +14,7 @@ static const struct observable {
     const char *name, *label;
     size_t offset;
 } OBSERVABLES[] = {
+    {"second", "second parameter", offsetof(fst_branch_point, second)},
     {"mean_r", "<r> / l", offsetof(fst_branch_point, mean_r)},
     {"mean_alpha_dot", "<α'> / γ", offsetof(fst_branch_point, mean_alpha_dot)},
     {"mean_nz", "<n_z>", offsetof(fst_branch_point, mean_nz)},
@@ -93,13 +94,16 @@ static void style_curve(fst_chart_curve *curve, const columns *c, const char *ti
 
 static int add_diagram(const fst_branch *b, const struct observable *what, columns *c, fst_chart_curve *curves)
 {
+    const int over_two = b->second_key[0] != 0;
     static const fst_colour colours[SPECIAL_TYPES] = {FST_COLOUR_BLACK,  FST_COLOUR_VERMILION, FST_COLOUR_GREEN,
                                                       FST_COLOUR_PURPLE, FST_COLOUR_GREY,      FST_COLOUR_BLUE};
     int count = 0;
     put_pieces(&c[0], b, what, 1);
     put_pieces(&c[1], b, what, 0);
-    style_curve(&curves[count++], &c[0], "stable", FST_COLOUR_BLUE, FST_CURVE_LINE);
-    style_curve(&curves[count++], &c[1], "unstable", FST_COLOUR_GREY, FST_CURVE_DASHED);
+    style_curve(&curves[count++], &c[0], over_two ? "of a stable state" : "stable", FST_COLOUR_BLUE,
+                FST_CURVE_LINE);
+    style_curve(&curves[count++], &c[1], over_two ? "of an unstable state" : "unstable", FST_COLOUR_GREY,
+                FST_CURVE_DASHED);
     for (int type = 0; type < SPECIAL_TYPES; type++) {
         columns *special = &c[2 + type];
         for (size_t i = 0; i < b->special_count; i++)
@@ -158,14 +162,21 @@ fst_status fst_figure_branch(const fst_branch *branch, const char *observable, c
             put(&c[CURVES - 1], dots[2 * i], dots[2 * i + 1]);
         if (c[CURVES - 1].count > 0)
             style_curve(&curves[count++], &c[CURVES - 1], "simulated", FST_COLOUR_BLACK, FST_CURVE_OPEN_POINTS);
-        const fst_chart_panel panel = {.left_label = circle ? "imaginary part" : what->label,
+        const int over_two = branch->second_key[0] != 0;
+        char title[96] = "branches";
+        if (over_two)
+            (void)snprintf(title, sizeof title, "where the %s lies", fst_special_name(branch->followed));
+        const char *label = circle                                          ? "imaginary part"
+                            : over_two && strcmp(what->name, "second") == 0 ? branch->second_key
+                                                                            : what->label;
+        const fst_chart_panel panel = {.left_label = label,
                                        .left_colour = FST_COLOUR_BLACK,
                                        .low = NAN,
                                        .high = NAN,
                                        .key = branch->kind == FST_BRANCH_LOCKED ? "top right" : "bottom right",
                                        .curves = curves,
                                        .curve_count = count};
-        const fst_chart chart = {.title = circle ? "multipliers along the branch" : "branches",
+        const fst_chart chart = {.title = circle ? "multipliers along the branch" : title,
                                  .x_label = circle ? "real part" : branch->key,
                                  .x_low = circle ? -1.2 : fmin(branch->from, branch->to),
                                  .x_high = circle ? 1.2 : fmax(branch->from, branch->to),

@@ -99,6 +99,7 @@ static const struct {
     size_t offset;
 } NUMBERS[] = {
     {"value", offsetof(fst_branch_point, value)},
+    {"second", offsetof(fst_branch_point, second)},
     {"omega", offsetof(fst_branch_point, omega)},
     {"mean_r", offsetof(fst_branch_point, mean_r)},
     {"mean_alpha_dot", offsetof(fst_branch_point, mean_alpha_dot)},
@@ -165,6 +166,12 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
     json_object_set_new(object, "parameter", json_string(branch->key));
     json_object_set_new(object, "from", fst_json_number(branch->from));
     json_object_set_new(object, "to", fst_json_number(branch->to));
+    if (branch->second_key[0]) {
+        json_object_set_new(object, "followed", json_string(fst_special_name(branch->followed)));
+        json_object_set_new(object, "second_parameter", json_string(branch->second_key));
+        json_object_set_new(object, "second_from", fst_json_number(branch->second_from));
+        json_object_set_new(object, "second_to", fst_json_number(branch->second_to));
+    }
     json_object_set_new(object, "specials", specials);
     json_object_set_new(object, "ends", ends);
     json_object_set_new(object, "points", points);
@@ -243,12 +250,17 @@ static void read_point(const json_t *object, fst_branch_point *p)
     read_pairs(object, p);
 }
 
+static fst_special_type type_named(const char *name)
+{
+    for (int i = FST_SPECIAL_FOLD; name && i <= FST_SPECIAL_ORIGIN_CROSSING; i++)
+        if (strcmp(name, fst_special_name((fst_special_type)i)) == 0)
+            return (fst_special_type)i;
+    return FST_SPECIAL_FOLD;
+}
+
 static void read_special(const json_t *object, fst_special *s)
 {
-    const char *type = json_string_value(json_object_get(object, "type"));
-    for (int i = FST_SPECIAL_FOLD; type && i <= FST_SPECIAL_ORIGIN_CROSSING; i++)
-        if (strcmp(type, fst_special_name((fst_special_type)i)) == 0)
-            s->type = (fst_special_type)i;
+    s->type = type_named(json_string_value(json_object_get(object, "type")));
     s->value = json_number_value(json_object_get(object, "value"));
     s->omega = json_number_value(json_object_get(object, "omega"));
     s->branch = (int)json_integer_value(json_object_get(object, "branch"));
@@ -274,6 +286,13 @@ fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *erro
     branch->from = json_number_value(json_object_get(object, "from"));
     branch->to = json_number_value(json_object_get(object, "to"));
     (void)snprintf(branch->key, sizeof branch->key, "%s", key);
+    const char *second = json_string_value(json_object_get(object, "second_parameter"));
+    if (second) {
+        (void)snprintf(branch->second_key, sizeof branch->second_key, "%s", second);
+        branch->second_from = json_number_value(json_object_get(object, "second_from"));
+        branch->second_to = json_number_value(json_object_get(object, "second_to"));
+        branch->followed = type_named(json_string_value(json_object_get(object, "followed")));
+    }
     branch->points = calloc(json_array_size(points) + 1, sizeof *branch->points);
     branch->specials = calloc(json_array_size(specials) + 1, sizeof *branch->specials);
     fst_status status = FST_OK;

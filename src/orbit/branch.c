@@ -56,17 +56,17 @@ static int grow(void **list, size_t count, size_t size)
     return 1;
 }
 
-static fst_status add_point(fst_branch *out, const fst_node *node, int branch, fst_error *error)
+fst_status fst_branch_add_point(fst_branch *out, const fst_branch_point *seen, int branch, fst_error *error)
 {
     if (!grow((void **)&out->points, out->point_count, sizeof *out->points))
         return out_of_memory(error);
-    out->points[out->point_count] = node->seen;
+    out->points[out->point_count] = *seen;
     out->points[out->point_count++].branch = branch;
     return FST_OK;
 }
 
-static fst_status add_end(fst_branch *out, int branch, int family, double value, const char *reason,
-                          fst_error *error)
+fst_status fst_branch_add_end(fst_branch *out, int branch, int family, double value, const char *reason,
+                              fst_error *error)
 {
     if (!grow((void **)&out->ends, out->end_count, sizeof *out->ends))
         return out_of_memory(error);
@@ -79,6 +79,17 @@ static fst_status add_end(fst_branch *out, int branch, int family, double value,
     return FST_OK;
 }
 
+void fst_branch_reverse(fst_branch *out, size_t first)
+{
+    fst_branch_point *points = out->points + first;
+    const size_t count = out->point_count - first;
+    for (size_t i = 0; i + 1 < count - i; ++i) {
+        const fst_branch_point kept = points[i];
+        points[i] = points[count - 1 - i];
+        points[count - 1 - i] = kept;
+    }
+}
+
 /* ------------------------------------------------------------------ what a curve tells */
 
 static fst_status take_node(void *user, const fst_node *node, fst_error *error)
@@ -89,7 +100,7 @@ static fst_status take_node(void *user, const fst_node *node, fst_error *error)
     if (o->progress && t->out->point_count % 16 == 0)
         status = o->progress(o->user, fmin(0.95, (double)t->out->point_count / 400.0), error);
     t->last_value = node->s.value;
-    return status == FST_OK ? add_point(t->out, node, t->branch, error) : status;
+    return status == FST_OK ? fst_branch_add_point(t->out, &node->seen, t->branch, error) : status;
 }
 
 static int known_special(const fst_branch *out, fst_special_type type, const fst_node *at, double scale)
@@ -120,6 +131,8 @@ static fst_status take_special(void *user, fst_special_type type, const fst_node
     s->born = -1;
     s->at = at->seen;
     s->at.branch = t->branch;
+    if (t->options->second_key && type == t->options->special && t->start_count < FST_PENDING)
+        t->starts[t->start_count++] = (fst_special_start){type, *at};
     if (born && t->pending_count < FST_PENDING && t->depth < 3 &&
         (type != FST_SPECIAL_HOPF || t->follow_hopf)) {
         s->born = t->branch_count;
@@ -130,15 +143,6 @@ static fst_status take_special(void *user, fst_special_type type, const fst_node
 }
 
 /* ------------------------------------------------------------------ following */
-
-static void reverse_points(fst_branch_point *points, size_t count)
-{
-    for (size_t i = 0; i + 1 < count - i; ++i) {
-        const fst_branch_point kept = points[i];
-        points[i] = points[count - 1 - i];
-        points[count - 1 - i] = kept;
-    }
-}
 
 /* One branch from a node on it, both ways, or, if it was born at a special point, away from that. */
 static fst_status follow_branch(fst_tracer *t, const fst_pending *from, fst_error *error)
@@ -158,9 +162,9 @@ static fst_status follow_branch(fst_tracer *t, const fst_pending *from, fst_erro
     if (!from->one_way) {
         t->last_value = from->start.s.value;
         status = fst_curve_follow(&curve, &from->start, -1, error);
-        reverse_points(t->out->points + first, t->out->point_count - first);
+        fst_branch_reverse(t->out, first);
         if (status == FST_OK)
-            status = add_end(t->out, from->branch, from->family, t->last_value, curve.reason, error);
+            status = fst_branch_add_end(t->out, from->branch, from->family, t->last_value, curve.reason, error);
         if (strstr(curve.reason, "closes on itself")) /* the other way would be the same points again */
             return status;
     }
@@ -168,8 +172,9 @@ static fst_status follow_branch(fst_tracer *t, const fst_pending *from, fst_erro
         status = take_node(t, &from->start, error);
     if (status == FST_OK)
         status = fst_curve_follow(&curve, &from->start, 1, error);
-    return status == FST_OK ? add_end(t->out, from->branch, from->family, t->last_value, curve.reason, error)
-                            : status;
+    return status == FST_OK
+               ? fst_branch_add_end(t->out, from->branch, from->family, t->last_value, curve.reason, error)
+               : status;
 }
 
 fst_status fst_tracer_run(fst_tracer *t, fst_error *error)
@@ -324,10 +329,56 @@ static fst_status check(const fst_branch_options *o, fst_error *error)
     if (!(o->tolerance >= 1e-15 && o->tolerance <= 1e-6))
         return fst_fail(error, FST_BAD_INPUT, where, "tolerance = %g is out of range: 1e-15 to 1e-6",
                         o->tolerance);
+    if (o->second_key &&
+        (!isfinite(o->second_from) || !isfinite(o->second_to) || o->second_from == o->second_to))
+        return fst_fail(error, FST_BAD_INPUT, where,
+                        "the second parameter needs a range with two different ends, not %g to %g",
+                        o->second_from, o->second_to);
+    if (o->second_key && strcmp(o->second_key, o->key) == 0)
+        return fst_fail(error, FST_BAD_INPUT, where, "the second parameter must not be %s again", o->key);
     if (!(o->longest_step > 1e-5))
         return fst_fail(error, FST_BAD_INPUT, where, "longest_step = %g must be at least 1e-5",
                         o->longest_step);
     return FST_OK;
+}
+
+double fst_branch_scale(const char *key, double from, double to)
+{
+    /* the states themselves vary by several times omega */
+    return strcmp(key, "drive.omega") == 0 ? 1.0 : fmax(fabs(from), fabs(to));
+}
+
+/* Over two parameters: the branches over the first were followed for their special points; now the curve of
+ * each. */
+static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_error *error)
+{
+    const fst_branch_options *o = t->options;
+    fst_branch *out = t->out;
+    fst_family second;
+    fst_status status = fst_family_begin(&second, params, o->second_key, error);
+    if (status != FST_OK)
+        return status;
+    const double at = fst_family_value(&second);
+    size_t kept = 0;
+    for (size_t i = 0; i < out->special_count; ++i)
+        if (out->specials[i].type == o->special) {
+            out->specials[kept] = out->specials[i];
+            out->specials[kept].born = -1;
+            out->specials[kept].at.second = at;
+            out->specials[kept].branch = out->specials[kept].at.branch = (int)kept;
+            kept += 1;
+        }
+    out->special_count = kept;
+    out->point_count = out->end_count = 0;
+    out->branches = t->start_count;
+    if (kept == 0)
+        return fst_fail(error, FST_NO_CONVERGENCE, "branch",
+                        "no %s lies between %s = %.10g and %.10g, so none can be followed over %s: try another "
+                        "range",
+                        fst_special_name(o->special), o->key, o->from, o->to, o->second_key);
+    for (int i = 0; i < t->start_count && status == FST_OK; ++i)
+        status = fst_special_curve_follow(o, params, &t->starts[i], i, out, error);
+    return status;
 }
 
 fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options, fst_branch *branch,
@@ -342,17 +393,24 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
         return out_of_memory(error);
     t->options = options;
     t->out = branch;
+    t->follow_hopf = options->kind == FST_BRANCH_LOCKED && options->follow;
     branch->kind = options->kind;
     branch->from = options->from;
     branch->to = options->to;
     (void)snprintf(branch->key, sizeof branch->key, "%s", options->key);
+    if (options->second_key) {
+        (void)snprintf(branch->second_key, sizeof branch->second_key, "%s", options->second_key);
+        branch->second_from = options->second_from;
+        branch->second_to = options->second_to;
+        branch->followed = options->special;
+    }
     status = fst_family_begin(&t->family, params, options->key, error);
-    t->family.scale = fmax(fabs(options->from), fabs(options->to));
+    t->family.scale = fst_branch_scale(options->key, options->from, options->to);
     t->family.tolerance = options->tolerance;
-    if (status == FST_OK && strcmp(options->key, "drive.omega") == 0)
-        t->family.scale = 1.0; /* the states themselves vary by several times omega */
     if (status == FST_OK)
         status = options->kind == FST_BRANCH_COUNTER ? follow_counter(t, error) : fst_follow_locked(t, error);
+    if (status == FST_OK && options->second_key)
+        status = follow_specials(t, params, error);
     free(t);
     if (status != FST_OK)
         fst_branch_free(branch);

@@ -3,6 +3,7 @@
 #define FST_ORBIT_BRANCH_H
 
 #include "orbit/curve.h"
+#include "orbit/surface.h"
 
 enum { FST_PENDING = 64 };
 
@@ -23,6 +24,8 @@ typedef struct fst_tracer {
     int branch, depth; /* of the curve being followed */
     int follow_hopf;   /* follow orbits born from equilibria */
     double last_value;
+    fst_special_start starts[FST_PENDING]; /* of curves over two parameters */
+    int start_count;
 } fst_tracer;
 
 /* Put a branch that passes through `start` on the list. */
@@ -33,6 +36,15 @@ fst_status fst_tracer_run(fst_tracer *t, fst_error *error);
 
 /* Whether a state lies on a branch that was followed. */
 int fst_tracer_knows(const fst_tracer *t, const fst_branch_point *seen);
+
+/* Points and ends of a branch; its points from index `first` on in the opposite order. */
+fst_status fst_branch_add_point(fst_branch *out, const fst_branch_point *seen, int branch, fst_error *error);
+fst_status fst_branch_add_end(fst_branch *out, int branch, int family, double value, const char *reason,
+                              fst_error *error);
+void fst_branch_reverse(fst_branch *out, size_t first);
+
+/* The scale of a parameter for the length of arcs. */
+double fst_branch_scale(const char *key, double from, double to);
 
 /* Every family of equilibria, locked.c. */
 fst_status fst_follow_locked(fst_tracer *t, fst_error *error);

@@ -39,7 +39,7 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     p->value = s->value;
     p->omega = setup.model.groups.omega;
     p->mean_r = p->mean_alpha_dot = p->mean_nz = p->festoons = p->period = p->min_r = p->phi_deg = p->slip =
-        NAN;
+        p->second = NAN;
     p->stable = fst_solution_is_stable(&node->s);
     p->multipliers = node->s.multipliers;
     memcpy(p->multiplier_re, node->s.re, sizeof p->multiplier_re);

@@ -128,6 +128,22 @@ void fst_tangent_basis(const double *y, double basis[FST_STATE_SIZE][FST_TANGENT
 
 /* ------------------------------------------------------------------ the parameter */
 
+/* The value of a parameter in a scene where it may only follow from others. */
+static double value_in(const fst_family *family, const char *key, const fst_groups *groups)
+{
+    const struct {
+        const char *key;
+        double value;
+    } derived[] = {{"drive.omega", groups->omega}, {"model.eps", groups->eps},
+                   {"model.h", groups->h},         {"model.lambda", groups->lambda},
+                   {"model.kappa", groups->kappa}, {"bead.a", groups->a},
+                   {"bead.b", groups->b}};
+    for (size_t i = 0; i < sizeof derived / sizeof *derived; ++i)
+        if (strcmp(derived[i].key, key) == 0)
+            return derived[i].value;
+    return fst_family_value(family);
+}
+
 fst_status fst_family_begin(fst_family *family, const fst_params *params, const char *key, fst_error *error)
 {
     memset(family, 0, sizeof *family);
@@ -146,8 +162,8 @@ fst_status fst_family_begin(fst_family *family, const fst_params *params, const 
         fst_status status = fst_model_new(params, &model, error);
         if (status != FST_OK)
             return status;
-        const double value =
-            strcmp(key, "drive.omega") == 0 ? fst_model_groups(model).omega : fst_family_value(family);
+        const fst_groups groups = fst_model_groups(model);
+        const double value = value_in(family, key, &groups);
         fst_model_free(model);
         if (isfinite(value)) {
             char text[32];

@@ -1,21 +1,10 @@
 /* newton.c - Newton's method for equilibria and for periodic orbits by multiple shooting. */
-#include "orbit/solution.h"
+#include "orbit/newton.h"
 
 #include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
-
-#define TINY 1e-13 /* residual at which Newton's method has nothing left to do */
-#define GOOD_ENOUGH 1e-12
-
-/* The linear system of one iteration. */
-typedef struct linear_system {
-    int size; /* unknowns with the parameter */
-    int rows; /* equations without the last, which fixes the parameter or the place on the curve */
-    double a[FST_UNKNOWNS][FST_UNKNOWNS], b[FST_UNKNOWNS];
-    double basis[FST_SEGMENTS][FST_STATE_SIZE][FST_TANGENT_SIZE];
-} linear_system;
 
 static double dot(const double *a, const double *b, int n)
 {
@@ -76,7 +65,7 @@ void fst_solution_move(fst_solution *s, const fst_direction *direction, double l
 
 /* ------------------------------------------------------------------ the equations */
 
-static void put_residual(linear_system *l, fst_solution *s, int row, const double *defect)
+static void put_residual(fst_newton_system *l, fst_solution *s, int row, const double *defect)
 {
     double projected[FST_TANGENT_SIZE];
     project(l->basis[row / FST_TANGENT_SIZE], defect, projected);
@@ -87,7 +76,7 @@ static void put_residual(linear_system *l, fst_solution *s, int row, const doubl
     }
 }
 
-static void equilibrium_equations(const fst_setup *setup, fst_solution *s, linear_system *l)
+static void equilibrium_equations(const fst_setup *setup, fst_solution *s, fst_newton_system *l)
 {
     double f[FST_STATE_SIZE], jacobian[FST_STATE_SIZE][FST_STATE_SIZE], by[FST_STATE_SIZE],
         part[FST_TANGENT_SIZE];
@@ -112,7 +101,7 @@ static void equilibrium_equations(const fst_setup *setup, fst_solution *s, linea
 }
 
 /* One column of a segment's derivative, seen in the basis at its end. */
-static void put_column(linear_system *l, int row, int column, const double *v)
+static void put_column(fst_newton_system *l, int row, int column, const double *v)
 {
     double part[FST_TANGENT_SIZE];
     project(l->basis[row / FST_TANGENT_SIZE], v, part);
@@ -123,7 +112,7 @@ static void put_column(linear_system *l, int row, int column, const double *v)
 /* Segment i of a chain: the equations that its end is the next state; its derivative is multiplied onto s->map.
  */
 static fst_status segment_equations(const fst_family *family, const fst_setup *setup, fst_solution *s, int i,
-                                    linear_system *l, fst_error *error)
+                                    fst_newton_system *l, fst_error *error)
 {
     const int last = i == s->segments - 1, next = last ? 0 : i + 1, row = FST_TANGENT_SIZE * next;
     double y[FST_STATE_SIZE], tangent[FST_STATE_SIZE][FST_COLUMNS], f[FST_STATE_SIZE], v[FST_STATE_SIZE];
@@ -172,7 +161,7 @@ static fst_status segment_equations(const fst_family *family, const fst_setup *s
 }
 
 static fst_status orbit_equations(const fst_family *family, const fst_setup *setup, fst_solution *s,
-                                  linear_system *l, fst_error *error)
+                                  fst_newton_system *l, fst_error *error)
 {
     l->rows = FST_TANGENT_SIZE * s->segments + 1;
     l->size = l->rows + 1;
@@ -196,7 +185,8 @@ static fst_status orbit_equations(const fst_family *family, const fst_setup *set
     return FST_OK;
 }
 
-static fst_status equations(const fst_family *family, fst_solution *s, linear_system *l, fst_error *error)
+fst_status fst_newton_equations(const fst_family *family, fst_solution *s, fst_newton_system *l,
+                                fst_error *error)
 {
     fst_setup setup;
     const fst_status status = fst_family_setup(family, s->value, &setup, error);
@@ -215,9 +205,8 @@ static fst_status equations(const fst_family *family, fst_solution *s, linear_sy
 
 /* ------------------------------------------------------------------ solving them */
 
-/* The row of the product with a direction, and what closes the system. */
-static void direction_row(const fst_family *family, const fst_solution *s, linear_system *l,
-                          const fst_direction *across, double *row)
+void fst_newton_row(const fst_family *family, const fst_solution *s, fst_newton_system *l,
+                    const fst_direction *across, double *row)
 {
     const int states = fst_states_of(s);
     for (int i = 0; i < states; ++i) {
@@ -231,15 +220,25 @@ static void direction_row(const fst_family *family, const fst_solution *s, linea
     row[l->size - 1] = across->value / (family->scale * family->scale);
 }
 
+void fst_newton_direction(const fst_solution *s, fst_newton_system *l, const double *x, fst_direction *out)
+{
+    memset(out, 0, sizeof *out);
+    for (int i = 0; i < fst_states_of(s); ++i)
+        for (int k = 0; k < FST_STATE_SIZE; ++k)
+            out->y[i][k] = dot(l->basis[i][k], x + FST_TANGENT_SIZE * i, FST_TANGENT_SIZE);
+    out->period = s->segments > 0 ? x[l->size - 2] : 0.0;
+    out->value = x[l->size - 1];
+}
+
 /* Solve with the last row `across` (NULL: the parameter alone) and the right-hand side b, or, for the tangent,
  * the last unit vector. */
-static fst_status solve(const fst_family *family, const fst_solution *s, linear_system *l,
+static fst_status solve(const fst_family *family, const fst_solution *s, fst_newton_system *l,
                         const fst_direction *across, int for_tangent, fst_direction *out, fst_error *error)
 {
     const int n = l->size;
     double a[FST_UNKNOWNS * FST_UNKNOWNS], b[FST_UNKNOWNS], row[FST_UNKNOWNS] = {0};
     if (across)
-        direction_row(family, s, l, across, row);
+        fst_newton_row(family, s, l, across, row);
     else
         row[n - 1] = 1.0;
     for (int i = 0; i < n; ++i) {
@@ -249,16 +248,11 @@ static fst_status solve(const fst_family *family, const fst_solution *s, linear_
     if (family->lapack->solve(n, 1, a, b) != 0)
         return fst_fail(error, FST_NO_CONVERGENCE, "Newton's method", "its matrix is singular at %.10g",
                         s->value);
-    memset(out, 0, sizeof *out);
-    for (int i = 0; i < fst_states_of(s); ++i)
-        for (int k = 0; k < FST_STATE_SIZE; ++k)
-            out->y[i][k] = dot(l->basis[i][k], b + FST_TANGENT_SIZE * i, FST_TANGENT_SIZE);
-    out->period = s->segments > 0 ? b[n - 2] : 0.0;
-    out->value = b[n - 1];
+    fst_newton_direction(s, l, b, out);
     return FST_OK;
 }
 
-static fst_status find_tangent(const fst_family *family, fst_solution *s, linear_system *l,
+static fst_status find_tangent(const fst_family *family, fst_solution *s, fst_newton_system *l,
                                const fst_direction *across, fst_error *error)
 {
     const fst_status status = solve(family, s, l, across, 1, &s->tangent, error);
@@ -277,16 +271,16 @@ static fst_status find_tangent(const fst_family *family, fst_solution *s, linear
 fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const fst_direction *across,
                                 fst_error *error)
 {
-    linear_system l;
+    fst_newton_system l;
     double before = INFINITY;
     /* From far away, as equilibria are sought, the way is long and the residual may rise on it; an orbit's
      * iterations are dear, and its guess is good. */
     const int far = s->segments == 0 && !across, most = far ? 40 : 14, patience = far ? 20 : 4;
     for (s->iterations = 1; s->iterations <= most; ++s->iterations) {
-        fst_status status = equations(family, s, &l, error);
+        fst_status status = fst_newton_equations(family, s, &l, error);
         if (status != FST_OK)
             return status;
-        if (s->residual < TINY || (s->residual < GOOD_ENOUGH && s->residual > 0.1 * before))
+        if (s->residual < FST_RESIDUAL_TINY || (s->residual < FST_RESIDUAL_GOOD && s->residual > 0.1 * before))
             return family->key >= 0 ? find_tangent(family, s, &l, across, error) : FST_OK;
         if (!isfinite(s->residual) || (s->iterations > patience && s->residual > before))
             break;

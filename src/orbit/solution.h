@@ -65,6 +65,12 @@ fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const
 /* Multipliers (or eigenvalues) of a corrected solution, the flow direction of an orbit split off. */
 fst_status fst_solution_spectrum(const fst_family *family, fst_solution *s, fst_error *error);
 
+/* The matrix behind the spectrum, by rows, in an orthonormal basis of the tangent space (basis[i][j]: component
+ * i of vector j): the Jacobian (9 x 9) of an equilibrium; of an orbit the derivative (8 x 8) of the return to
+ * the section across the flow, whose basis are all vectors but the first, which lies along the flow. */
+fst_status fst_solution_section(const fst_family *family, const fst_solution *s, double *matrix,
+                                double basis[FST_STATE_SIZE][FST_TANGENT_SIZE], fst_error *error);
+
 /* The eigenvector of the multiplier nearest to re + i im, as directions of the first state: real and imaginary
  * part (imaginary may be NULL). */
 fst_status fst_solution_eigenvector(const fst_family *family, const fst_solution *s, double re, double im,

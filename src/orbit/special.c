@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "orbit/normal_form.h"
 
 /* ------------------------------------------------------------------ between two nodes */
 
@@ -66,6 +67,20 @@ static double pair_frequency(const fst_solution *s)
         if (is_pair(s, i) && s->im[i] > 0 && (best < 0 || fabs(s->re[i]) < fabs(s->re[best])))
             best = i;
     return best < 0 ? NAN : s->im[best];
+}
+
+/* The angle of the pair of multipliers nearest to the unit circle. */
+static double pair_angle(const fst_solution *s)
+{
+    double angle = NAN, least = INFINITY;
+    for (int i = 0; i < s->multipliers; ++i) {
+        const double off = fabs(hypot(s->re[i], s->im[i]) - 1.0);
+        if (s->im[i] > 0 && is_pair(s, i) && off < least) {
+            least = off;
+            angle = atan2(s->im[i], s->re[i]);
+        }
+    }
+    return angle;
 }
 
 /* The product of (sign + multiplier), or of the eigenvalues: it changes sign with a real one only. */
@@ -353,7 +368,8 @@ static fst_status report_hopf_end(fst_curve *curve, const fst_node *a, const fst
     const int found = fst_switch_at_hopf(curve->family, at, frequency, &small, &ignored) == FST_OK;
     const double step =
         copysign(1e-4 * curve->family->scale, (found ? small.s.value : a->s.value) - at->s.value);
-    if (middle_of(curve->family, &at->s, at->s.value + step, &beside, &ignored) == FST_OK)
+    criticality = fst_pair_criticality(curve->family, &at->s, frequency);
+    if (!criticality && middle_of(curve->family, &at->s, at->s.value + step, &beside, &ignored) == FST_OK)
         criticality = growth_at(&beside.s, frequency) > 0 ? 1 : -1;
     return curve->sink.special(curve->sink.user, FST_SPECIAL_HOPF, at, criticality, NULL, error);
 }
@@ -446,20 +462,24 @@ static fst_status report_other(fst_curve *curve, const fst_node *a, const fst_no
     fst_status switched = FST_NO_CONVERGENCE;
     fst_special_type type = FST_SPECIAL_ORIGIN_CROSSING;
     const int orbit = at->s.segments > 0;
+    int criticality = 0;
     if (test == FST_TEST_MINUS) {
         type = at->s.symmetric ? FST_SPECIAL_PITCHFORK : FST_SPECIAL_PERIOD_DOUBLING;
         switched = fst_switch_at_minus_one(curve->family, at, &born, &ignored);
     } else if (test == FST_TEST_PAIR) {
+        const double frequency = orbit ? pair_angle(&at->s) : pair_frequency(&b->s);
         type = orbit ? FST_SPECIAL_NEIMARK_SACKER : FST_SPECIAL_HOPF;
+        criticality = fst_pair_criticality(curve->family, &at->s, frequency);
         if (!orbit)
-            switched = fst_switch_at_hopf(curve->family, at, pair_frequency(&b->s), &born, &ignored);
+            switched = fst_switch_at_hopf(curve->family, at, frequency, &born, &ignored);
     } else if (test == FST_TEST_PLUS) {
         type = FST_SPECIAL_PITCHFORK;
         if (!orbit)
             switched = fst_switch_at_pitchfork(curve->family, at, &born, &ignored);
     }
     const int found = switched == FST_OK;
-    const int criticality = found ? criticality_of(a, b, at, &born) : 0;
+    if (found && !criticality)
+        criticality = criticality_of(a, b, at, &born);
     return curve->sink.special(curve->sink.user, type, at, criticality, found && curve->follow ? &born : NULL,
                                error);
 }

@@ -78,6 +78,22 @@ static fst_status reduced_matrix(const fst_family *family, fst_solution *s, doub
     return FST_OK;
 }
 
+fst_status fst_solution_section(const fst_family *family, const fst_solution *s, double *matrix,
+                                double basis[FST_STATE_SIZE][FST_TANGENT_SIZE], fst_error *error)
+{
+    fst_solution copy = *s;
+    double q[FST_TANGENT_SIZE][FST_TANGENT_SIZE], tangent[FST_STATE_SIZE][FST_TANGENT_SIZE];
+    const fst_status status = reduced_matrix(family, &copy, matrix, q, error);
+    fst_tangent_basis(s->y[0], tangent);
+    for (int k = 0; k < FST_STATE_SIZE && status == FST_OK; ++k)
+        for (int j = 0; j < FST_TANGENT_SIZE; ++j) {
+            basis[k][j] = s->segments > 0 ? 0.0 : tangent[k][j];
+            for (int i = 0; i < FST_TANGENT_SIZE && s->segments > 0; ++i)
+                basis[k][j] += tangent[k][i] * q[i][j];
+        }
+    return status;
+}
+
 fst_status fst_solution_spectrum(const fst_family *family, fst_solution *s, fst_error *error)
 {
     double matrix[FST_TANGENT_SIZE * FST_TANGENT_SIZE], q[FST_TANGENT_SIZE][FST_TANGENT_SIZE];

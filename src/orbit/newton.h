@@ -1,0 +1,31 @@
+/* newton.h - the linear system of Newton's method, for those who close it in their own way. */
+#ifndef FST_ORBIT_NEWTON_H
+#define FST_ORBIT_NEWTON_H
+
+#include "orbit/solution.h"
+
+/* Residuals at which Newton's method has nothing left to do, and at which a solution counts as found. */
+#define FST_RESIDUAL_TINY 1e-13
+#define FST_RESIDUAL_GOOD 1e-12
+
+/* The linear system of one iteration.  Columns: the states in their tangent bases, the period of an orbit, the
+ * free parameter. */
+typedef struct fst_newton_system {
+    int size; /* unknowns with the parameter */
+    int rows; /* equations without the last, which fixes the parameter or the place on the curve */
+    double a[FST_UNKNOWNS][FST_UNKNOWNS], b[FST_UNKNOWNS];
+    double basis[FST_SEGMENTS][FST_STATE_SIZE][FST_TANGENT_SIZE];
+} fst_newton_system;
+
+/* The equations at s; their greatest residual is left in s->residual, the chain's derivative in s->map. */
+fst_status fst_newton_equations(const fst_family *family, fst_solution *s, fst_newton_system *l,
+                                fst_error *error);
+
+/* The row of the product with a direction (fst_direction_product). */
+void fst_newton_row(const fst_family *family, const fst_solution *s, fst_newton_system *l,
+                    const fst_direction *across, double *row);
+
+/* A solution of the system as a direction. */
+void fst_newton_direction(const fst_solution *s, fst_newton_system *l, const double *x, fst_direction *out);
+
+#endif
