@@ -13,6 +13,27 @@
 
 #include "base/sums.h"
 
+/* The bodies are compiled once more: forget the kind of number that the including file's headers brought. */
+#undef ENDS
+#undef ENDS_GROUPS
+#undef ENDS_OF
+#undef ENDS_SQRT
+#undef END
+#undef REAL
+#undef R
+#undef FN
+#undef REAL_SQRT
+#undef REAL_ABS
+#undef REAL_MAX
+#undef REAL_RECIPROCAL_SQRT
+#undef REAL_OF
+#undef REAL_MULADD
+#undef REAL_MULSUB
+#undef REAL_NEGMULADD
+#undef REAL_ROUGH_RECIPROCAL
+#undef REAL_OVER_SQRT
+#undef RHS_KIND
+
 typedef double fst_wide __attribute__((vector_size(8 * FST_LANES), may_alias));
 typedef long long fst_wide_bits __attribute__((vector_size(8 * FST_LANES), may_alias));
 
@@ -76,6 +97,11 @@ static inline unsigned fst_wide_lanes_of(fst_wide_mask mask)
 }
 #endif
 
+static inline fst_wide fst_wide_add_where(fst_wide_mask mask, fst_wide a, fst_wide b)
+{
+    return fst_wide_select(mask, a + b, a);
+}
+
 static inline fst_wide fst_wide_abs(fst_wide x)
 {
     return (fst_wide)((fst_wide_bits)x & 0x7fffffffffffffffLL);
@@ -105,17 +131,67 @@ static inline fst_wide fst_wide_reciprocal_sqrt(fst_wide x)
 #endif
 }
 
+/* x^(-5/2) = y^5 (1 - e)^(-5/2) with e = 1 - x y^2 and an estimate y of 1/sqrt(x), for x between 1e-30 and 1e30:
+ * one series for root, quotient and power. */
+static inline fst_wide fst_wide_inverse_fifth(fst_wide x)
+{
+    const fst_wide one = fst_wide_of(1.0), first = fst_wide_of(2.5);
+#if FST_LANES == 8
+    /* |e| < 1.23e-4.  Beyond 105/16 e^3 there is 9.02 e^4, whose best approximation by e^2 is added to 35/8 and
+     * leaves 3.4e-16. */
+    const fst_wide y = (fst_wide)_mm512_rsqrt14_pd(WIDE_NATIVE(x));
+    const fst_wide y2 = y * y, e = WIDE_NEGMULADD(x, y2, one);
+    const fst_wide rest = WIDE_MULADD(e, fst_wide_of(6.5625), fst_wide_of(4.375 + 1.1135e-7));
+#else
+    /* A root and a quotient of floats, which are exactly rounded everywhere: |e| < 4e-7, and 6.6 e^3 is nothing. */
+    const __m128 root = _mm_sqrt_ps(_mm256_cvtpd_ps(WIDE_NATIVE(x)));
+    const fst_wide y = (fst_wide)_mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0F), root));
+    const fst_wide y2 = y * y, e = WIDE_NEGMULADD(x, y2, one);
+    const fst_wide rest = fst_wide_of(4.375);
+#endif
+    const fst_wide series = WIDE_MULADD(e, WIDE_MULADD(e, rest, first), one);
+    return ((y2 * y2) * y) * series;
+}
+
+/* 1/x to about 1e-8, for what needs no more: scaling errors. */
+static inline fst_wide fst_wide_rough_reciprocal(fst_wide x)
+{
+#if FST_LANES == 8
+    const fst_wide y = (fst_wide)_mm512_rcp14_pd(WIDE_NATIVE(x));
+    return y * WIDE_NEGMULADD(x, y, fst_wide_of(2.0));
+#else
+    return 1.0 / x;
+#endif
+}
+
+/* x^(-1/8) by three reciprocal roots. */
+static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
+{
+    const fst_wide half = fst_wide_reciprocal_sqrt(x);
+    const fst_wide quarter = half * fst_wide_reciprocal_sqrt(half);
+    return quarter * fst_wide_reciprocal_sqrt(quarter);
+}
+
 #define REAL_MULADD(a, b, c) WIDE_MULADD(a, b, c)
 #define REAL_MULSUB(a, b, c) WIDE_MULSUB(a, b, c)
 #define REAL_NEGMULADD(a, b, c) WIDE_NEGMULADD(a, b, c)
 #define REAL_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x)
-#define ENDS_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x)
+#define REAL_FAST_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x) /* where it is no root and a quotient */
+#define REAL_INVERSE_FIFTH(x) fst_wide_inverse_fifth(x)
+#define REAL_ROUGH_RECIPROCAL(x) fst_wide_rough_reciprocal(x)
+#define REAL_OVER_SQRT(a, x) ((a)*fst_wide_reciprocal_sqrt(x))
+#define REAL_INVERSE_EIGHTH_ROOT(x) fst_wide_inverse_eighth_root(x)
 #else
 #define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
 #define REAL_MULADD(a, b, c) ((a) * (b) + (c))
 #define REAL_MULSUB(a, b, c) ((a) * (b) - (c))
 #define REAL_NEGMULADD(a, b, c) ((c) - (a) * (b))
+#define REAL_ROUGH_RECIPROCAL(x) (R(1.0) / (x))
+#define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))
 #endif
+
+/* A right-hand side is long, and called thirteen times a step. */
+#define RHS_KIND static __attribute__((noinline))
 
 #define ENDS fst_wide /* the registers are full: each end on its own */
 #define ENDS_GROUPS 2

@@ -13,11 +13,12 @@ enum { FST_MOST_LANES = 8 };
 
 /* The arrays of a batch that are read and written from outside. */
 typedef struct fst_lane_view {
-    double *h;                      /* size of the next try */
-    const double *y, *end;          /* states at its start and end */
-    const double *error, *factor;   /* step_error and step_factor of the last try */
-    const double *drift;            /* | |n| - 1 | at its end before n is renormalised */
-    const double *activity;         /* greatest component of |d(state)/dt| at its end */
+    const double *y, *end;          /* states at the step's start and end */
+    double *turns[2];               /* whole turns of Phi and of phi at the end (base/winding.h) */
+    const double *turns_before[2];  /* and at the start */
+    double *activity;               /* greatest |component of d(state)/dt| since it was last set */
+    double *next_mark;              /* time of the next mark; the step that reaches it is eventful */
+    double *phi_least, *phi_most;   /* directions between which Phi has stayed, two numbers; 0: to be asked for */
     double *total_high, *total_low; /* integrals up to the start of the last observed step, FST_Q_COUNT */
     double *increment;              /* and over it */
     double *r_reference, *b_reference;
@@ -25,32 +26,47 @@ typedef struct fst_lane_view {
     double *greatest, *least;     /* records of the tracked quantities, FST_TRACK_COUNT */
 } fst_lane_view;
 
+/* Lanes, one bit each. */
+typedef struct fst_lane_tries {
+    unsigned accepted; /* the step's error is within the tolerance: time has gone on */
+    unsigned landed;   /* of these, those at their limit of time */
+    unsigned failed;   /* the steps have become too small */
+} fst_lane_tries;
+
 typedef struct fst_lane_engine {
     const char *name;
     int width;
     int fused;    /* the fast form: its bits are its own */
-    size_t bytes; /* of a batch, to be aligned to 64 */
+    size_t bytes; /* of a batch, to be aligned to 64 and zeroed */
     void (*view)(void *batch, fst_lane_view *view);
 
-    /* Put a trajectory that has its first stage into a lane; an idle lane holds any trajectory, with h = 0. */
-    void (*load)(void *batch, int lane, const fst_flow *flow);
+    /* Put a trajectory that has its first stage into a lane, to go on to t_limit; and take it out. */
+    void (*load)(void *batch, int lane, const fst_flow *flow, double t_limit);
+    void (*release)(void *batch, int lane);
 
-    /* Try a step of size h in every lane; the lanes (bits) whose error is within the tolerance. */
-    unsigned (*try_steps)(void *batch);
+    /* Try a step in every lane that is in use, and do fst_flow_accept() or fst_flow_reject(). */
+    fst_lane_tries (*try_steps)(void *batch);
 
-    /* The lanes in whose last step the bead may have left the plate, sideways or upwards: all that have, and a
-     * few more. */
-    unsigned (*may_end)(const void *batch);
+    /* The lanes whose last step, an accepted one, is to be looked at closely: the bead may have left the plate
+     * (all that have, and a few more), a mark or the limit is reached, X has changed its sign, or an angle is
+     * doubtful; phi counts in the lanes `observed`.  *wandering: those where Phi may have left its bounds. */
+    unsigned (*watch)(void *batch, unsigned accepted, unsigned observed, unsigned *wandering);
+
+    /* The lanes among `accepted` whose last step ends at the time `t` of their own or later. */
+    unsigned (*past)(const void *batch, unsigned accepted, const double *t);
 
     /* Take the last step of the lanes `accepted` into their integrals; references are renewed in lanes that are
      * not in their window yet.  Returns the lanes in which a record of a tracked quantity may be beaten. */
     unsigned (*observe)(void *batch, unsigned accepted, unsigned in_window);
 
-    /* Make the end of the last step the start of the next. */
+    /* Make the end of the last step the start of the next, and choose its size: fst_flow_plan(). */
     void (*advance)(void *batch, unsigned accepted);
 
     /* The last step of a lane as the scalar step, stages, derivatives and fields included. */
     void (*extract)(const void *batch, int lane, fst_bead_step_double *step);
+
+    /* The time, size and counts of a lane, as its flow has them; the drive does not change in lanes. */
+    void (*extract_clock)(const void *batch, int lane, fst_flow *flow);
 } fst_lane_engine;
 
 /* The engine of a form of arithmetic and a width (0: the widest of that form), or NULL where this processor or

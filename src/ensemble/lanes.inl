@@ -2,6 +2,8 @@
  *
  * The including file brings base/wide.h and defines ENGINE (the table's symbol), ENGINE_NAME and ENGINE_FUSED.
  */
+#include <string.h>
+
 #include "model/coefficients.inl"
 #include "model/field.inl"
 #include "model/rhs.inl"
@@ -11,8 +13,15 @@
 typedef struct batch {
     FN(bead_step) step;
     REAL tolerance, absolute_tolerance[FST_STATE_SIZE];
-    REAL error, factor, drift, activity;
-    REAL plate_radius;
+    unsigned in_use;
+    /* the clock, as in fst_flow; `lands` is 1 or 0 */
+    REAL t_high, t_low, t_start_high, t_start_low, t_limit;
+    REAL h_next, greatest_step, lands, rejections, worst_error;
+    REAL norm_drift, accepted, rejected;
+    REAL drift, speed; /* of the last try: | |n| - 1 |, greatest component of |d(state)/dt| at its end */
+    /* what is watched */
+    REAL plate_radius, next_mark, activity;
+    REAL turns[2], turns_before[2], phi_least[2], phi_most[2];
     REAL total_high[FST_Q_COUNT], total_low[FST_Q_COUNT], increment[FST_Q_COUNT];
     REAL r_reference, b_reference;
     REAL integrands[FST_PATH_STAGES][FST_Q_COUNT], tracked[FST_PATH_STAGES][FST_TRACK_COUNT];
@@ -28,13 +37,16 @@ static double *lanes_of(void *wide)
 static void view(void *memory, fst_lane_view *v)
 {
     batch *b = memory;
-    v->h = lanes_of(&b->step.h);
     v->y = lanes_of(b->step.y);
     v->end = lanes_of(b->step.end);
-    v->error = lanes_of(&b->error);
-    v->factor = lanes_of(&b->factor);
-    v->drift = lanes_of(&b->drift);
+    for (int i = 0; i < 2; ++i) {
+        v->turns[i] = lanes_of(&b->turns[i]);
+        v->turns_before[i] = lanes_of(&b->turns_before[i]);
+    }
     v->activity = lanes_of(&b->activity);
+    v->next_mark = lanes_of(&b->next_mark);
+    v->phi_least = lanes_of(b->phi_least);
+    v->phi_most = lanes_of(b->phi_most);
     v->total_high = lanes_of(b->total_high);
     v->total_low = lanes_of(b->total_low);
     v->increment = lanes_of(b->increment);
@@ -71,13 +83,23 @@ static void load_coefficients(FN(coefficients) * to, int lane, const fst_coeffic
 #undef LOAD
 }
 
-static void load_pull(FN(pull) * to, int lane, const fst_pull_double *from)
+static void load_pull(FN(pull) * to, int lane, const fst_flow *flow)
 {
+    const fst_pull_double *from = &flow->step.context.pull[0];
     for (int i = 0; i < 3; ++i) {
         to->b[i][lane] = from->b[i];
         to->force[i][lane] = from->force[i];
     }
     to->strength[lane] = from->strength;
+#ifdef FIELD_KEEPS_GRADIENT
+    fst_field_values_double field;
+    fst_field_double(&flow->step.context.coefficients, flow->step.y[FST_X], flow->step.y[FST_Y], &field);
+    to->gradient.xx[lane] = field.gxx;
+    to->gradient.yy[lane] = field.gyy;
+    to->gradient.xy[lane] = field.gxy;
+    to->gradient.xz[lane] = field.gxz;
+    to->gradient.yz[lane] = field.gyz;
+#endif
 }
 
 static void extract_pull(const FN(pull) * from, int lane, fst_pull_double *to)
@@ -89,22 +111,42 @@ static void extract_pull(const FN(pull) * from, int lane, fst_pull_double *to)
     to->strength = from->strength[lane];
 }
 
-static void load(void *memory, int lane, const fst_flow *flow)
+static void load_clock(batch *b, int lane, const fst_flow *flow, double t_limit)
+{
+    b->t_high[lane] = b->t_start_high[lane] = flow->t.high;
+    b->t_low[lane] = b->t_start_low[lane] = flow->t.low;
+    b->t_limit[lane] = t_limit;
+    b->h_next[lane] = flow->h_next;
+    b->greatest_step[lane] = flow->greatest_step > 0 ? flow->greatest_step : INFINITY;
+    b->norm_drift[lane] = flow->norm_drift;
+    b->accepted[lane] = b->rejected[lane] = 0.0;
+    b->tolerance[lane] = flow->rtol;
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        b->absolute_tolerance[i][lane] = flow->atol[i];
+}
+
+static void plan(batch *b, fst_wide_mask mask);
+
+static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
 {
     batch *b = memory;
     const fst_bead_step_double *from = &flow->step;
     load_coefficients(&b->step.context.coefficients, lane, &from->context.coefficients);
-    load_pull(&b->step.context.pull[0], lane, &from->context.pull[0]);
-    b->step.h[lane] = 0.0;
+    load_pull(&b->step.context.pull[0], lane, flow);
     b->step.omega[lane] = from->omega;
     b->step.ramp[lane] = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
         b->step.y[i][lane] = b->step.stage[0][i][lane] = from->y[i];
         b->step.k[0][i][lane] = from->k[0][i];
-        b->absolute_tolerance[i][lane] = flow->atol[i];
     }
-    b->tolerance[lane] = flow->rtol;
+    load_clock(b, lane, flow, t_limit);
     b->plate_radius[lane] = flow->groups.plate_radius;
+    b->next_mark[lane] = INFINITY;
+    b->activity[lane] = 0.0;
+    b->turns[0][lane] = b->turns_before[0][lane] = (double)flow->phi.turns;
+    b->turns[1][lane] = b->turns_before[1][lane] = 0.0;
+    for (int i = 0; i < 2; ++i)
+        b->phi_least[i][lane] = b->phi_most[i][lane] = 0.0;
     for (int i = 0; i < FST_Q_COUNT; ++i)
         b->total_high[i][lane] = b->total_low[i][lane] = b->increment[i][lane] = 0.0;
     b->r_reference[lane] = b->b_reference[lane] = 0.0;
@@ -112,6 +154,34 @@ static void load(void *memory, int lane, const fst_flow *flow)
         b->greatest[i][lane] = -INFINITY;
         b->least[i][lane] = INFINITY;
     }
+    b->in_use |= 1u << lane;
+    plan(b, fst_wide_mask_of(1u << lane));
+}
+
+/* An idle lane goes on with steps of size 0. */
+static void release(void *memory, int lane)
+{
+    batch *b = memory;
+    b->in_use &= ~(1u << lane);
+    b->step.h[lane] = 0.0;
+}
+
+static void extract_clock(const void *memory, int lane, fst_flow *flow)
+{
+    const batch *b = memory;
+    flow->t_start = (fst_twofold){b->t_start_high[lane], b->t_start_low[lane]};
+    flow->t = (fst_twofold){b->t_high[lane], b->t_low[lane]};
+    flow->h_next = b->h_next[lane];
+    flow->attempt = b->step.h[lane];
+    flow->worst_error = b->worst_error[lane];
+    flow->norm_drift = b->norm_drift[lane];
+    const uint64_t accepted = (uint64_t)b->accepted[lane], rejected = (uint64_t)b->rejected[lane];
+    /* The flow's own count is of what came before, and of what was extracted already. */
+    flow->rhs_calls += 12 * (accepted - flow->accepted) + 11 * (rejected - flow->rejected);
+    flow->accepted = accepted;
+    flow->rejected = rejected;
+    flow->has_step = accepted > 0;
+    flow->has_dense = 0;
 }
 
 static void extract(const void *memory, int lane, fst_bead_step_double *to)
@@ -134,19 +204,84 @@ static void extract(const void *memory, int lane, fst_bead_step_double *to)
 
 /* ------------------------------------------------------------------ steps */
 
-static unsigned try_steps(void *memory)
+/* fst_flow_plan() */
+static void plan(batch *b, fst_wide_mask mask)
+{
+    const REAL zero = R(0.0), rest = (b->t_limit - b->t_high) + (zero - b->t_low), distance = REAL_ABS(rest);
+    const REAL h = -REAL_MAX(-b->h_next, -b->greatest_step);
+    const fst_wide_mask lands = WIDE_LESS_EQUAL(distance, h * R(1.01));
+    const REAL signed_h = fst_wide_select(WIDE_LESS(rest, zero), -h, h);
+    b->step.h = fst_wide_select(mask, fst_wide_select(lands, rest, signed_h), b->step.h);
+    b->lands = fst_wide_select(mask, fst_wide_select(lands, R(1.0), zero), b->lands);
+    b->rejections = fst_wide_select(mask, zero, b->rejections);
+    b->worst_error = fst_wide_select(mask, zero, b->worst_error);
+}
+
+/* fst_twofold_add() */
+static void add_twofold(REAL *high, REAL *low, REAL x)
+{
+    const REAL old = *high, sum = old + x, part = sum - old;
+    const REAL error = (old - (sum - part)) + (x - part);
+    const REAL all_low = *low + error;
+    *high = sum + all_low;
+    *low = all_low - (*high - sum);
+}
+
+/* fst_flow_accept() */
+static void accept(batch *b, fst_wide_mask mask, REAL factor)
+{
+    const REAL attempt = b->step.h, size = REAL_ABS(attempt), one = R(1.0), zero = R(0.0);
+    b->norm_drift = fst_wide_add_where(mask, b->norm_drift, b->drift);
+    b->accepted = fst_wide_add_where(mask, b->accepted, one);
+    b->t_start_high = fst_wide_select(mask, b->t_high, b->t_start_high);
+    b->t_start_low = fst_wide_select(mask, b->t_low, b->t_start_low);
+    REAL high = b->t_high, low = b->t_low;
+    add_twofold(&high, &low, attempt);
+    const fst_wide_mask lands = WIDE_LESS(zero, b->lands);
+    b->t_high = fst_wide_select(mask, fst_wide_select(lands, b->t_limit, high), b->t_high);
+    b->t_low = fst_wide_select(mask, fst_wide_select(lands, zero, low), b->t_low);
+    const REAL proposal = size * factor;
+    const REAL kept = REAL_MAX(b->h_next, proposal); /* a step cut short says nothing against the planned size */
+    REAL next = fst_wide_select(lands, kept, proposal);
+    const REAL bounded = -REAL_MAX(-next, -size);
+    next = fst_wide_select(WIDE_LESS(zero, b->rejections), bounded, next);
+    b->h_next = fst_wide_select(mask, next, b->h_next);
+}
+
+/* fst_flow_reject(); the lanes that give up. */
+static unsigned reject(batch *b, fst_wide_mask mask, REAL error, REAL factor)
+{
+    const REAL one = R(1.0), zero = R(0.0), infinity = R(INFINITY);
+    const fst_wide_mask finite = WIDE_LESS(REAL_ABS(error), infinity);
+    b->rejected = fst_wide_add_where(mask, b->rejected, one);
+    b->rejections = fst_wide_add_where(mask, b->rejections, one);
+    b->worst_error = fst_wide_select(mask, fst_wide_select(finite, error, infinity), b->worst_error);
+    const REAL attempt = b->step.h * fst_wide_select(finite, factor, R(0.1));
+    b->step.h = fst_wide_select(mask, attempt, b->step.h);
+    b->lands = fst_wide_select(mask, zero, b->lands);
+    const REAL least = R(1e-14) * (one + REAL_ABS(b->t_high));
+    const unsigned large = fst_wide_lanes_of(WIDE_LESS_EQUAL(least, REAL_ABS(attempt)));
+    const unsigned few = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->rejections, R(401.0)));
+    return fst_wide_lanes_of(mask) & ~(large & few);
+}
+
+static fst_lane_tries try_steps(void *memory)
 {
     batch *b = memory;
     FN(bead_step) *s = &b->step;
     FN(bead_try_step)(s);
-    b->error = FN(bead_step_error)(s, b->tolerance, b->absolute_tolerance);
-    b->factor = FN(step_factor)(b->error);
+    const REAL error = FN(bead_step_error)(s, b->tolerance, b->absolute_tolerance);
+    const REAL factor = FN(step_factor)(error);
     b->drift = FN(finish_step)(s);
-    REAL activity = REAL_ABS(s->k[12][0]);
-    for (int i = 1; i < FST_STATE_SIZE; ++i)
-        activity = REAL_MAX(REAL_ABS(s->k[12][i]), activity);
-    b->activity = activity;
-    return fst_wide_lanes_of(WIDE_LESS_EQUAL(b->error, R(1.0)));
+    fst_lane_tries tries;
+    tries.accepted = fst_wide_lanes_of(WIDE_LESS_EQUAL(error, R(1.0))) & b->in_use;
+    const unsigned rejected = b->in_use & ~tries.accepted;
+    tries.failed = 0;
+    accept(b, fst_wide_mask_of(tries.accepted), factor);
+    if (rejected)
+        tries.failed = reject(b, fst_wide_mask_of(rejected), error, factor);
+    tries.landed = tries.accepted & fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t_high));
+    return tries;
 }
 
 static void advance(void *memory, unsigned accepted)
@@ -165,15 +300,26 @@ static void advance(void *memory, unsigned accepted)
         to->force[i] = fst_wide_select(mask, from->force[i], to->force[i]);
     }
     to->strength = fst_wide_select(mask, from->strength, to->strength);
+#ifdef FIELD_KEEPS_GRADIENT
+    FN(gradient) *g = &to->gradient;
+    g->xx = fst_wide_select(mask, from->gradient.xx, g->xx);
+    g->yy = fst_wide_select(mask, from->gradient.yy, g->yy);
+    g->xy = fst_wide_select(mask, from->gradient.xy, g->xy);
+    g->xz = fst_wide_select(mask, from->gradient.xz, g->xz);
+    g->yz = fst_wide_select(mask, from->gradient.yz, g->yz);
+#endif
+    for (int i = 0; i < 2; ++i)
+        b->turns_before[i] = fst_wide_select(mask, b->turns[i], b->turns_before[i]);
+    plan(b, mask);
 }
 
 /* An event function f may cross zero in a step where its least value at the stages minus half their spread is
  * not positive (fst_flow_first_negative); for the edge, f = edge - r, the spread is taken at its greatest, r.
  */
-static unsigned may_end(const void *memory)
+static unsigned may_end(const batch *b)
 {
-    const FN(bead_step) *s = &((const batch *)memory)->step;
-    const REAL edge = ((const batch *)memory)->plate_radius;
+    const FN(bead_step) *s = &b->step;
+    const REAL edge = b->plate_radius;
     REAL least = R(INFINITY), greatest = R(-INFINITY), farthest2 = R(0.0);
     for (int n = 0; n < FST_PATH_STAGES; ++n) {
         const int j = FST_PATH_STAGE[n];
@@ -188,18 +334,78 @@ static unsigned may_end(const void *memory)
     return fst_wide_lanes_of(lifts) | fst_wide_lanes_of(leaves);
 }
 
+/* Go on with a winding from (x0, y0) to (x, y); the lanes where that is doubtful (base/winding.h). */
+static unsigned wind(REAL *turns, REAL x0, REAL y0, REAL x, REAL y)
+{
+    const REAL cross = x0 * y - y0 * x, zero = R(0.0), one = R(1.0);
+    const unsigned below0 = fst_wide_lanes_of(WIDE_LESS(y0, zero)), below = fst_wide_lanes_of(WIDE_LESS(y, zero));
+    const unsigned left = fst_wide_lanes_of(WIDE_LESS(zero, cross)), right = fst_wide_lanes_of(WIDE_LESS(cross, zero));
+    if ((below0 ^ below) & (left | right)) {
+        *turns = fst_wide_add_where(fst_wide_mask_of(~below0 & below & left), *turns, one);
+        *turns = fst_wide_add_where(fst_wide_mask_of(below0 & ~below & right), *turns, -one);
+    }
+    const REAL dx = x - x0, dy = y - y0, length2 = dx * dx + dy * dy;
+    const REAL along0 = x0 * dx + y0 * dy, along1 = x * dx + y * dy;
+    const unsigned an_end = fst_wide_lanes_of(WIDE_LESS(zero, along0)) | fst_wide_lanes_of(WIDE_LESS(along1, zero));
+    return ~an_end & fst_wide_lanes_of(WIDE_LESS(R(16.0) * (cross * cross), length2 * length2));
+}
+
+/* The plane in which phi turns, as in the quadrature. */
+static void small_phi_point(const REAL *y, REAL *u, REAL *w)
+{
+    *u = -y[FST_NZ] * REAL_SQRT(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y]);
+    *w = y[FST_X] * y[FST_NY] - y[FST_Y] * y[FST_NX];
+}
+
+static unsigned watch(void *memory, unsigned accepted, unsigned observed, unsigned *wandering)
+{
+    batch *b = memory;
+    const REAL *y = b->step.y, *end = b->step.end, zero = R(0.0);
+    REAL speed = REAL_ABS(b->step.k[12][0]);
+    for (int i = 1; i < FST_STATE_SIZE; ++i)
+        speed = REAL_MAX(REAL_ABS(b->step.k[12][i]), speed);
+    b->speed = speed;
+    unsigned eventful = may_end(b);
+    eventful |= fst_wide_lanes_of(WIDE_LESS_EQUAL(b->next_mark, b->t_high + R(1e-9) * b->step.h));
+    eventful |= fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t_high));
+    eventful |= fst_wide_lanes_of(WIDE_LESS_EQUAL(y[FST_X] * end[FST_X], zero));
+    b->turns[0] = b->turns_before[0];
+    b->turns[1] = b->turns_before[1];
+    eventful |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
+    if (observed) {
+        REAL u0, w0, u, w;
+        small_phi_point(y, &u0, &w0);
+        small_phi_point(end, &u, &w);
+        eventful |= wind(&b->turns[1], u0, w0, u, w) & observed;
+        b->turns[1] = fst_wide_select(fst_wide_mask_of(observed), b->turns[1], b->turns_before[1]);
+    }
+    const REAL *l = b->phi_least, *m = b->phi_most, margin = R(1e-12);
+    const REAL after_least = l[0] * end[FST_Y] - l[1] * end[FST_X];
+    const REAL before_most = end[FST_X] * m[1] - end[FST_Y] * m[0];
+    *wandering = accepted & ~fst_wide_lanes_of(WIDE_LESS(margin, -REAL_MAX(-after_least, -before_most)));
+    eventful &= accepted;
+    b->activity = fst_wide_select(fst_wide_mask_of(accepted & ~eventful), REAL_MAX(speed, b->activity), b->activity);
+    return eventful;
+}
+
+static unsigned past(const void *memory, unsigned accepted, const double *t)
+{
+    const batch *b = memory;
+    REAL wanted;
+    memcpy(&wanted, t, sizeof wanted);
+    return accepted & fst_wide_lanes_of(WIDE_LESS_EQUAL(wanted, b->t_high + R(1e-9) * b->step.h));
+}
+
 /* ------------------------------------------------------------------ observables */
 
 /* fst_twofold_add() of the last increments, in the lanes of `mask`. */
 static void add_increments(batch *b, fst_wide_mask mask)
 {
     for (int i = 0; i < FST_Q_COUNT; ++i) {
-        const REAL old = b->total_high[i], x = b->increment[i];
-        const REAL sum = old + x, part = sum - old;
-        const REAL error = (old - (sum - part)) + (x - part);
-        const REAL low = b->total_low[i] + error, high = sum + low;
-        b->total_low[i] = fst_wide_select(mask, low - (high - sum), b->total_low[i]);
-        b->total_high[i] = fst_wide_select(mask, high, old);
+        REAL high = b->total_high[i], low = b->total_low[i];
+        add_twofold(&high, &low, b->increment[i]);
+        b->total_low[i] = fst_wide_select(mask, low, b->total_low[i]);
+        b->total_high[i] = fst_wide_select(mask, high, b->total_high[i]);
     }
 }
 
@@ -215,7 +421,7 @@ static void see_stages(batch *b, fst_wide_mask before_window)
             b->r_reference = fst_wide_select(before_window, seen.r, b->r_reference);
             b->b_reference = fst_wide_select(before_window, seen.b_norm, b->b_reference);
         }
-        FN(integrands)(c, s->stage[j], &seen, b->r_reference, b->b_reference, b->integrands[n]);
+        FN(integrands)(c, s->stage[j], &s->context.pull[j], &seen, b->r_reference, b->b_reference, b->integrands[n]);
         b->tracked[n][FST_TRACK_R] = seen.r;
         b->tracked[n][FST_TRACK_B] = seen.b_norm;
         b->tracked[n][FST_TRACK_GAP] = seen.gap2;
@@ -277,9 +483,12 @@ const fst_lane_engine ENGINE = {
     .bytes = sizeof(batch),
     .view = view,
     .load = load,
+    .release = release,
     .try_steps = try_steps,
-    .may_end = may_end,
+    .watch = watch,
+    .past = past,
     .observe = observe,
     .advance = advance,
     .extract = extract,
+    .extract_clock = extract_clock,
 };

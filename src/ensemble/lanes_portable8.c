@@ -4,24 +4,6 @@
 #ifdef FST_HAVE_LANES
 #include "ode/path_stages.h"
 
-/* The bodies are compiled once more, for lanes. */
-#undef ENDS
-#undef ENDS_GROUPS
-#undef ENDS_OF
-#undef ENDS_SQRT
-#undef END
-#undef REAL
-#undef R
-#undef FN
-#undef REAL_SQRT
-#undef REAL_ABS
-#undef REAL_MAX
-#undef REAL_RECIPROCAL_SQRT
-#undef REAL_OF
-#undef REAL_MULADD
-#undef REAL_MULSUB
-#undef REAL_NEGMULADD
-
 #define FST_LANES 8
 
 #include "base/wide.h"

@@ -11,6 +11,92 @@
  * with B. G is symmetric and traceless: curl B = 0 and div B = 0.
  */
 
+#ifdef REAL_INVERSE_FIFTH
+/* Lanes with fused operations.  All that B and G need of a line's end are the moments S_m = sum of Y^m/|d|^5 with
+ * m = 0 to 3 over the lines, Y being the distance along y: |d|^2 = a + Y^2 with one a = X^2 + h^2 for an end, so
+ *
+ *     sum of 1/|d|^3 = a S_0 + S_2,        sum of Y/|d|^3 = a S_1 + S_3.
+ *
+ * So the whole gradient comes with B, and is kept for whoever needs it along another direction.  The other forms
+ * sum as below, in the order that their bits are known by.
+ */
+#define FIELD_KEEPS_GRADIENT
+
+typedef struct FN(gradient) {
+    REAL xx, yy, xy, xz, yz; /* zz = -(xx + yy) */
+} FN(gradient);
+
+typedef struct FN(moments) {
+    REAL across2, s0, s1, s2, s3;
+} FN(moments);
+
+static inline void FN(add_end)(FN(moments) * m, REAL dy, REAL dy2, REAL dy3)
+{
+    const REAL inverse5 = REAL_INVERSE_FIFTH(dy2 + m->across2);
+    m->s0 = m->s0 + inverse5;
+    m->s1 = REAL_MULADD(dy, inverse5, m->s1);
+    m->s2 = REAL_MULADD(dy2, inverse5, m->s2);
+    m->s3 = REAL_MULADD(dy3, inverse5, m->s3);
+}
+
+static inline void FN(add_line)(FN(moments) * plus, FN(moments) * minus, REAL dy)
+{
+    const REAL dy2 = dy * dy, dy3 = dy2 * dy;
+    FN(add_end)(plus, dy, dy2, dy3);
+    FN(add_end)(minus, dy, dy2, dy3);
+}
+
+/* B and the gradient at (x, y), at the height of the bead's centre. */
+static inline void FN(field_and_gradient)(const FN(coefficients) * c, REAL x, REAL y, REAL b[3],
+                                          FN(gradient) * g)
+{
+    const REAL h = c->height, zero = R(0.0), dx[2] = {x - R(1.0), x + R(1.0)};
+    FN(moments) p = {REAL_MULADD(dx[0], dx[0], h * h), zero, zero, zero, zero};
+    FN(moments) m = {REAL_MULADD(dx[1], dx[1], h * h), zero, zero, zero, zero};
+    REAL f = R(1.0);
+    if (c->lines == 5) { /* the paper's: straight on, and of strength 1 each */
+        FN(add_line)(&p, &m, REAL_MULADD(R(2.0), c->spacing, y));
+        FN(add_line)(&p, &m, y + c->spacing);
+        FN(add_line)(&p, &m, y);
+        FN(add_line)(&p, &m, y - c->spacing);
+        FN(add_line)(&p, &m, REAL_NEGMULADD(R(2.0), c->spacing, y));
+    } else {
+        REAL line = c->first_line;
+        for (int count = c->lines; count > 0; --count, line = line + R(1.0))
+            FN(add_line)(&p, &m, REAL_NEGMULADD(line, c->spacing, y));
+        f = c->line_strength;
+    }
+    const REAL h3 = R(3.0) * h * f, f3 = R(3.0) * f;
+    const REAL q_plus = REAL_MULADD(p.across2, p.s0, p.s2), q_minus = REAL_MULADD(m.across2, m.s0, m.s2);
+    const REAL yq_plus = REAL_MULADD(p.across2, p.s1, p.s3), yq_minus = REAL_MULADD(m.across2, m.s1, m.s3);
+    const REAL x_plus = dx[0] * p.s0, x_minus = dx[1] * m.s0;
+    const REAL q = f * (q_plus - q_minus);
+    b[0] = f * REAL_MULSUB(dx[0], q_plus, dx[1] * q_minus);
+    b[1] = f * (yq_plus - yq_minus);
+    b[2] = h * q;
+    g->xx = REAL_NEGMULADD(f3, REAL_MULSUB(dx[0], x_plus, dx[1] * x_minus), q);
+    g->yy = REAL_NEGMULADD(f3, p.s2 - m.s2, q);
+    g->xy = f3 * REAL_MULSUB(dx[1], m.s1, dx[0] * p.s1);
+    g->xz = h3 * (x_minus - x_plus);
+    g->yz = h3 * (m.s1 - p.s1);
+}
+
+static inline void FN(times_gradient)(const FN(gradient) * g, const REAL u[3], REAL gu[3])
+{
+    gu[0] = REAL_MULADD(g->xz, u[2], REAL_MULADD(g->xy, u[1], g->xx * u[0]));
+    gu[1] = REAL_MULADD(g->yz, u[2], REAL_MULADD(g->yy, u[1], g->xy * u[0]));
+    gu[2] = REAL_NEGMULADD(g->xx + g->yy, u[2], REAL_MULADD(g->yz, u[1], g->xz * u[0]));
+}
+
+/* B and G u at (x, y), at the height of the bead's centre. */
+static inline void FN(field_along)(const FN(coefficients) * c, REAL x, REAL y, const REAL u[3], REAL b[3],
+                                   REAL gu[3])
+{
+    FN(gradient) g;
+    FN(field_and_gradient)(c, x, y, b, &g);
+    FN(times_gradient)(&g, u, gu);
+}
+#else
 /* Sums over the lines, for the charges at the plus end and at the minus end: q = 1/|d|^3, Y q, t = 3
  * (d.u)/|d|^5 and Y t.  ENDS is a pair of REALs where a pair costs no more than one, else a REAL; END() picks
  * an end. */
@@ -21,13 +107,8 @@ typedef struct FN(line_sums) {
 static inline void FN(add_line)(FN(line_sums) * sum, ENDS across2, ENDS along, REAL dy, REAL dy2, REAL uy)
 {
     const ENDS distance2 = dy2 + across2;
-#ifdef ENDS_RECIPROCAL_SQRT
-    const ENDS inverse = ENDS_RECIPROCAL_SQRT(distance2), inverse2 = inverse * inverse;
-    const ENDS q = inverse2 * inverse;
-#else
     const ENDS inverse2 = R(1.0) / distance2; /* the division need not wait for the root */
     const ENDS q = (inverse2 * inverse2) * ENDS_SQRT(distance2);
-#endif
     const ENDS t = (q * inverse2) * REAL_MULADD(uy, dy, along);
     sum->q = sum->q + q;
     sum->yq = REAL_MULADD(dy, q, sum->yq);
@@ -64,6 +145,7 @@ static inline void FN(field_along)(const FN(coefficients) * c, REAL x, REAL y, c
     gu[1] = f * (u[1] * q - (END(sum, yt, 0) - END(sum, yt, 1)));
     gu[2] = f * (u[2] * q - h * (END(sum, t, 0) - END(sum, t, 1)));
 }
+#endif
 
 /* B and the whole gradient, for reading. */
 typedef struct FN(field_values) {

@@ -69,8 +69,8 @@ static inline REAL FN(energy)(const FN(coefficients) * c, const REAL *y, const F
 }
 
 /* `r0`, `b0`: reference values near the means, so that small deviations of r and |B| lose no digits. */
-static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, const FN(seen) * o, REAL r0,
-                                  REAL b0, REAL q[FST_Q_COUNT])
+static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p,
+                                  const FN(seen) * o, REAL r0, REAL b0, REAL q[FST_Q_COUNT])
 {
     q[FST_Q_R] = o->r;
     q[FST_Q_R2] = (o->r - r0) * (o->r - r0);
@@ -92,8 +92,8 @@ static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, con
     const REAL n_alpha = o->n[1] * inverse_sine, n_z = o->n[2] * inverse_sine;
     const REAL ex = o->cos_phi, ey = o->sin_phi;
     const REAL printed[3] = {-(n_alpha * ey), n_alpha * ex, n_z};
-    REAL b[3], g[3];
-    FN(field_along)(c, y[FST_X], y[FST_Y], printed, b, g);
+    REAL g[3];
+    FN(gradient_along)(c, y[FST_X], y[FST_Y], p, printed, g);
     q[FST_Q_FORCE_R_PRINTED] = c->hard * (g[0] * ex + g[1] * ey);
     q[FST_Q_EQ23] = c->hard / c->eps * (o->b[2] * n_alpha - o->b[1] * n_z);
     for (int i = 0; i < 3; ++i)

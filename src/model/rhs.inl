@@ -21,12 +21,34 @@
  * bead), and the strength s. */
 typedef struct FN(pull) {
     REAL b[3], force[3], strength;
+#ifdef FIELD_KEEPS_GRADIENT
+    FN(gradient) gradient;
+#endif
 } FN(pull);
+
+/* G u at the place (x, y) of a pull: of its gradient where that was kept, else by another pass. */
+static inline void FN(gradient_along)(const FN(coefficients) * c, REAL x, REAL y, const FN(pull) * p,
+                                      const REAL u[3], REAL gu[3])
+{
+#ifdef FIELD_KEEPS_GRADIENT
+    (void)c, (void)x, (void)y;
+    FN(times_gradient)(&p->gradient, u, gu);
+#else
+    (void)p;
+    REAL b[3];
+    FN(field_along)(c, x, y, u, b, gu);
+#endif
+}
 
 static inline void FN(magnetic_pull)(const FN(coefficients) * c, REAL x, REAL y, const REAL *n, FN(pull) * p)
 {
     REAL gn[3];
+#ifdef FIELD_KEEPS_GRADIENT
+    FN(field_and_gradient)(c, x, y, p->b, &p->gradient);
+    FN(times_gradient)(&p->gradient, n, gn);
+#else
     FN(field_along)(c, x, y, n, p->b, gn);
+#endif
     p->strength = c->hard;
     if (!c->magnetisable) {
         for (int i = 0; i < 3; ++i)
@@ -34,15 +56,14 @@ static inline void FN(magnetic_pull)(const FN(coefficients) * c, REAL x, REAL y,
         return;
     }
     p->strength = p->strength + c->twice_b * SUM_3(n[0], p->b[0], n[1], p->b[1], n[2], p->b[2]);
-    const REAL b[3] = {p->b[0], p->b[1], p->b[2]};
     REAL gb[3];
-    FN(field_along)(c, x, y, b, p->b, gb);
+    FN(gradient_along)(c, x, y, p, p->b, gb);
     for (int i = 0; i < 3; ++i)
         p->force[i] = p->strength * gn[i] + c->twice_a * gb[i];
 }
 
 /* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for whoever observes the state. */
-static inline void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy, FN(pull) * p)
+RHS_KIND void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy, FN(pull) * p)
 {
     const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX;
     FN(magnetic_pull)(c, y[FST_X], y[FST_Y], n, p);

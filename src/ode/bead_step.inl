@@ -24,9 +24,16 @@ typedef struct FN(bead) {
 static inline REAL FN(renormalise)(REAL *y)
 {
     REAL *n = y + FST_NX;
-    const REAL norm = REAL_SQRT(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const REAL norm2 = SUM_3(n[0], n[0], n[1], n[1], n[2], n[2]);
+#ifdef REAL_FAST_RECIPROCAL_SQRT
+    const REAL inverse = REAL_FAST_RECIPROCAL_SQRT(norm2), norm = norm2 * inverse;
+    for (int i = 0; i < 3; ++i)
+        n[i] = n[i] * inverse;
+#else
+    const REAL norm = REAL_SQRT(norm2);
     for (int i = 0; i < 3; ++i)
         n[i] = n[i] / norm;
+#endif
     return REAL_ABS(norm - R(1.0));
 }
 
@@ -63,7 +70,11 @@ static inline void FN(begin_steps)(FN(bead_step) * s)
  * within [1/6, 6]. */
 static inline REAL FN(step_factor)(REAL error)
 {
+#ifdef REAL_INVERSE_EIGHTH_ROOT
+    const REAL factor = R(0.9) * REAL_INVERSE_EIGHTH_ROOT(REAL_MAX(error, R(2.562890625e-7))); /* 0.15^8 */
+#else
     const REAL eighth = REAL_SQRT(REAL_SQRT(REAL_SQRT(error)));
     const REAL factor = R(0.9) / REAL_MAX(eighth, R(0.15));
+#endif
     return REAL_MAX(factor, R(1.0) / R(6.0));
 }

@@ -100,7 +100,7 @@ static inline REAL STEP_NAME(step_error)(const STEP_NAME(step) * s, REAL rtol, c
     REAL square5[STEP_DIM], square3[STEP_DIM];
     for (int i = 0; i < STEP_DIM; ++i) {
         const REAL weight =
-            R(1.0) / REAL_MULADD(rtol, REAL_MAX(REAL_ABS(s->y[i]), REAL_ABS(s->end[i])), atol[i]);
+            REAL_ROUGH_RECIPROCAL(REAL_MULADD(rtol, REAL_MAX(REAL_ABS(s->y[i]), REAL_ABS(s->end[i])), atol[i]));
         const REAL e5 = SUM_8(DOP_E5_1, K(1), DOP_E5_6, K(6), DOP_E5_7, K(7), DOP_E5_8, K(8), DOP_E5_9, K(9),
                               DOP_E5_10, K(10), DOP_E5_11, K(11), DOP_E5_12, K(12));
         const REAL e3 = s->slope[i] - (SUM_3(DOP_E3_1, K(1), DOP_E3_9, K(9), DOP_E3_12, K(12)));
@@ -114,7 +114,7 @@ static inline REAL STEP_NAME(step_error)(const STEP_NAME(step) * s, REAL rtol, c
         sum3 = sum3 + square3[i];
     }
     const REAL denominator = sum5 + R(0.01) * sum3;
-    return REAL_ABS(s->h) * sum5 / REAL_SQRT(REAL_OF(STEP_DIM) * denominator + R(1e-290));
+    return REAL_OVER_SQRT(REAL_ABS(s->h) * sum5, REAL_OF(STEP_DIM) * denominator + R(1e-290));
 }
 
 /* Coefficients of the dense output over a whole step of size h: from y0 to y1 with the derivatives k[0..15]

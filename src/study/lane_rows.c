@@ -9,6 +9,7 @@
  */
 #include "study/lane_rows.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,7 +21,6 @@ typedef struct lane {
     fst_run_state *run; /* NULL: idle */
     fst_row_job job;
     fst_run_options options;
-    int observed; /* its steps are taken into the integrals */
 } lane;
 
 typedef struct crew {
@@ -29,6 +29,8 @@ typedef struct crew {
     void *batch;
     fst_lane_view view;
     lane lanes[FST_MOST_LANES];
+    double observe_from[FST_MOST_LANES]; /* steps that end later are taken into the integrals */
+    unsigned observed, in_window;        /* lanes whose steps are, and those in their window */
     int occupied;
     fst_row_job waiting; /* a job whose model shares no batch with those at work */
     int has_waiting, no_more;
@@ -50,7 +52,9 @@ static void forget(crew *c, int l)
     fst_model_free(at->run->model);
     free(at->run);
     at->run = NULL;
-    c->view.h[l] = 0.0;
+    c->engine->release(c->batch, l);
+    c->observed &= ~bit(l);
+    c->in_window &= ~bit(l);
     c->occupied -= 1;
 }
 
@@ -64,6 +68,11 @@ static int fits(const crew *c, const fst_model *model)
                    a->gyroscopic_term_lost == b->gyroscopic_term_lost;
         }
     return 1;
+}
+
+static double next_mark(const fst_run_state *run)
+{
+    return run->t_discard + (double)run->next_period * run->drive_period;
 }
 
 typedef enum { BEGUN, REFUSED, FAILED } beginning;
@@ -90,10 +99,11 @@ static beginning begin(crew *c, int l, fst_status *status, fst_error *error)
         return refused ? REFUSED : FAILED;
     }
     at->run = run;
-    at->observed = !c->engine->fused;
     c->occupied += 1;
-    c->engine->load(c->batch, l, run->flow);
-    fst_flow_plan(run->flow, run->t_end);
+    c->engine->load(c->batch, l, run->flow, run->t_end);
+    c->view.next_mark[l] = next_mark(run);
+    /* In the fast form, integrals begin with the step that the discard ends in. */
+    c->observe_from[l] = c->engine->fused ? run->t_discard : -INFINITY;
     return BEGUN;
 }
 
@@ -184,17 +194,6 @@ static void keep_records(crew *c, int l, const fst_quadrature *q)
     }
 }
 
-/* Whether the last step is to be looked at closely, beside what the engine says. */
-static int is_eventful(const fst_run_state *run, const double *end, int observed)
-{
-    const fst_flow *flow = run->flow;
-    const double mark = run->t_discard + (double)run->next_period * run->drive_period;
-    const int side = (end[FST_X] > 0) - (end[FST_X] < 0);
-    return flow->t.high + 1e-9 * flow->attempt >= mark || flow->t.high >= run->t_end || side == 0 ||
-           side != run->returns.side || fst_winding_is_doubtful(&flow->phi, end[FST_X], end[FST_Y]) ||
-           (observed && fst_quadrature_phi_is_doubtful(&run->q, end));
-}
-
 /* Whether the orbit repeats itself so closely that later returns can raise no record by what counts (1e-6 after
  * hundreds of returns): the fast form then looks for extremes no more. */
 static int repeats(const fst_run_state *run)
@@ -211,76 +210,68 @@ static unsigned worth_tracking(const crew *c, unsigned beaten)
     return beaten;
 }
 
-/* Look at a lane's accepted step; 1 if its run is over. */
-static int watch(crew *c, int l, int eventful)
+/* A lane's state at the end of its step. */
+static void read_end(const crew *c, int l, double end[FST_STATE_SIZE])
 {
-    lane *at = &c->lanes[l];
-    fst_run_state *run = at->run;
-    fst_flow *flow = run->flow;
-    double end[FST_STATE_SIZE];
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         end[i] = c->view.end[i * c->engine->width + l];
-    eventful = eventful || is_eventful(run, end, at->observed);
-    if (eventful)
-        c->engine->extract(c->batch, l, &flow->step);
-    fst_flow_follow(flow, end);
-    if (at->observed)
-        fst_quadrature_follow(&run->q, flow, end);
-    if (!eventful) {
-        fst_run_watch_quietly(run, c->view.activity[l]);
-        return 0;
+}
+
+/* Tell the lanes between which directions Phi has stayed; where that is more than half a turn, or of no interest any
+ * more, they cannot or need not know. */
+static void keep_phi_range(crew *c, int l)
+{
+    const int width = c->engine->width;
+    const fst_run_state *run = c->lanes[l].run;
+    const double range = run->greatest_phi - run->least_phi;
+    const int known = range >= 0 && range < 3.0;
+    c->view.phi_least[l] = known ? cos(run->least_phi) : 0.0;
+    c->view.phi_least[width + l] = known ? sin(run->least_phi) : 0.0;
+    c->view.phi_most[l] = known ? cos(run->greatest_phi) : 0.0;
+    c->view.phi_most[width + l] = known ? sin(run->greatest_phi) : 0.0;
+}
+
+/* A step of which nothing but Phi's range is of interest. */
+static void watch_phi(crew *c, int l)
+{
+    fst_run_state *run = c->lanes[l].run;
+    if (!run->in_window || run->greatest_phi - run->least_phi > 7.0)
+        return;
+    double end[FST_STATE_SIZE];
+    read_end(c, l, end);
+    run->flow->phi = (fst_winding){(int64_t)c->view.turns[0][l], end[FST_X], end[FST_Y]};
+    fst_run_watch_quietly(run, 0.0);
+    keep_phi_range(c, l);
+}
+
+/* Look closely at a lane's accepted step; 1 if its run is over. */
+static int watch(crew *c, int l)
+{
+    fst_run_state *run = c->lanes[l].run;
+    fst_flow *flow = run->flow;
+    const int observed = (c->observed & bit(l)) != 0;
+    c->engine->extract(c->batch, l, &flow->step);
+    c->engine->extract_clock(c->batch, l, flow);
+    const double *y = flow->step.y;
+    flow->phi_start = (fst_winding){(int64_t)c->view.turns_before[0][l], y[FST_X], y[FST_Y]};
+    flow->phi = flow->phi_start;
+    fst_flow_follow(flow, flow->step.end);
+    if (observed) {
+        fst_quadrature_begin_phi(&run->q, y);
+        run->q.small_phi.turns = (int64_t)c->view.turns_before[1][l];
+        fst_quadrature_follow(&run->q, flow, flow->step.end);
     }
     extract_quadrature(c, l, &run->q);
+    run->activity = c->view.activity[l];
     const int over = fst_run_watch_step(run);
+    c->view.activity[l] = run->activity;
+    c->view.turns[0][l] = (double)flow->phi.turns;
+    c->view.turns[1][l] = (double)run->q.small_phi.turns;
+    c->view.next_mark[l] = next_mark(run);
+    c->in_window |= run->in_window ? bit(l) : 0;
     keep_records(c, l, &run->q);
+    keep_phi_range(c, l);
     return over || flow->t.high >= run->t_end;
-}
-
-/* Bookkeeping of the tries: time and step sizes.  Returns the lanes whose step counts; *failed those that gave
- * up. */
-static unsigned settle(crew *c, unsigned within, unsigned *failed)
-{
-    unsigned accepted = 0;
-    *failed = 0;
-    for (int l = 0; l < c->engine->width; ++l) {
-        if (!c->lanes[l].run)
-            continue;
-        fst_run_state *run = c->lanes[l].run;
-        fst_flow *flow = run->flow;
-        const double error = isfinite(c->view.error[l]) ? c->view.error[l] : INFINITY;
-        flow->rhs_calls += 11;
-        if (within & bit(l)) {
-            fst_flow_accept(flow, error, c->view.factor[l], c->view.drift[l], run->t_end);
-            accepted |= bit(l);
-        } else if (!fst_flow_reject(flow, error, c->view.factor[l])) {
-            *failed |= bit(l);
-        }
-    }
-    return accepted;
-}
-
-/* The lanes among `accepted` whose steps are taken into the integrals, and of these those in their window.  In
- * the fast form, integrals begin with the step that the discard ends in. */
-static unsigned observed_lanes(crew *c, unsigned accepted, unsigned *in_window)
-{
-    unsigned observed = 0;
-    *in_window = 0;
-    for (int l = 0; l < c->engine->width; ++l) {
-        lane *at = &c->lanes[l];
-        if (!(accepted & bit(l)))
-            continue;
-        const fst_flow *flow = at->run->flow;
-        if (!at->observed && flow->t.high + 1e-9 * flow->attempt >= at->run->t_discard) {
-            double start[FST_STATE_SIZE];
-            for (int i = 0; i < FST_STATE_SIZE; ++i)
-                start[i] = c->view.y[i * c->engine->width + l];
-            fst_quadrature_begin_phi(&at->run->q, start);
-            at->observed = 1;
-        }
-        observed |= at->observed ? bit(l) : 0;
-        *in_window |= at->run->in_window ? bit(l) : 0;
-    }
-    return observed;
 }
 
 static void conclude(crew *c, int l)
@@ -294,31 +285,30 @@ static void give_up(crew *c, int l)
     fst_flow *flow = c->lanes[l].run->flow;
     fst_error error = {FST_OK, "", ""};
     c->engine->extract(c->batch, l, &flow->step);
+    c->engine->extract_clock(c->batch, l, flow);
     finish(c, l, fst_flow_fail(flow, &error), &error);
 }
 
 static void step(crew *c)
 {
+    const fst_lane_tries tries = c->engine->try_steps(c->batch);
+    const unsigned accepted = tries.accepted;
+    c->observed |= c->engine->past(c->batch, accepted & ~c->observed, c->observe_from);
+    const unsigned observed = accepted & c->observed;
+    unsigned wandering, over = 0;
+    unsigned eventful = c->engine->watch(c->batch, accepted, observed, &wandering);
+    if (observed)
+        eventful |= worth_tracking(c, c->engine->observe(c->batch, observed, c->in_window) & c->in_window);
     for (int l = 0; l < c->engine->width; ++l)
-        c->view.h[l] = c->lanes[l].run ? c->lanes[l].run->flow->attempt : 0.0;
-    const unsigned within = c->engine->try_steps(c->batch);
-    unsigned failed, in_window, over = 0;
-    const unsigned accepted = settle(c, within, &failed);
-    const unsigned observed = observed_lanes(c, accepted, &in_window);
-    const unsigned beaten = observed ? c->engine->observe(c->batch, observed, in_window) & in_window : 0;
-    const unsigned eventful = c->engine->may_end(c->batch) | worth_tracking(c, beaten);
-    for (int l = 0; l < c->engine->width; ++l)
-        if (accepted & bit(l)) {
-            if (watch(c, l, (eventful & bit(l)) != 0))
-                over |= bit(l);
-            else
-                fst_flow_plan(c->lanes[l].run->flow, c->lanes[l].run->t_end);
-        }
+        if (eventful & bit(l))
+            over |= watch(c, l) ? bit(l) : 0;
+        else if (wandering & c->in_window & bit(l))
+            watch_phi(c, l);
     c->engine->advance(c->batch, accepted & ~over);
-    for (int l = 0; l < c->engine->width; ++l) {
+    for (int l = 0; (over | tries.failed) != 0 && l < c->engine->width; ++l) {
         if (over & bit(l))
             conclude(c, l);
-        else if (failed & bit(l))
+        else if (tries.failed & bit(l))
             give_up(c, l);
     }
 }

@@ -22,8 +22,9 @@ static void fill_stage(fst_quadrature *q, const fst_flow *flow, int stage, doubl
 {
     fst_seen_double seen;
     see_stage(flow, stage, &seen);
-    fst_integrands_double(&flow->step.context.coefficients, flow->step.stage[stage], &seen, q->r_reference,
-                          q->b_reference, q->stage[stage]);
+    fst_integrands_double(&flow->step.context.coefficients, flow->step.stage[stage],
+                          &flow->step.context.pull[stage], &seen, q->r_reference, q->b_reference,
+                          q->stage[stage]);
     if (!tracked)
         return;
     tracked[FST_TRACK_R] = seen.r;
