@@ -241,8 +241,13 @@ typedef struct fst_paper_options {
 FST_API fst_paper_options fst_default_paper_options(void);
 
 /* Compute what the paper shows, by both dynamics, and write paper.json, the figures and report.html into
- * `directory` (made if missing). */
+ * `directory` (made if missing).  After an interruption or a failure on the way they hold what was done until
+ * then, and say "complete": false. */
 FST_API fst_status fst_paper(const char *directory, const fst_paper_options *options, fst_error *error);
+
+/* The rules of the verdicts and the list of the paper's statements with their criteria, as Markdown; free() it,
+ * NULL: no memory. */
+FST_API char *fst_paper_statements_text(void);
 
 /* "gnuplot yes, hdf5 yes, ...": the optional parts and whether this build and machine have them. */
 FST_API const char *fst_tools_components(void);

@@ -191,10 +191,48 @@ MEASURE(greatest_radius_phi)
 
 MEASURE(halving)
 {
-    (void)snprintf(note, size,
-                   "where the straight line through ⟨n_z⟩² of settled S1 orbits below vanishes; "
-                   "festoon branch --kind counter locates it exactly");
+    const fst_paper_exact *exact = &paper->exact[dynamics];
+    double line = fst_paper_halving_line(paper, dynamics);
+    if (isfinite(exact->halving))
+        (void)snprintf(
+            note, size,
+            "the pitchfork of the periodic orbits, %.9f; without them, where a straight line through "
+            "⟨n_z⟩² of settled runs vanishes: %.5f",
+            exact->halving, line);
+    else
+        (void)snprintf(note, size,
+                       "where a straight line through ⟨n_z⟩² of settled runs vanishes; the orbits: %s",
+                       exact->missing);
     return fst_paper_halving_drive(paper, dynamics);
+}
+
+MEASURE(halving_branch)
+{
+    const fst_paper_exact *exact = &paper->exact[dynamics];
+    (void)snprintf(note, size, "%s", exact->missing);
+    return isfinite(exact->halving) ? (double)exact->criticality : NAN;
+}
+
+MEASURE(two_poles)
+{
+    const fst_paper_exact *exact = &paper->exact[dynamics];
+    (void)snprintf(note, size, "%s",
+                   exact->missing[0] ? exact->missing : "at the drive 0.02, above one pole and the other");
+    return exact->locked_minima;
+}
+
+MEASURE(onset)
+{
+    for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; i++) {
+        const fst_paper_run *run = &paper->scans[FST_SCAN_COMPARISON][dynamics][i];
+        if (!fst_paper_counter_rotates(run))
+            continue;
+        (void)snprintf(note, size,
+                       "first run from the rolling start that counter-rotates; they are a quarter of a "
+                       "hertz apart");
+        return run->result.frequency_hz;
+    }
+    return NAN;
 }
 
 MEASURE(corotation)

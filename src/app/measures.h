@@ -22,6 +22,9 @@ FST_MEASURE(least_radius)        /* omega = 0.4: least r */
 FST_MEASURE(least_radius_phi)    /* where in Phi, modulo half a turn, degrees from alignment */
 FST_MEASURE(greatest_radius_phi) /* where r is greatest, degrees */
 FST_MEASURE(halving)             /* omega of the period halving */
+FST_MEASURE(halving_branch)      /* 1: supercritical, -1: subcritical */
+FST_MEASURE(two_poles)           /* stable locked states at the slowest drive */
+FST_MEASURE(onset)               /* lowest frequency of counter-rotation, Hz */
 FST_MEASURE(corotation)          /* greatest frequency of corotation from rest, Hz */
 FST_MEASURE(irregular)           /* share of irregular runs between 7 and 10 Hz, % */
 FST_MEASURE(bell)                /* frequency of least |alpha'|, Hz */
@@ -33,10 +36,10 @@ FST_MEASURE(energy)              /* |<drive power> - <f.V>| over the latter, gre
 
 /* measures_motion.c */
 FST_MEASURE(turning_points)         /* share of the loss next to the turning points, % */
-FST_MEASURE(friction_follows_angle) /* correlation of |V| with the angle of n and B */
+FST_MEASURE(friction_follows_angle) /* squared correlation of |V| with the angle of n and B */
 FST_MEASURE(corner_nz)              /* |n_z| where r is greatest */
 FST_MEASURE(conjugate)              /* <n_z> from the conjugate start over <n_z> */
-FST_MEASURE(fluctuation)            /* delta r at omega = 0.215 over that at 0.4 */
+FST_MEASURE(fluctuation)            /* by how much delta r falls from omega = 0.215 to 0.4, % */
 FST_MEASURE(circling_estimate)      /* |alpha'| <r>/(eps omega) */
 FST_MEASURE(strict_corotation)      /* alpha'/omega at the slowest drive */
 FST_MEASURE(phase_lock)             /* chi = phi + Phi, degrees */
@@ -45,9 +48,8 @@ FST_MEASURE(rolling_on_average)     /* <V_alpha> over r alpha', % */
 FST_MEASURE(spin_share)             /* the spin's part of <V_r>, % */
 FST_MEASURE(dropped_part)           /* error of the printed magnetic term of Eq. (eq21), % */
 FST_MEASURE(asymptotic_rolling)     /* deviation from free rolling far beyond, % */
-FST_MEASURE(asymptotic_frequency)   /* log10 of the Hz at which friction is a tenth */
+FST_MEASURE(asymptotic_frequency)   /* Hz at which friction is a tenth */
 FST_MEASURE(halving_nz)             /* exponents at the period halving */
-FST_MEASURE(halving_p)
 FST_MEASURE(halving_relaxation)
 
 /* measures_theory.c */
@@ -57,9 +59,9 @@ FST_MEASURE(bead_radius)
 FST_MEASURE(orthoradial)         /* B_r over |B| near the maximum, % */
 FST_MEASURE(estimate_energy)     /* mu B0, 1e-4 J */
 FST_MEASURE(estimate_corotation) /* omega_c/2 pi, Hz */
-FST_MEASURE(estimate_moment)     /* log10 of A m^2 */
-FST_MEASURE(estimate_field)      /* log10 of T */
-FST_MEASURE(dry_friction_weight) /* log10 of 1/s */
+FST_MEASURE(estimate_moment)     /* A m^2 */
+FST_MEASURE(estimate_field)      /* T */
+FST_MEASURE(dry_friction_weight) /* 1/s */
 FST_MEASURE(dry_friction_pull)
 FST_MEASURE(corotation_beads) /* beads that stay on the corotating motion, % */
 FST_MEASURE(corotation_force) /* its mean radial force over the counter-rotating one */
@@ -68,7 +70,20 @@ FST_MEASURE(tondu) /* residuals of the identities */
 FST_MEASURE(friction_moment)
 FST_MEASURE(friction_on_centre)
 FST_MEASURE(friction_moment_sign)
+FST_MEASURE(rolling_identity)
 FST_MEASURE(remanence) /* kappa that a steel bead needs, % of the neodymium bead's */
+
+/* measures_field.c */
+FST_MEASURE(ball_mean)        /* change of B by averaging over the ball */
+FST_MEASURE(slow_pole)        /* distance of the slowest bead from the field's maximum */
+FST_MEASURE(slow_parallel)    /* its greatest angle of n and B, degrees */
+FST_MEASURE(slow_friction)    /* friction's power before the bead lets go over that at 10.7 Hz, % */
+FST_MEASURE(sine_law)         /* what is left of the averages beside sin(chi) and cos(chi) */
+FST_MEASURE(least_energy)     /* mean magnetic energy at chi = pi over that at 0 */
+FST_MEASURE(theta)            /* rms of n_r at omega = 0.4 */
+FST_MEASURE(steady_radius)    /* delta r/<r> at omega = 0.4 */
+FST_MEASURE(modulation)       /* squared correlation of r and the radial force */
+FST_MEASURE(friction_outside) /* friction's share of the forces near the maxima of r, % */
 
 #undef FST_MEASURE
 

@@ -96,7 +96,8 @@ MEASURE(friction_follows_angle)
         svv += v[i] * v[i];
         sav += a[i] * v[i];
     }
-    return (n * sav - sa * sv) / sqrt((n * saa - sa * sa) * (n * svv - sv * sv));
+    double together = n * sav - sa * sv;
+    return together * together / ((n * saa - sa * sa) * (n * svv - sv * sv));
 }
 
 MEASURE(corner_nz)
@@ -130,7 +131,7 @@ MEASURE(fluctuation)
     const fst_run_result *few = single(paper, FST_SCAN_FOLD4, dynamics);
     const fst_run_result *many = single(paper, FST_SCAN_FOLD15, dynamics);
     (void)snprintf(note, size, "δr = %.4f and %.4f", few->std_r, many->std_r);
-    return few->std_r / many->std_r;
+    return 100.0 * (1.0 - many->std_r / few->std_r);
 }
 
 MEASURE(circling_estimate)
@@ -208,20 +209,25 @@ MEASURE(dropped_part)
 
 MEASURE(asymptotic_rolling)
 {
-    double worst = 0.0, farthest = 0.0;
+    double worst = 0.0, where = 0.0, radius = 0.0;
     for (int i = 0; i < paper->counts[FST_SCAN_ASYMPTOTIC]; i++) {
         const fst_paper_run *run = &paper->scans[FST_SCAN_ASYMPTOTIC][dynamics][i];
         double eps = eps_of(run), rolling = -eps * run->result.omega / (run->result.mean_r - eps);
-        if (!fst_paper_counter_rotates(run))
+        double deviation = 100.0 * fabs(run->result.mean_alpha_dot / rolling - 1.0);
+        if (!fst_paper_counter_rotates(run) || deviation < worst)
             continue;
-        worst = fmax(worst, 100.0 * fabs(run->result.mean_alpha_dot / rolling - 1.0));
-        farthest = fmax(farthest, run->result.mean_r);
+        worst = deviation;
+        where = run->result.frequency_hz;
+        radius = run->result.mean_r;
     }
+    double gamma = fst_paper_single(paper, FST_SCAN_ASYMPTOTIC, dynamics)->params.friction_gamma;
+    double fold = paper->exact[dynamics].fold;
     (void)snprintf(
         note, size,
-        "greatest deviation of ⟨α′⟩ at the drives 2.5 and 3 (124 and 149 Hz); the bead circles ever further "
-        "out, at ⟨r⟩ = %.1f, far from the maxima where the formulas' orthoradial field is a fair picture",
-        farthest);
+        "deviation of ⟨α′⟩ at %.0f Hz, where ⟨r⟩ = %.2f; there is no limit ω to infinity: the bead circles "
+        "ever further out, and at ω = %.4f (%.0f Hz) the orbit ends in a fold, beyond which the magnet "
+        "no longer holds it",
+        where, radius, fold, fold * gamma / (2.0 * PI));
     return worst > 0.0 ? worst : NAN;
 }
 
@@ -235,7 +241,7 @@ MEASURE(asymptotic_frequency)
     }
     (void)snprintf(note, size,
                    "first drive of the fast scan at which friction is under a tenth of the magnetic term");
-    return isfinite(crossing) ? log10(crossing) : NAN;
+    return crossing;
 }
 
 /* ------------------------------------------------------------------ the period halving */
@@ -254,24 +260,14 @@ static double exponent(const fst_paper_state *paper, fst_dynamics dynamics, size
 
 MEASURE(halving_nz)
 {
-    (void)snprintf(note, size,
-                   "⟨n_z⟩² vanishes at ω = %.5f on a straight line; fitted over %d drives under it, but the "
-                   "nearest, where "
-                   "an error of the threshold tells most",
-                   fst_paper_halving_drive(paper, dynamics), FST_HALVING_BELOW - 2);
-    return exponent(paper, dynamics, offsetof(fst_halving_point, mean_nz), 0, FST_HALVING_BELOW - 2);
-}
-
-MEASURE(halving_p)
-{
     const fst_halving_point *points = paper->halving[dynamics].points;
     (void)snprintf(
         note, size,
-        "p from %.2f to %.2f: it is a ratio, so a linear term joins the square root at once, and the root "
-        "shows only nearer than this",
-        points[FST_HALVING_BELOW - 1].order, points[0].order);
-    enum { NEAREST = 4 };
-    return exponent(paper, dynamics, offsetof(fst_halving_point, order), FST_HALVING_BELOW - NEAREST, NEAREST);
+        "⟨n_z⟩² of settled runs vanishes at ω = %.5f on a straight line, the exponent is fitted with the "
+        "threshold of the orbits; p falls from %.1f to %.2f on the way: it is a ratio, in which a term "
+        "linear in n_z joins the square root at once",
+        fst_paper_halving_line(paper, dynamics), points[0].order, points[FST_HALVING_BELOW - 1].order);
+    return exponent(paper, dynamics, offsetof(fst_halving_point, mean_nz), 0, FST_HALVING_BELOW);
 }
 
 MEASURE(halving_relaxation)

@@ -57,7 +57,10 @@ fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_stage *stage, fs
     stage_in_work in_work = {paper, stage};
     fst_work work = {
         .user = &in_work, .count = stage->count, .piece = piece_of_stage, .progress = progress_of_stage};
-    return fst_parallel(&work, error);
+    fst_status status = fst_parallel(&work, error);
+    if (status == FST_OK && stage->step < FST_STEP_COUNT)
+        paper->done[stage->step] = 1;
+    return status;
 }
 
 /* ------------------------------------------------------------------ the whole */
@@ -84,6 +87,29 @@ static double seconds_now(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* All that is computed and drawn, in its order; figures come as soon as they can, so that an interruption
+ * leaves them. */
+static fst_status make_everything(fst_paper_state *paper, fst_error *error)
+{
+    fst_status status = fst_paper_make_runs(paper, error);
+    if (status == FST_OK)
+        status = fst_paper_draw_figures(paper, 0.45, 0.5, error);
+    if (status == FST_OK)
+        status = fst_paper_find_thresholds(paper, error);
+    if (status == FST_OK)
+        status = fst_paper_make_probes(paper, error);
+    if (status == FST_OK)
+        status = fst_paper_draw_figures(paper, 0.97, 1.0, error);
+    paper->complete = status == FST_OK;
+    return status;
+}
+
+static fst_status write_everything(const fst_paper_state *paper, fst_error *error)
+{
+    fst_status status = fst_paper_write_json(paper, error);
+    return status == FST_OK ? fst_paper_write_report(paper, error) : status;
+}
+
 fst_status fst_paper(const char *directory, const fst_paper_options *options, fst_error *error)
 {
     fst_paper_options defaults = fst_default_paper_options();
@@ -98,18 +124,16 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
     double began = seconds_now();
     fst_c_locale locale = fst_c_locale_enter();
     fst_paper_state paper = {.options = options, .directory = directory};
-    status = fst_paper_make_runs(&paper, error);
-    if (status == FST_OK)
-        status = fst_paper_make_probes(&paper, error);
-    if (status == FST_OK)
-        status = fst_paper_draw_figures(&paper, error);
-    paper.seconds = seconds_now() - began;
-    if (status == FST_OK && options->films)
-        status = fst_paper_make_films(&paper, error);
-    if (status == FST_OK)
-        status = fst_paper_write_json(&paper, error);
-    if (status == FST_OK)
-        status = fst_paper_write_report(&paper, error);
+    status = fst_paper_begin(&paper, error);
+    if (status == FST_OK) {
+        status = make_everything(&paper, error);
+        paper.seconds = seconds_now() - began;
+        if (status == FST_OK && options->films)
+            status = fst_paper_make_films(&paper, error);
+        /* What is there is written whatever happened; the first trouble is the one to tell of. */
+        fst_status written = write_everything(&paper, status == FST_OK ? error : NULL);
+        status = status == FST_OK ? written : status;
+    }
     if (status == FST_OK && options->summary)
         *options->summary = fst_paper_summary(&paper);
     fst_paper_free_runs(&paper);

@@ -15,6 +15,19 @@
 
 enum { FST_PAPER_DYNAMICS = 2 }; /* rigid and farago2020; indices are those of fst_dynamics */
 
+/* The work in the order in which it is done. */
+typedef enum {
+    FST_STEP_RUNS,
+    FST_STEP_EXACT,
+    FST_STEP_THRESHOLDS,
+    FST_STEP_HALVING,
+    FST_STEP_ANSATZ,
+    FST_STEP_SEARCH,
+    FST_STEP_BALANCES,
+    FST_STEP_REMANENCE,
+    FST_STEP_COUNT
+} fst_paper_step;
+
 /* What the runs of one group have in common. */
 typedef enum {
     FST_SCAN_COMPARISON, /* the range of the paper's Fig. comparison, from the rolling start */
@@ -29,7 +42,8 @@ typedef enum {
 } fst_scan;
 
 typedef struct fst_paper_run {
-    fst_params params;
+    int done;
+    fst_params params; /* set before the run is made */
     fst_run_result result;
     fst_table trajectory; /* of the scans that keep it, else empty */
 } fst_paper_run;
@@ -55,10 +69,13 @@ const char *fst_verdict_name(fst_verdict verdict);
 /* ------------------------------------------------------------------ probes */
 
 enum {
+    FST_TABLE1_ROWS = 5,
+    FST_MOST_FIGURES = 64,
     FST_HALVING_BELOW = 8, /* drives under the threshold, the nearest last */
     FST_HALVING_ABOVE = 6, /* and over it, the nearest first */
     FST_HALVING_POINTS = FST_HALVING_BELOW + FST_HALVING_ABOVE,
-    FST_HALVING_SHOWN = 400, /* values of r(t) in the figure's inset */
+    FST_HALVING_INSET = 5,   /* the drive whose r(t) the figure's inset shows, */
+    FST_HALVING_SHOWN = 400, /* in so many values */
     FST_ANSATZ_DRIVES = 4,
     FST_ANSATZ_STARTS = 16,
     FST_REMANENCE_DRIVES = 2,
@@ -66,9 +83,26 @@ enum {
     FST_BALANCE_CASES = 3
 };
 
+/* The drive at which a pattern of Table 1 closes exactly; NAN: nowhere on the stable branch. */
+typedef struct fst_paper_pattern {
+    double omega;
+    fst_symmetry symmetry;
+} fst_paper_pattern;
+
+/* Read off the branch of periodic orbits (paper_exact.c). */
+typedef struct fst_paper_exact {
+    fst_paper_pattern closed[FST_TABLE1_ROWS];
+    double halving;       /* the pitchfork; NAN: none found */
+    int criticality;      /* 1 supercritical, -1 subcritical */
+    double fold;          /* where the counter-rotating orbit ends; NAN: beyond the range */
+    double most_s1;       /* greatest N of stable S1 orbits */
+    double locked_minima; /* stable locked states at the drive 0.02 */
+    char missing[768];    /* why there is none of this, else "" */
+} fst_paper_exact;
+
 typedef struct fst_paper_halving {
     fst_halving_point points[FST_HALVING_POINTS];
-    double r[FST_HALVING_SHOWN]; /* r(t) at points[0], where p is large */
+    double r[FST_HALVING_SHOWN]; /* r(t) at points[FST_HALVING_INSET] */
 } fst_paper_halving;
 
 /* Beads set on the Appendix's corotating motion. */
@@ -79,10 +113,14 @@ typedef struct fst_paper_ansatz {
 /* ------------------------------------------------------------------ the whole */
 
 typedef struct fst_paper_state {
+    int done[FST_STEP_COUNT]; /* which steps are */
+    int complete;             /* all of them, and the figures */
     const fst_paper_options *options;
     const char *directory;
     int counts[FST_SCAN_COUNT];
+    int drawn[FST_MOST_FIGURES]; /* by the index of the figure */
     fst_paper_run *scans[FST_SCAN_COUNT][FST_PAPER_DYNAMICS];
+    fst_paper_exact exact[FST_PAPER_DYNAMICS];
     fst_paper_bracket changes[FST_CHANGE_COUNT][FST_PAPER_DYNAMICS];
     fst_paper_halving halving[FST_PAPER_DYNAMICS];
     fst_paper_ansatz ansatz[FST_PAPER_DYNAMICS][FST_ANSATZ_DRIVES][FST_ANSATZ_STARTS];
@@ -98,12 +136,24 @@ typedef struct fst_paper_stage {
     const char *what; /* for the progress */
     double from, to;
     int count;
+    fst_paper_step step; /* that is done with it */
     fst_status (*piece)(fst_paper_state *paper, int index, fst_error *error);
 } fst_paper_stage;
 fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_stage *stage, fst_error *error);
 
-/* Make all runs; the rest of the paper only reads them. */
+/* Is the step done, and are the runs of `scan` and of the scans that are made before it? */
+int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan scan);
+
+/* Fill paper->exact of the dynamics `index`; where LAPACK is missing, with the sentence that says so. */
+fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *error);
+/* All undefined, as before the search. */
+void fst_paper_exact_begin(fst_paper_exact *exact);
+
+/* Room for everything, with all parameters set and nothing done; then all runs, which the rest only reads. */
+fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error);
 fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error);
+/* The thresholds, by bisection (where the orbits do not give them). */
+fst_status fst_paper_find_thresholds(fst_paper_state *paper, fst_error *error);
 void fst_paper_free_runs(fst_paper_state *paper);
 
 /* Make the probes, for which the runs must be there (paper_stages.c). */
@@ -111,8 +161,10 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, fst_error *error);
 /* Drives and strengths of the probes. */
 extern const double fst_ansatz_drives[FST_ANSATZ_DRIVES], fst_remanence_drives[FST_REMANENCE_DRIVES],
     fst_remanence_strengths[FST_REMANENCE_STRENGTHS];
-/* The drive at which |<n_z>|^2, a straight line near the threshold, reaches zero; NAN: no halving was found. */
+/* The drive of the period halving: the pitchfork of the orbits where it is known, else where |<n_z>|^2, a
+ * straight line near the threshold, reaches zero (fst_paper_halving_line); NAN: no halving was found. */
 double fst_paper_halving_drive(const fst_paper_state *paper, fst_dynamics dynamics);
+double fst_paper_halving_line(const fst_paper_state *paper, fst_dynamics dynamics);
 
 /* The one run of a scan that has only one. */
 const fst_paper_run *fst_paper_single(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics);
@@ -127,10 +179,9 @@ int fst_paper_counter_rotates(const fst_paper_run *run);
 
 /* ------------------------------------------------------------------ Table 1 */
 
-enum { FST_TABLE1_ROWS = 5 };
-
 typedef struct fst_table1_row {
     double omega, published;
+    int count;       /* festoons of the pattern that the paper means */
     int published_a; /* 1: S1, 2: S2 */
 } fst_table1_row;
 extern const fst_table1_row fst_table1[FST_TABLE1_ROWS];
@@ -147,23 +198,38 @@ char *fst_paper_summary(const fst_paper_state *paper);
 
 /* ------------------------------------------------------------------ statements */
 
-/* How a number is held against what was published. */
-typedef enum { FST_TEST_WITHIN, FST_TEST_AT_MOST, FST_TEST_AT_LEAST, FST_TEST_SYMMETRY } fst_test;
+/* How the paper prints what it says, which decides how a value is held against it (paper_verdicts.c). */
+typedef enum {
+    FST_RULE_NUMBER,
+    FST_RULE_AT_MOST,
+    FST_RULE_MAGNITUDE,
+    FST_RULE_SMALL,
+    FST_RULE_NOTABLE,
+    FST_RULE_MOSTLY,
+    FST_RULE_EXACT,
+    FST_RULE_NEVER,
+    FST_RULE_SYMMETRY,
+    FST_RULE_COUNT
+} fst_rule;
+/* The rules in words: a name, what is printed, when it is reproduced, when close ("": never). */
+typedef struct fst_rule_words {
+    const char *name, *kind, *reproduced, *close;
+} fst_rule_words;
+extern const fst_rule_words fst_rules[FST_RULE_COUNT];
 
+/* A row of paper_statements.def, which tells what the fields are. */
 typedef struct fst_statement {
-    const char *id;
-    const char *section; /* of the paper */
-    const char *text;    /* what the paper says, in our words */
-    const char *said;    /* the published value in words; NULL: the number says it */
-    double published;    /* for FST_TEST_SYMMETRY 1 or 2 */
-    const char *unit;    /* "" for a pure number */
-    int digits;          /* after the point */
-    fst_test test;
-    double reproduced, close; /* bounds: of the distance for FST_TEST_WITHIN, else of the value */
+    const char *id, *section, *text, *said;
+    double published; /* for FST_RULE_SYMMETRY 1 or 2 */
+    double scale;
+    const char *unit; /* "" for a pure number */
+    int digits;
+    fst_rule rule;
     /* The number, NAN where there is none; `note` is for what else the reader should know (may stay empty). */
     double (*measure)(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size);
-    fst_scan scan;       /* the runs that it comes from */
-    const char *command; /* instead of the scan's command; NULL: that one */
+    fst_scan scan;
+    fst_paper_step step;
+    const char *command;
 } fst_statement;
 
 typedef struct fst_finding {
@@ -174,6 +240,8 @@ typedef struct fst_finding {
 
 int fst_statement_count(void);
 const fst_statement *fst_statement_at(int index);
+/* Is all there that the statement rests on? */
+int fst_statement_known(const fst_statement *statement, const fst_paper_state *paper);
 fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper);
 /* The criterion, and a value as people read it ("13.2 %", "S2", "none"). */
 void fst_statement_criterion(const fst_statement *statement, char *text, size_t size);
@@ -191,6 +259,7 @@ typedef struct fst_paper_figure {
     fst_status (*draw)(const fst_paper_state *paper, const struct fst_paper_figure *figure, const char *out,
                        fst_error *error);
     fst_figure_kind kind; /* of figures of a trajectory, and the next two also */
+    fst_paper_step step;  /* after which it can be drawn */
     const char *colour;
     int zoomed;            /* the upper right corner only */
     int plain;             /* without arrows */
@@ -207,7 +276,8 @@ int fst_paper_figure_verdict(const fst_paper_state *paper, const fst_paper_figur
 /* The command lines that draw it again. */
 void fst_paper_figure_command(const fst_paper_state *paper, const fst_paper_figure *figure, char *text,
                               size_t size);
-fst_status fst_paper_draw_figures(fst_paper_state *paper, fst_error *error);
+/* Draw every figure that can be drawn and was not; the progress goes from `from` to `to`. */
+fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to, fst_error *error);
 /* Figures of curves over the drive (paper_charts.c); see fst_paper_figure.draw. */
 fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_paper_figure *figure,
                                      const char *out, fst_error *error);

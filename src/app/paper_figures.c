@@ -1,6 +1,7 @@
 /* paper_figures.c - the table of the paper's figures. */
 #include "app/paper.h"
 
+#include "app/parallel.h"
 #include "base/error.h"
 
 #include <stdio.h>
@@ -64,8 +65,9 @@ static const fst_paper_figure figures[] = {
          "Ratio of successive swings of r, mean of n_z, and the time in which the motion settles, near the "
          "threshold; bottom: r(t) at the lowest drive, where the two swings differ.",
      .each = 1,
-     .statements = "halving|halving-root|halving-time",
+     .statements = "halving|halving-branch|halving-root|halving-time",
      .scan = FST_SCAN_COMPARISON,
+     .step = FST_STEP_HALVING,
      .draw = fst_paper_draw_supercritical},
     {.name = "remanence",
      .source = "section on the paramagnetic bead, carried on",
@@ -74,6 +76,7 @@ static const fst_paper_figure figures[] = {
                 "counter-rotates 600 turns of the magnet after a free-rolling start (rigid).",
      .statements = "remanence",
      .scan = FST_SCAN_COMPARISON,
+     .step = FST_STEP_REMANENCE,
      .draw = fst_paper_draw_remanence},
     {.name = "portrait",
      .source = "Fig. portrait",
@@ -100,8 +103,8 @@ static const fst_paper_figure figures[] = {
      .title = "How fast the bead circles",
      .caption = "The bead goes round with the magnet at low drives, and against it, more slowly, at high ones. "
                 "Lines: counter-rotation from the rolling start; circles: beads released at rest.",
-     .statements = "corotation|chaos|bell",
-     .scan = FST_SCAN_SLOW,
+     .statements = "corotation|onset|bell",
+     .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_dotal},
     {.name = "f4",
      .source = "Fig. f4",
@@ -129,6 +132,7 @@ static const fst_paper_figure figures[] = {
      .caption =
          "The same corner, coloured by the speed of the contact point, which friction is proportional to.",
      .each = 1,
+     .statements = "turning-points|friction-angle|friction-outside",
      .scan = FST_SCAN_FOLD4,
      .draw = draw_trajectory,
      .colour = "slip",
@@ -170,7 +174,7 @@ static const fst_paper_figure figures[] = {
          "Solid: mean angular velocities of the bead about the axis and of its moment; dashed: the paper's "
          "formulas for free rolling, with the mean radius of each run.",
      .statements = "rolling-alpha|rolling-phi",
-     .scan = FST_SCAN_FAST,
+     .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_test},
     {.name = "evolution",
      .source = "Fig. evolution",
@@ -184,6 +188,7 @@ static const fst_paper_figure figures[] = {
 };
 
 enum { FIGURE_ROWS = sizeof figures / sizeof figures[0] };
+_Static_assert(FST_PAPER_DYNAMICS *FIGURE_ROWS <= FST_MOST_FIGURES, "fst_paper_state.drawn is too short");
 
 int fst_paper_figure_count(void)
 {
@@ -228,8 +233,11 @@ int fst_paper_figure_verdict(const fst_paper_state *paper, const fst_paper_figur
     if (!figure->statements)
         return 0;
     for (int i = 0; i < fst_statement_count(); i++) {
-        if (!lists(figure->statements, fst_statement_at(i)->id))
+        const fst_statement *statement = fst_statement_at(i);
+        if (!lists(figure->statements, statement->id))
             continue;
+        if (!fst_statement_known(statement, paper))
+            return 0;
         fst_finding finding = fst_statement_check(fst_statement_at(i), paper);
         if (finding.verdict[dynamics] > *verdict)
             *verdict = finding.verdict[dynamics];
@@ -266,7 +274,7 @@ void fst_paper_figure_command(const fst_paper_state *paper, const fst_paper_figu
         (void)snprintf(text, size, "%s\ngnuplot %s.gp", run, figure->file);
 }
 
-static fst_status draw_piece(fst_paper_state *paper, int index, fst_error *error)
+static fst_status draw_one(fst_paper_state *paper, int index, fst_error *error)
 {
     fst_paper_figure figure = fst_paper_figure_at(index);
     char *out = fst_paper_path(paper, figure.file, "svg");
@@ -277,8 +285,38 @@ static fst_status draw_piece(fst_paper_state *paper, int index, fst_error *error
     return status;
 }
 
-fst_status fst_paper_draw_figures(fst_paper_state *paper, fst_error *error)
+typedef struct gallery {
+    fst_paper_state *paper;
+    int list[FST_MOST_FIGURES], count;
+    double from, to;
+} gallery;
+
+/* Each figure has its own place in `drawn`. */
+static fst_status draw_piece(void *user, int place, fst_error *error)
 {
-    fst_paper_stage stage = {"figures", 0.9, 1.0, fst_paper_figure_count(), draw_piece};
-    return fst_paper_do(paper, &stage, error);
+    const gallery *all = user;
+    int index = all->list[place];
+    fst_status status = draw_one(all->paper, index, error);
+    all->paper->drawn[index] = status == FST_OK;
+    return status;
+}
+
+static fst_status progress_of_gallery(void *user, int done, fst_error *error)
+{
+    const gallery *all = user;
+    const fst_paper_options *options = all->paper->options;
+    double fraction = all->from + (all->to - all->from) * done / all->count;
+    return options->progress ? options->progress(options->user, fraction, "figures", error) : FST_OK;
+}
+
+fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to, fst_error *error)
+{
+    gallery all = {.paper = paper, .from = from, .to = to};
+    for (int i = 0; i < fst_paper_figure_count(); i++) {
+        fst_paper_figure figure = fst_paper_figure_at(i);
+        if (!paper->drawn[i] && fst_paper_has(paper, figure.step, figure.scan))
+            all.list[all.count++] = i;
+    }
+    fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = progress_of_gallery};
+    return fst_parallel(&work, error);
 }

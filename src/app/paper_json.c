@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/whole_file.h"
+#include "io/json_parts.h"
 
 #include <jansson.h>
 #include <stdlib.h>
@@ -10,33 +11,56 @@
 static const char *const dynamics_names[FST_PAPER_DYNAMICS] = {
     [FST_DYNAMICS_RIGID] = "rigid", [FST_DYNAMICS_FARAGO2020] = "farago2020"};
 
-static json_t *number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 static json_t *symmetry(double a)
 {
     return isfinite(a) ? json_string(a < 1.5 ? "S1" : "S2") : json_null();
 }
 
+static json_t *closed_symmetry(const fst_paper_pattern *pattern)
+{
+    const char *name = isfinite(pattern->omega) ? fst_symmetry_name(pattern->symmetry) : NULL;
+    return name ? json_string(name) : json_null();
+}
+
+/* What the branch of periodic orbits says, and where it is missing, why. */
+static json_t *orbits_object(const fst_paper_state *paper)
+{
+    json_t *object = json_object();
+    for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; d--) {
+        const fst_paper_exact *exact = &paper->exact[d];
+        json_t *one = json_object();
+        json_object_set_new(one, "period_halving", fst_json_number(exact->halving));
+        json_object_set_new(one, "end_of_counter_rotation", fst_json_number(exact->fold));
+        json_object_set_new(one, "missing", exact->missing[0] ? json_string(exact->missing) : json_null());
+        json_object_set_new(object, dynamics_names[d], one);
+    }
+    return object;
+}
+
 static json_t *table1_array(const fst_paper_state *paper)
 {
     json_t *rows = json_array();
-    for (int row = 0; row < FST_TABLE1_ROWS; row++) {
+    int known = fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE);
+    for (int row = 0; row < FST_TABLE1_ROWS && known; row++) {
         json_t *object = json_object();
         json_object_set_new(object, "omega", json_real(fst_table1[row].omega));
         json_object_set_new(object, "published", json_real(fst_table1[row].published));
+        json_object_set_new(object, "count", json_integer(fst_table1[row].count));
         json_object_set_new(object, "published_symmetry", symmetry(fst_table1[row].published_a));
         for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; d--) {
             const fst_run_result *result = &paper->scans[FST_SCAN_TABLE][d][row].result;
             const char *name = fst_symmetry_name(result->symmetry), *dynamics = dynamics_names[d];
             char key[48];
-            json_object_set_new(object, dynamics, number(result->festoons));
+            json_object_set_new(object, dynamics, fst_json_number(result->festoons));
             (void)snprintf(key, sizeof key, "%s_symmetry", dynamics);
             json_object_set_new(object, key, name ? json_string(name) : json_null());
             (void)snprintf(key, sizeof key, "%s_deviation", dynamics);
-            json_object_set_new(object, key, number(fst_table1_deviation(paper, row, (fst_dynamics)d)));
+            json_object_set_new(object, key,
+                                fst_json_number(fst_table1_deviation(paper, row, (fst_dynamics)d)));
+            (void)snprintf(key, sizeof key, "%s_closes_at", dynamics);
+            json_object_set_new(object, key, fst_json_number(paper->exact[d].closed[row].omega));
+            (void)snprintf(key, sizeof key, "%s_closes_with", dynamics);
+            json_object_set_new(object, key, closed_symmetry(&paper->exact[d].closed[row]));
             (void)snprintf(key, sizeof key, "%s_verdict", dynamics);
             json_object_set_new(object, key,
                                 json_string(fst_verdict_name(fst_table1_verdict(paper, row, (fst_dynamics)d))));
@@ -59,6 +83,8 @@ static json_t *figures_array(const fst_paper_state *paper)
     json_t *array = json_array();
     for (int i = 0; i < fst_paper_figure_count(); i++) {
         fst_paper_figure figure = fst_paper_figure_at(i);
+        if (!paper->drawn[i])
+            continue;
         char file[64];
         (void)snprintf(file, sizeof file, "%s.svg", figure.file);
         json_t *object = json_object();
@@ -78,7 +104,7 @@ static json_t *figures_array(const fst_paper_state *paper)
 
 static json_t *statement_value(const fst_statement *statement, double value)
 {
-    return statement->test == FST_TEST_SYMMETRY ? symmetry(value) : number(value);
+    return statement->rule == FST_RULE_SYMMETRY ? symmetry(value) : fst_json_number(value);
 }
 
 static json_t *statements_array(const fst_paper_state *paper)
@@ -86,8 +112,10 @@ static json_t *statements_array(const fst_paper_state *paper)
     json_t *array = json_array();
     for (int i = 0; i < fst_statement_count(); i++) {
         const fst_statement *statement = fst_statement_at(i);
+        if (!fst_statement_known(statement, paper))
+            continue;
         fst_finding finding = fst_statement_check(statement, paper);
-        char criterion[160];
+        char criterion[320];
         fst_statement_criterion(statement, criterion, sizeof criterion);
         json_t *object = json_object();
         json_object_set_new(object, "id", json_string(statement->id));
@@ -134,8 +162,10 @@ fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error)
 {
     char *path = fst_paper_path(paper, "paper", "json");
     json_t *document = json_object();
+    json_object_set_new(document, "complete", json_boolean(paper->complete));
     json_object_set_new(document, "table1", table1_array(paper));
     json_object_set_new(document, "table1_criterion", json_string(FST_TABLE1_CRITERION));
+    json_object_set_new(document, "orbits", orbits_object(paper));
     json_object_set_new(document, "statements", statements_array(paper));
     json_object_set_new(document, "figures", figures_array(paper));
     json_object_set_new(document, "provenance", provenance_object(paper));

@@ -23,7 +23,7 @@ static const struct {
     [FST_SCAN_FOLD4] = {0.215, 0.215, 1, 1, "rolling", "128"},
     [FST_SCAN_FOLD15] = {0.4, 0.4, 1, 1, "rolling", "128"},
     [FST_SCAN_CONJUGATE] = {0.215, 0.215, 1, 1, "rolling", NULL},
-    [FST_SCAN_ASYMPTOTIC] = {2.5, 3.0, 2, 2, "rolling", NULL},
+    [FST_SCAN_ASYMPTOTIC] = {2.2, 2.3, 2, 2, "rolling", NULL},
 };
 
 /* Where a change of the motion is looked for: in which scan, and how many halvings refine it. */
@@ -81,16 +81,14 @@ static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_d
     return status;
 }
 
-static fst_status make_run(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, double omega,
-                           fst_paper_run *run, fst_error *error)
+static fst_status make_run(fst_scan scan, fst_paper_run *run, fst_error *error)
 {
-    fst_status status = scan_params(paper, scan, dynamics, omega, &run->params, error);
-    if (status != FST_OK)
-        return status;
-    if (scans[scan].samples)
-        return fst_collect_run(&run->params, &run->result, &run->trajectory, error);
     fst_run_options options = fst_default_run_options();
-    return fst_run(&run->params, &options, &run->result, error);
+    fst_status status = scans[scan].samples
+                            ? fst_collect_run(&run->params, &run->result, &run->trajectory, error)
+                            : fst_run(&run->params, &options, &run->result, error);
+    run->done = status == FST_OK;
+    return status;
 }
 
 void fst_paper_scan_command(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, char *text,
@@ -133,8 +131,7 @@ static fst_status scan_piece(fst_paper_state *paper, int index, fst_error *error
         if (index < here) {
             int point = index / FST_PAPER_DYNAMICS;
             fst_dynamics dynamics = index % FST_PAPER_DYNAMICS ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID;
-            return make_run(paper, (fst_scan)scan, dynamics, scan_omega(paper, (fst_scan)scan, point),
-                            &paper->scans[scan][dynamics][point], error);
+            return make_run((fst_scan)scan, &paper->scans[scan][dynamics][point], error);
         }
         index -= here;
     }
@@ -179,6 +176,10 @@ static fst_status find_change(fst_paper_state *paper, int index, fst_error *erro
     const fst_paper_run *runs = paper->scans[scan][dynamics];
     fst_paper_bracket *bracket = &paper->changes[change][dynamics];
     *bracket = (fst_paper_bracket){NAN, NAN};
+    if (change == FST_CHANGE_HALVING && isfinite(paper->exact[dynamics].halving)) {
+        bracket->low = bracket->high = paper->exact[dynamics].halving;
+        return FST_OK;
+    }
     int last = paper->counts[scan] - 2;
     while (last > 0 && !is_below(change, &runs[last].result))
         last--;
@@ -200,21 +201,57 @@ static fst_status find_change(fst_paper_state *paper, int index, fst_error *erro
 
 /* ------------------------------------------------------------------ together */
 
+static fst_status begin_scan(fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, fst_error *error)
+{
+    fst_paper_run *runs = calloc((size_t)paper->counts[scan], sizeof *runs);
+    paper->scans[scan][dynamics] = runs;
+    if (!runs)
+        return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d runs", paper->counts[scan]);
+    fst_status status = FST_OK;
+    for (int i = 0; i < paper->counts[scan] && status == FST_OK; i++)
+        status = scan_params(paper, scan, dynamics, scan_omega(paper, scan, i), &runs[i].params, error);
+    return status;
+}
+
+fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (int scan = 0; scan < FST_SCAN_COUNT; scan++)
+        paper->counts[scan] = paper->options->reduced ? scans[scan].reduced_count : scans[scan].count;
+    for (int d = 0; d < FST_PAPER_DYNAMICS && status == FST_OK; d++) {
+        fst_paper_exact_begin(&paper->exact[d]);
+        for (int scan = 0; scan < FST_SCAN_COUNT && status == FST_OK; scan++)
+            status = begin_scan(paper, (fst_scan)scan, (fst_dynamics)d, error);
+    }
+    return status;
+}
+
 fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error)
 {
-    for (int scan = 0; scan < FST_SCAN_COUNT; scan++) {
-        paper->counts[scan] = paper->options->reduced ? scans[scan].reduced_count : scans[scan].count;
-        for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
-            paper->scans[scan][dynamics] =
-                calloc((size_t)paper->counts[scan], sizeof *paper->scans[scan][dynamics]);
-            if (!paper->scans[scan][dynamics])
-                return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d runs", paper->counts[scan]);
-        }
-    }
-    fst_paper_stage runs = {"runs", 0.0, 0.5, piece_count(paper), scan_piece};
-    fst_paper_stage thresholds = {"thresholds", 0.5, 0.65, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, find_change};
-    fst_status status = fst_paper_do(paper, &runs, error);
-    return status == FST_OK ? fst_paper_do(paper, &thresholds, error) : status;
+    fst_paper_stage runs = {"runs", 0.0, 0.45, piece_count(paper), FST_STEP_RUNS, scan_piece};
+    return fst_paper_do(paper, &runs, error);
+}
+
+fst_status fst_paper_find_thresholds(fst_paper_state *paper, fst_error *error)
+{
+    fst_paper_stage exact = {"periodic orbits",   0.5, 0.6, FST_PAPER_DYNAMICS, FST_STEP_EXACT,
+                             fst_paper_find_exact};
+    fst_paper_stage changes_stage = {
+        "thresholds", 0.6, 0.65, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, FST_STEP_THRESHOLDS, find_change};
+    fst_status status = fst_paper_do(paper, &exact, error);
+    return status == FST_OK ? fst_paper_do(paper, &changes_stage, error) : status;
+}
+
+int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan scan)
+{
+    if (step != FST_STEP_RUNS && !paper->done[step])
+        return 0;
+    for (int s = scan; s < FST_SCAN_COUNT; s++)
+        for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
+            for (int i = 0; i < paper->counts[s]; i++)
+                if (!paper->scans[s][d] || !paper->scans[s][d][i].done)
+                    return 0;
+    return 1;
 }
 
 void fst_paper_free_runs(fst_paper_state *paper)

@@ -43,11 +43,18 @@ static fst_status halving_piece(fst_paper_state *paper, int index, fst_error *er
     double wider = paper->options->reduced ? 4.0 : 1.0;
     fst_params params = probe_params(dynamics, centre + wider * halving_offsets[point]);
     double periods = paper->options->reduced ? 700.0 : 1000.0;
-    return fst_probe_halving(&params, periods, &halving->points[point], point == 0 ? halving->r : NULL,
-                             point == 0 ? FST_HALVING_SHOWN : 0, error);
+    int shown = point == FST_HALVING_INSET;
+    return fst_probe_halving(&params, periods, &halving->points[point], shown ? halving->r : NULL,
+                             shown ? FST_HALVING_SHOWN : 0, error);
 }
 
 double fst_paper_halving_drive(const fst_paper_state *paper, fst_dynamics dynamics)
+{
+    double pitchfork = paper->exact[dynamics].halving;
+    return isfinite(pitchfork) ? pitchfork : fst_paper_halving_line(paper, dynamics);
+}
+
+double fst_paper_halving_line(const fst_paper_state *paper, fst_dynamics dynamics)
 {
     enum { NEAREST = 5 };
     double omega[NEAREST], square[NEAREST];
@@ -109,12 +116,14 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, fst_error *error)
     if (!paper->search)
         return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d starts", paper->search_count);
     const fst_paper_stage stages[] = {
-        {"period halving", 0.65, 0.70, FST_HALVING_POINTS * FST_PAPER_DYNAMICS, halving_piece},
-        {"rapid corotation", 0.70, 0.73, FST_PAPER_DYNAMICS * FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS,
-         ansatz_piece},
-        {"paramagnetic beads", 0.73, 0.82, paper->search_count, search_piece},
-        {"identities", 0.82, 0.83, FST_BALANCE_CASES, balance_piece},
-        {"remanence", 0.83, 0.9, FST_REMANENCE_DRIVES * FST_REMANENCE_STRENGTHS, remanence_piece},
+        {"period halving", 0.65, 0.72, FST_HALVING_POINTS * FST_PAPER_DYNAMICS, FST_STEP_HALVING,
+         halving_piece},
+        {"rapid corotation", 0.72, 0.75, FST_PAPER_DYNAMICS * FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS,
+         FST_STEP_ANSATZ, ansatz_piece},
+        {"paramagnetic beads", 0.75, 0.87, paper->search_count, FST_STEP_SEARCH, search_piece},
+        {"identities", 0.87, 0.88, FST_BALANCE_CASES, FST_STEP_BALANCES, balance_piece},
+        {"remanence", 0.88, 0.97, FST_REMANENCE_DRIVES * FST_REMANENCE_STRENGTHS, FST_STEP_REMANENCE,
+         remanence_piece},
     };
     fst_status status = FST_OK;
     for (size_t i = 0; i < sizeof stages / sizeof stages[0] && status == FST_OK; i++)

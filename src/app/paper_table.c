@@ -2,7 +2,7 @@
 #include "app/paper.h"
 
 const fst_table1_row fst_table1[FST_TABLE1_ROWS] = {
-    {0.21, 3.98, 1}, {0.25, 5.03, 1}, {0.2845, 5.99, 1}, {0.352, 13.98, 2}, {0.405, 14.96, 2}};
+    {0.21, 3.98, 4, 1}, {0.25, 5.03, 5, 1}, {0.2845, 5.99, 6, 1}, {0.352, 13.98, 14, 2}, {0.405, 14.96, 15, 2}};
 
 double fst_table1_deviation(const fst_paper_state *paper, int row, fst_dynamics dynamics)
 {

@@ -97,7 +97,7 @@ fst_status fst_search_params(int index, fst_params *params, fst_error *error)
     params->bead_material = FST_MATERIAL_PARAMAGNETIC;
     (void)snprintf(text, sizeof text, "%.6g", 0.02 * pow(100.0, halton(index, 2)));
     fst_status status = fst_params_set(params, "drive.omega", text, error);
-    params->bead_a = 3e-4 * pow(100.0, halton(index, 3));
+    params->bead_a = 1e-5 * pow(3000.0, halton(index, 3));
     params->start_r = 0.2 + 1.4 * halton(index, 5);
     params->start_phi = 360.0 * halton(index, 7);
     params->start_spin = halton(index, 11) < 0.75 ? FST_SPIN_ROLLING : FST_SPIN_REST;
@@ -107,7 +107,7 @@ fst_status fst_search_params(int index, fst_params *params, fst_error *error)
 
 fst_status fst_search_one(int index, fst_search_entry *entry, fst_error *error)
 {
-    enum { FIRST_PERIODS = 150, DOUBLINGS = 5 };
+    enum { FIRST_PERIODS = 150, DOUBLINGS = 10 };
     followed bead;
     fst_params params;
     fst_status status = fst_search_params(index, &params, error);
@@ -130,8 +130,8 @@ fst_status fst_search_one(int index, fst_search_entry *entry, fst_error *error)
 
 /* What is averaged, and what only its change counts of. */
 typedef struct moment_in_time {
-    double slip2, field_moment, friction_moment, friction_on_centre;
-    double energy, angular_momentum, kinetic_less_field;
+    double slip2, field_moment, friction_moment, friction_on_centre, crossed;
+    double energy, angular_momentum, kinetic_less_field, rolling_momentum;
 } moment_in_time;
 
 static void look(const followed *bead, moment_in_time *now)
@@ -154,38 +154,76 @@ static void look(const followed *bead, moment_in_time *now)
     now->energy = 0.5 * v2 + 0.2 * eps * eps * w2 - a * b2;
     now->angular_momentum = x * s[FST_VY] - y * s[FST_VX];
     now->kinetic_less_field = 0.5 * v2 - a * b2;
+    now->crossed = 0.4 * (s[FST_VX] * slip_y - s[FST_VY] * slip_x);
+    /* p = v - (2 eps/5) e x W is what friction leaves alone: dp/dt is the magnet's force. */
+    double p_x = s[FST_VX] + 0.4 * eps * s[FST_WY], p_y = s[FST_VY] - 0.4 * eps * s[FST_WX];
+    now->rolling_momentum = x * p_y - y * p_x;
+}
+
+/* Add `weight` times what is averaged. */
+static void accumulate(moment_in_time *sum, const moment_in_time *now, double weight)
+{
+    sum->slip2 += weight * now->slip2;
+    sum->field_moment += weight * now->field_moment;
+    sum->friction_moment += weight * now->friction_moment;
+    sum->friction_on_centre += weight * now->friction_on_centre;
+    sum->crossed += weight * now->crossed;
+}
+
+static fst_status look_at(followed *bead, double t, moment_in_time *now, fst_error *error)
+{
+    fst_stop stop;
+    fst_status status = fst_flow_advance(bead->flow, t, 1u << FST_STOP_TIME, &stop, error);
+    if (status == FST_OK)
+        look(bead, now);
+    return status;
+}
+
+/* Means over `panels` panels of length `panel` from t0 by Gauss's rule with five points, on which the flow
+ * lands. */
+static fst_status average(followed *bead, double t0, int panels, double panel, moment_in_time *mean,
+                          fst_error *error)
+{
+    static const double nodes[5] = {-0.90617984593866399280, -0.53846931010568309104, 0.0,
+                                    0.53846931010568309104, 0.90617984593866399280};
+    static const double weights[5] = {0.23692688505618908751, 0.47862867049936646804, 0.56888888888888888889,
+                                      0.47862867049936646804, 0.23692688505618908751};
+    *mean = (moment_in_time){0};
+    moment_in_time now;
+    fst_status status = FST_OK;
+    for (int i = 0; i < 5 * panels && status == FST_OK; i++) {
+        double t = t0 + panel * (i / 5 + 0.5 * (1.0 + nodes[i % 5]));
+        status = look_at(bead, t, &now, error);
+        if (status == FST_OK)
+            accumulate(mean, &now, 0.5 * weights[i % 5] / panels);
+    }
+    return status;
 }
 
 fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
                                    fst_balance balances[FST_BALANCE_COUNT], fst_error *error)
 {
-    enum { PARTS = 200 }; /* per drive period; Simpson's rule */
+    enum { PANELS = 60 }; /* per drive period */
     followed bead;
-    moment_in_time first = {0}, now = {0};
-    double slip2 = 0, moment = 0, friction_moment = 0, centre = 0;
-    int steps = 2 * (int)(0.5 * periods * PARTS);
+    moment_in_time first = {0}, mean = {0}, last = {0};
+    int panels = (int)ceil(periods * PANELS);
     fst_status status = begin(&bead, params, error);
-    double step = bead.period / PARTS, t0 = discard * bead.period;
-    for (int i = 0; i <= steps && status == FST_OK; i++) {
-        fst_stop stop;
-        status = fst_flow_advance(bead.flow, t0 + i * step, 1u << FST_STOP_TIME, &stop, error);
-        if (status != FST_OK)
-            break;
-        look(&bead, &now);
-        if (i == 0)
-            first = now;
-        double weight = (i == 0 || i == steps ? 1.0 : i % 2 ? 4.0 : 2.0) / (3.0 * steps);
-        slip2 += weight * now.slip2;
-        moment += weight * now.field_moment;
-        friction_moment += weight * now.friction_moment;
-        centre += weight * now.friction_on_centre;
-    }
-    double omega = bead.groups.omega, time = steps * step;
-    balances[FST_BALANCE_ENERGY] = (fst_balance){slip2, omega * moment, (now.energy - first.energy) / time};
+    double t0 = discard * bead.period, panel = bead.period / PANELS, time = panels * panel;
+    if (status == FST_OK)
+        status = look_at(&bead, t0, &first, error);
+    if (status == FST_OK)
+        status = average(&bead, t0, panels, panel, &mean, error);
+    if (status == FST_OK)
+        status = look_at(&bead, t0 + time, &last, error);
+    double omega = bead.groups.omega, field = mean.field_moment;
+    balances[FST_BALANCE_ENERGY] =
+        (fst_balance){mean.slip2, omega * field, (last.energy - first.energy) / time};
     balances[FST_BALANCE_MOMENT] =
-        (fst_balance){friction_moment, moment, (now.angular_momentum - first.angular_momentum) / time};
-    balances[FST_BALANCE_KINETIC] =
-        (fst_balance){centre, omega * moment, (now.kinetic_less_field - first.kinetic_less_field) / time};
+        (fst_balance){mean.friction_moment, field, (last.angular_momentum - first.angular_momentum) / time};
+    balances[FST_BALANCE_KINETIC] = (fst_balance){mean.friction_on_centre, omega * field,
+                                                  (last.kinetic_less_field - first.kinetic_less_field) / time};
+    balances[FST_BALANCE_ROLLING] =
+        (fst_balance){mean.crossed, field, (last.rolling_momentum - first.rolling_momentum) / time};
     end(&bead);
     return status;
 }

@@ -23,12 +23,12 @@ fst_status fst_fate_of(const fst_params *params, double periods, fst_fate *fate,
 
 /* ------------------------------------------------------------------ the search */
 
-/* Start `index` of the search, a point of Halton's sequence: drive 0.02 to 2 and strength a 3e-4 to 3e-2 (both
+/* Start `index` of the search, a point of Halton's sequence: drive 0.02 to 2 and strength a 1e-5 to 3e-2 (both
  * in logarithms), start at r 0.2 to 1.6 and any Phi, rolling or at rest. */
 fst_status fst_search_params(int index, fst_params *params, fst_error *error);
 
-/* What became of a start: beads that still circle against the magnet are followed on, up to 32 times as long,
- * for a weakly magnetised one forgets its start slowly. */
+/* What became of a start: beads that still circle against the magnet are followed on, up to 1024 times as long,
+ * for a weakly magnetised one forgets its start slowly (see docs/paper.md for the law). */
 typedef struct fst_search_entry {
     fst_fate first, last; /* after 150 drive periods, and in the end */
     double periods;       /* drive periods followed in all */
@@ -38,13 +38,14 @@ fst_status fst_search_one(int index, fst_search_entry *entry, fst_error *error);
 
 /* ------------------------------------------------------------------ the identities */
 
-/* The time means that the paper's three identities are about, over a window of the motion of a paramagnetic
- * bead. Over a finite window each lacks what the state's change adds; with it only the integration's error is
- * left. */
+/* The time means that the paper's three identities and a fourth are about, over a window of the motion of a
+ * paramagnetic bead. Over a finite window each lacks what the state's change adds; with it only the
+ * integration's error is left. */
 typedef enum {
     FST_BALANCE_ENERGY,  /* Eq. (tondu): <V_r^2 + V_alpha^2> = a omega <dB^2/dalpha> */
     FST_BALANCE_MOMENT,  /* Eq. (17): <r V_alpha> = a <dB^2/dalpha> */
     FST_BALANCE_KINETIC, /* <r' V_r + r alpha' V_alpha> = a omega <dB^2/dalpha> */
+    FST_BALANCE_ROLLING, /* beyond the paper: (2/5) <(v x V)_z> = a <dB^2/dalpha>, see docs/paper.md */
     FST_BALANCE_COUNT
 } fst_balance_kind;
 typedef struct fst_balance {

@@ -17,15 +17,23 @@ static void write_summary(FILE *out, const fst_paper_state *paper)
 {
     int tally[FST_PAPER_DYNAMICS][3] = {{0}};
     for (int i = 0; i < fst_statement_count(); i++) {
+        if (!fst_statement_known(fst_statement_at(i), paper))
+            continue;
         fst_finding finding = fst_statement_check(fst_statement_at(i), paper);
         for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
             tally[d][finding.verdict[d]]++;
     }
     int rows[FST_PAPER_DYNAMICS] = {0};
-    for (int row = 0; row < FST_TABLE1_ROWS; row++)
+    int known = fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE);
+    for (int row = 0; row < FST_TABLE1_ROWS && known; row++)
         for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
             rows[d] += fst_table1_verdict(paper, row, (fst_dynamics)d) == FST_VERDICT_REPRODUCED;
     fputs(fst_report_introduction, out);
+    if (!paper->complete)
+        fputs("<p class=\"incomplete\">Incomplete: this was interrupted. What was done until then is here; the "
+              "same "
+              "command makes the whole.</p>\n",
+              out);
     fputs("<div class=\"scroll\"><table><thead><tr><th></th><th>farago2020<br><small>as "
           "printed</small></th><th>rigid<br><small>exact</small></th></tr></thead><tbody>\n",
           out);
@@ -42,40 +50,73 @@ static void write_summary(FILE *out, const fst_paper_state *paper)
 
 /* ------------------------------------------------------------------ Table 1 */
 
+static void write_festoons(FILE *out, const fst_paper_state *paper, int row, fst_dynamics d)
+{
+    const fst_run_result *result = &paper->scans[FST_SCAN_TABLE][d][row].result;
+    const fst_paper_pattern *closed = &paper->exact[d].closed[row];
+    const char *symmetry = fst_symmetry_name(result->symmetry);
+    if (isfinite(result->festoons))
+        fprintf(out, "<td class=\"n\">%.3f <small>%s</small><br><small>%+.2f %%</small> ", result->festoons,
+                symmetry ? symmetry : fst_regime_name(result->regime),
+                100.0 * (result->festoons / fst_table1[row].published - 1.0));
+    else
+        fprintf(out, "<td class=\"n\">%s<br>", fst_regime_name(result->regime));
+    fst_report_badge(out, fst_table1_verdict(paper, row, d));
+    if (isfinite(closed->omega))
+        fprintf(out, "<br><small>%d at ω = %.9f</small></td>", fst_table1[row].count, closed->omega);
+    else
+        fprintf(out, "<br><small>%d: %s</small></td>", fst_table1[row].count,
+                paper->done[FST_STEP_EXACT] && !paper->exact[d].missing[0] ? "nowhere stable" : "not searched");
+}
+
+static void write_orbits_missing(FILE *out, const fst_paper_state *paper)
+{
+    for (int i = 0; i < FST_PAPER_DYNAMICS; i++) {
+        const fst_paper_exact *exact = &paper->exact[order[i]];
+        const char *name = order[i] == FST_DYNAMICS_RIGID ? "rigid" : "farago2020";
+        if (exact->missing[0]) {
+            fprintf(out, "<p class=\"fine\">No exact drives for %s: ", name);
+            fst_report_text(out, exact->missing);
+            fputs("</p>\n", out);
+        } else if (exact->most_s1 > 0.0) {
+            fprintf(out,
+                    "<p class=\"fine\">With %s the patterns of symmetry S1 have up to %.3f festoons: the "
+                    "period halves "
+                    "at ω = %.9f, and above it they have the symmetry S2.</p>\n",
+                    name, exact->most_s1, exact->halving);
+        }
+    }
+}
+
 static void write_table1(FILE *out, const fst_paper_state *paper)
 {
     char command[256];
+    if (!fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE))
+        return;
     fst_paper_scan_command(paper, FST_SCAN_TABLE, FST_DYNAMICS_FARAGO2020, command, sizeof command);
     fputs("<h2 id=\"table1\">Table 1: how many festoons?</h2>\n"
           "<p>In the laboratory the pattern closes when N = a(1 + ω/|⟨α′⟩|) is a whole number; a is 1 where "
           "the motion repeats after a full turn of the magnet (S1), 2 where half a turn is enough (S2). At "
-          "these five drives the paper finds patterns that close. Where only the symmetry differs, N is about "
-          "twice or half as large.</p>\n"
+          "these five drives the paper finds patterns that almost close. Where only the symmetry differs, N is "
+          "about "
+          "twice or half as large. The last line of each cell is the drive at which the pattern closes "
+          "exactly: a "
+          "periodic orbit found by Newton's method.</p>\n"
           "<div class=\"scroll\"><table><thead><tr><th>drive "
           "ω</th><th>published</th><th>farago2020</th><th>rigid</th></tr></thead><tbody>\n",
           out);
     for (int row = 0; row < FST_TABLE1_ROWS; row++) {
         fprintf(out, "<tr><td class=\"n\">%g</td><td class=\"n\">%.2f <small>S%d</small></td>",
                 fst_table1[row].omega, fst_table1[row].published, fst_table1[row].published_a);
-        for (int i = 0; i < FST_PAPER_DYNAMICS; i++) {
-            fst_dynamics d = order[i];
-            const fst_run_result *result = &paper->scans[FST_SCAN_TABLE][d][row].result;
-            const char *symmetry = fst_symmetry_name(result->symmetry);
-            if (isfinite(result->festoons))
-                fprintf(out, "<td class=\"n\">%.3f <small>%s</small><br><small>%+.2f %%</small> ",
-                        result->festoons, symmetry ? symmetry : fst_regime_name(result->regime),
-                        100.0 * (result->festoons / fst_table1[row].published - 1.0));
-            else
-                fprintf(out, "<td class=\"n\">%s<br>", fst_regime_name(result->regime));
-            fst_report_badge(out, fst_table1_verdict(paper, row, d));
-            fputs("</td>", out);
-        }
+        for (int i = 0; i < FST_PAPER_DYNAMICS; i++)
+            write_festoons(out, paper, row, order[i]);
         fputs("</tr>\n", out);
     }
-    fputs("</tbody></table></div>\n<p class=\"fine\">Criterion: " FST_TABLE1_CRITERION
-          ". Each number again:</p>",
-          out);
+    fputs("</tbody></table></div>\n", out);
+    write_orbits_missing(out, paper);
+    fputs("<p class=\"fine\">Criterion: " FST_TABLE1_CRITERION ". Each number again:</p>", out);
     fst_report_code(out, command);
+    fst_report_code(out, "festoon orbit --festoons 4 --set model.dynamics=farago2020   # and 5, 6, 14, 15");
 }
 
 /* ------------------------------------------------------------------ statements */
@@ -111,13 +152,37 @@ static void write_notes(FILE *out, const fst_finding *finding)
     fputs(".</p>", out);
 }
 
+/* The rules come before what they judge. */
+static void write_rules(FILE *out)
+{
+    fputs("<p id=\"rules\">One set of rules holds for all of them. It asks how the paper prints what it says, "
+          "not "
+          "what came out here:</p>\n<dl class=\"rules\">\n",
+          out);
+    for (int rule = 0; rule < FST_RULE_COUNT; rule++) {
+        fprintf(out, "<dt>%s: ", fst_rules[rule].name);
+        fst_report_text(out, fst_rules[rule].kind);
+        fputs("</dt><dd><b>reproduced:</b> ", out);
+        fst_report_text(out, fst_rules[rule].reproduced);
+        if (fst_rules[rule].close[0]) {
+            fputs("; <b>close:</b> ", out);
+            fst_report_text(out, fst_rules[rule].close);
+        }
+        fputs("</dd>\n", out);
+    }
+    fputs("</dl>\n", out);
+}
+
 static void write_statements(FILE *out, const fst_paper_state *paper)
 {
     fputs("<h2 id=\"statements\">The paper's statements, one by one</h2>\n", out);
+    write_rules(out);
     for (int i = 0; i < fst_statement_count(); i++) {
         const fst_statement *statement = fst_statement_at(i);
+        if (!fst_statement_known(statement, paper))
+            continue;
         fst_finding finding = fst_statement_check(statement, paper);
-        char text[256];
+        char text[320];
         fprintf(out, "<section class=\"card\" id=\"%s\"><p class=\"from\">", statement->id);
         fst_report_text(out, statement->section);
         fputs("</p><p>", out);
@@ -226,7 +291,8 @@ static fst_status write_all(FILE *out, const fst_paper_state *paper, fst_error *
     fputs("<h2 id=\"figures\">The figures</h2>\n<div class=\"figures\">\n", out);
     fst_status status = FST_OK;
     for (int i = 0; i < fst_paper_figure_count() && status == FST_OK; i++)
-        status = write_figure(out, paper, i, error);
+        if (paper->drawn[i])
+            status = write_figure(out, paper, i, error);
     fputs("</div>\n", out);
     write_statements(out, paper);
     write_regimes(out, paper);

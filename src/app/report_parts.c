@@ -29,6 +29,8 @@ const char fst_report_head[] =
     "sans-serif;white-space:nowrap}\n"
     ".reproduced{background:#d8efe3;color:#00573a}.close{background:#fdeccb;color:#6d4700}.not{background:#"
     "f9d9cf;color:#7d2600}\n"
+    ".incomplete{background:#fdeccb;padding:.5rem .8rem;border-radius:6px}\n"
+    ".rules dt{font-weight:600;margin-top:.5rem}.rules dd{margin:0 0 0 1rem;font-size:.9rem}\n"
     "nav a{margin-right:1rem;white-space:nowrap}a{color:#0064a0}\n"
     "</style></head>\n"
     "<body><main>\n";

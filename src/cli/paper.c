@@ -8,6 +8,8 @@ static const option options[] = {
     {"output", 'o', "DIR", "the directory for paper.json, the figures and report.html; made if missing"},
     {"reduced", '\0', NULL, "fewer points and shorter runs, for a quick look"},
     {"films", '\0', NULL, "make the supplement's two films as well (takes a minute more)"},
+    {"statements", '\0', NULL,
+     "compute nothing: print the paper's statements and what decides each verdict (Markdown)"},
     {"starts", '\0', "N", "starts of the search for a paramagnetic bead that counter-rotates (240)"},
     {NULL, '\0', NULL, NULL},
 };
@@ -17,8 +19,20 @@ static fst_status show(void *user, double fraction, const char *what, fst_error 
     return progress_show(user, fraction, what, error);
 }
 
+static fst_status list_statements(FILE *out, fst_error *error)
+{
+    char *text = fst_paper_statements_text();
+    if (!text)
+        return fail(error, FST_NO_MEMORY, "", "no memory for the list");
+    (void)fputs(text, out);
+    free(text);
+    return FST_OK;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
+    if (option_value(given, "statements"))
+        return list_statements(out, error);
     const char *directory = option_value(given, "output");
     if (!directory)
         return fail(error, FST_BAD_INPUT, "", "tell where the results go: -o DIR");
@@ -48,12 +62,14 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     free(summary);
     if (status == FST_OK)
         (void)fprintf(stderr, "wrote %s/report.html\n", directory);
+    else if (status == FST_INTERRUPTED)
+        (void)fprintf(stderr, "%s/report.html has what was done until then, marked incomplete\n", directory);
     return status;
 }
 
 const command paper_command = {
     .name = "paper",
-    .synopsis = "-o DIR [--reduced] [--films] [--starts N]",
+    .synopsis = "-o DIR [--reduced] [--films] [--starts N] | --statements",
     .summary = "Compute what the paper shows, and report it beside the published numbers",
     .details = "",
     .options = options,

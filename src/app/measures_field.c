@@ -1,0 +1,240 @@
+/* measures_field.c - statements about the field, and about the forces along a path. */
+#include "app/measures.h"
+
+#include "app/collect.h"
+
+#include <stdio.h>
+
+#define PI 3.14159265358979323846
+#define MEASURE(name)                                                                                          \
+    double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)
+#define NO_NOTE ((void)note, (void)size)
+
+static const fst_run_result *single(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
+{
+    return &fst_paper_single(paper, scan, dynamics)->result;
+}
+
+static fst_model *model_of(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
+{
+    fst_model *model = NULL;
+    return fst_model_new(&fst_paper_single(paper, scan, dynamics)->params, &model, NULL) == FST_OK ? model
+                                                                                                   : NULL;
+}
+
+/* ------------------------------------------------------------------ the field */
+
+/* Add weight times B(x, 0) at `up` above the bead's centre; the height is a parameter of the model. */
+static int add_field(const fst_params *scene, const double place[3], double weight, double sum[3])
+{
+    fst_params params = *scene;
+    fst_model *model = NULL;
+    double b[3], gradient[3][3];
+    params.model_h = (params.magnet_depth + params.bead_radius) / params.magnet_half_length + place[2];
+    if (fst_model_new(&params, &model, NULL) != FST_OK)
+        return 0;
+    fst_field(model, place[0], place[1], b, gradient);
+    fst_model_free(model);
+    for (int i = 0; i < 3; i++)
+        sum[i] += weight * b[i];
+    return 1;
+}
+
+/* The mean of B over the ball, on three shells by Gauss's rule in z (six points) and twelve points round: exact
+ * on each shell to the eleventh degree, and what follows falls as (eps/h)^12. */
+MEASURE(ball_mean)
+{
+    static const double zs[6] = {-0.932469514203152, -0.661209386466265, -0.238619186083197,
+                                 0.238619186083197,  0.661209386466265,  0.932469514203152};
+    static const double zw[6] = {0.171324492379170, 0.360761573048139, 0.467913934572691,
+                                 0.467913934572691, 0.360761573048139, 0.171324492379170};
+    static const double ss[3] = {0.112701665379258, 0.5, 0.887298334620742};
+    static const double sw[3] = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
+    const fst_params *p = &fst_paper_single(paper, FST_SCAN_FOLD4, dynamics)->params;
+    double eps = p->bead_radius / p->magnet_half_length, centre[3] = {0}, mean[3] = {0}, all = 0.0, off = 0.0;
+    const double place[3] = {0.9, 0.0, 0.0};
+    int good = add_field(p, place, 1.0, centre);
+    for (int i = 0; i < 3 * 6 * 12 && good; i++) {
+        double s = ss[i / 72], z = zs[i / 12 % 6], turn = 2.0 * PI * (i % 12) / 12.0;
+        double weight = sw[i / 72] * s * s * zw[i / 12 % 6], flat = s * eps * sqrt(1.0 - z * z);
+        const double here[3] = {0.9 + flat * cos(turn), flat * sin(turn), s * eps * z};
+        good = add_field(p, here, weight, mean);
+        all += weight;
+    }
+    for (int i = 0; i < 3; i++)
+        off += (mean[i] / all - centre[i]) * (mean[i] / all - centre[i]);
+    (void)snprintf(
+        note, size,
+        "no approximation: each component of B is harmonic, so that its mean over the ball is its value at "
+        "the centre (216 points of the ball at r = 0.9)");
+    return good ? sqrt(off / (centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2])) : NAN;
+}
+
+/* The magnetic averages of Eqs. (eq21), (eq22) and (eq23) on a circle of radius r for phi = -Phi + chi, and the
+ * mean of n.B. */
+static void averages(const fst_model *model, double r, double chi, double terms[4])
+{
+    enum { ANGLES = 256 };
+    for (int k = 0; k < 4; k++)
+        terms[k] = 0.0;
+    for (int i = 0; i < ANGLES; i++) {
+        double turn = 2.0 * PI * i / ANGLES, c = cos(turn), s = sin(turn), moment = chi - turn, b[3], g[3][3];
+        fst_field(model, r * c, r * s, b, g);
+        const double n[3] = {-sin(moment) * s, sin(moment) * c, -cos(moment)};
+        for (int k = 0; k < 3; k++) {
+            terms[0] += n[k] * (g[k][0] * c + g[k][1] * s) / ANGLES;
+            terms[1] += n[k] * r * (g[k][1] * c - g[k][0] * s) / ANGLES;
+            terms[3] += n[k] * b[k] / ANGLES;
+        }
+        terms[2] += ((b[1] * c - b[0] * s) * cos(moment) + b[2] * sin(moment)) / ANGLES;
+    }
+}
+
+MEASURE(sine_law)
+{
+    fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
+    double amplitude[4], quarter[4], now[4], worst = 0.0, r = single(paper, FST_SCAN_FOLD15, dynamics)->mean_r;
+    if (!model)
+        return NAN;
+    averages(model, r, 0.0, amplitude);
+    averages(model, r, 0.5 * PI, quarter);
+    for (int i = 0; i < 24; i++) {
+        double chi = 2.0 * PI * i / 24.0 + 0.1;
+        averages(model, r, chi, now);
+        worst = fmax(worst, fabs(now[0] - amplitude[0] * cos(chi)) / fabs(amplitude[0]));
+        for (int k = 1; k < 3; k++)
+            worst = fmax(worst, fabs(now[k] - quarter[k] * sin(chi)) / fabs(quarter[k]));
+    }
+    fst_model_free(model);
+    (void)snprintf(note, size, "on the circle r = %.3f, 24 phases χ", r);
+    return worst;
+}
+
+MEASURE(least_energy)
+{
+    NO_NOTE;
+    fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
+    double at_pi[4], at_zero[4], r = single(paper, FST_SCAN_FOLD15, dynamics)->mean_r;
+    if (!model)
+        return NAN;
+    averages(model, r, PI, at_pi);
+    averages(model, r, 0.0, at_zero);
+    fst_model_free(model);
+    /* The energy is -n.B: -1 says that it changes its sign, and is negative at pi if n.B is positive there. */
+    return at_pi[3] > 0.0 ? at_pi[3] / at_zero[3] : NAN;
+}
+
+/* ------------------------------------------------------------------ corotation */
+
+MEASURE(slow_pole)
+{
+    const fst_paper_run *run = &paper->scans[FST_SCAN_SLOW][dynamics][0];
+    double maximum =
+        0.5e-3 * fst_measure_maxima_distance(paper, dynamics, note, size) / run->params.magnet_half_length;
+    (void)snprintf(note, size, "at the drive %g: r = %.4f, the maximum lies at %.4f", run->result.omega,
+                   run->result.mean_r, maximum);
+    return fabs(run->result.mean_r - maximum);
+}
+
+MEASURE(slow_parallel)
+{
+    NO_NOTE;
+    return paper->scans[FST_SCAN_SLOW][dynamics][0].result.max_angle_deg;
+}
+
+MEASURE(slow_friction)
+{
+    double power = NAN, hertz = NAN;
+    for (int i = 0; i < paper->counts[FST_SCAN_SLOW]; i++) {
+        const fst_run_result *result = &paper->scans[FST_SCAN_SLOW][dynamics][i].result;
+        if (result->regime != FST_REGIME_LOCKED)
+            break;
+        power = result->mean_friction_power;
+        hertz = result->frequency_hz;
+    }
+    (void)snprintf(
+        note, size,
+        "locked at %.1f Hz; no magnetic torque acts along n, so that the spin about it takes whatever value "
+        "brings the contact to rest: a locked bead rolls, whatever the friction law",
+        hertz);
+    return 100.0 * power / single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
+}
+
+/* ------------------------------------------------------------------ the assumptions of section 5 */
+
+MEASURE(theta)
+{
+    const fst_table *table = &fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory;
+    const double *n_r = fst_collected(table, "n_r");
+    double sum = 0.0;
+    for (size_t i = 0; i < table->rows; i++)
+        sum += n_r[i] * n_r[i];
+    (void)snprintf(note, size, "it is what Eq. (eq21) lacks: see the exact magnetic term");
+    return sqrt(sum / (double)table->rows);
+}
+
+MEASURE(steady_radius)
+{
+    NO_NOTE;
+    const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
+    return result->std_r / result->mean_r;
+}
+
+/* The magnet's force on the bead of a sample, along the axes of the turning frame. */
+static void pull_at(const fst_model *model, const fst_table *table, size_t row, double pull[2])
+{
+    double b[3], g[3][3];
+    fst_groups groups = fst_model_groups(model);
+    const double n[3] = {fst_collected(table, "nX")[row], fst_collected(table, "nY")[row],
+                         fst_collected(table, "nZ")[row]};
+    fst_field(model, fst_collected(table, "X")[row], fst_collected(table, "Y")[row], b, g);
+    for (int i = 0; i < 2; i++)
+        pull[i] = groups.kappa * groups.eps * groups.eps * (n[0] * g[0][i] + n[1] * g[1][i] + n[2] * g[2][i]);
+}
+
+MEASURE(modulation)
+{
+    const fst_table *table = &fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory;
+    fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
+    const double *r = fst_collected(table, "r"), *x = fst_collected(table, "X"), *y = fst_collected(table, "Y");
+    double n = (double)table->rows, sr = 0, sf = 0, srr = 0, sff = 0, srf = 0;
+    for (size_t row = 0; model && row < table->rows; row++) {
+        double pull[2];
+        pull_at(model, table, row, pull);
+        double radial = (pull[0] * x[row] + pull[1] * y[row]) / r[row];
+        sr += r[row];
+        sf += radial;
+        srr += r[row] * r[row];
+        sff += radial * radial;
+        srf += r[row] * radial;
+    }
+    fst_model_free(model);
+    double together = n * srf - sr * sf,
+           squared = together * together / ((n * srr - sr * sr) * (n * sff - sf * sf));
+    (void)snprintf(note, size, "correlation %+.2f of r with the radial force, outwards positive",
+                   together > 0.0 ? sqrt(squared) : -sqrt(squared));
+    return squared;
+}
+
+/* Over the samples with r in the topmost tenth of its range. */
+MEASURE(friction_outside)
+{
+    const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD4, dynamics);
+    const fst_table *table = &run->trajectory;
+    fst_model *model = model_of(paper, FST_SCAN_FOLD4, dynamics);
+    const double *r = fst_collected(table, "r"), *slip = fst_collected(table, "slip");
+    double limit = run->result.max_r - 0.1 * (run->result.max_r - run->result.min_r), friction = 0.0, all = 0.0;
+    double inside_friction = 0.0, inside_all = 0.0;
+    for (size_t row = 0; model && row < table->rows; row++) {
+        double pull[2];
+        pull_at(model, table, row, pull);
+        double force = hypot(pull[0], pull[1]);
+        *(r[row] > limit ? &friction : &inside_friction) += slip[row];
+        *(r[row] > limit ? &all : &inside_all) += slip[row] + force;
+    }
+    fst_model_free(model);
+    (void)snprintf(note, size,
+                   "|V| over |V| + |F|, where r is in the topmost tenth of its range; elsewhere %.0f %%",
+                   100.0 * inside_friction / inside_all);
+    return 100.0 * friction / all;
+}
