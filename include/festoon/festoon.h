@@ -411,7 +411,13 @@ typedef struct fst_locked_list {
 FST_API fst_status fst_locked_find(const fst_params *params, fst_locked_list *list, fst_error *error);
 FST_API void fst_locked_free(fst_locked_list *list);
 
-typedef enum { FST_BRANCH_COUNTER, FST_BRANCH_LOCKED } fst_branch_kind;
+typedef enum {
+    FST_BRANCH_COUNTER, /* the counter-rotating family */
+    FST_BRANCH_LOCKED,  /* every family of equilibria */
+    FST_BRANCH_ALL /* these, and the orbits that are born at their Hopf points, with all that leaves them */
+} fst_branch_kind;
+/* "counter", "locked", "all" */
+FST_API const char *fst_branch_kind_name(fst_branch_kind kind);
 typedef enum {
     FST_SPECIAL_FOLD,
     FST_SPECIAL_PITCHFORK,
@@ -448,6 +454,8 @@ typedef struct fst_special {
 typedef struct fst_branch_end {
     int branch;
     int family; /* the branch from which it was born, or -1 */
+    int image;  /* the branch on which the images of its states under S2 lie: its own number where it is its own
+                 * image, another one, or -1: there is such a branch, which is not listed */
     double value;
     char reason[192];
 } fst_branch_end;
@@ -489,8 +497,8 @@ typedef struct fst_branch_options {
 FST_API fst_branch_options fst_default_branch_options(void);
 
 /* Follow the counter-rotating family (the S2 branch both ways, the S1 branches that leave it, through r = 0 and
- * beyond), or every family of equilibria, over a parameter; or the curves of special points over two.  Free it
- * with fst_branch_free(). */
+ * beyond), or every family of equilibria, or all of it, over a parameter; or the curves of special points over
+ * two.  Free it with fst_branch_free(). */
 FST_API fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options,
                                      fst_branch *branch, fst_error *error);
 FST_API void fst_branch_free(fst_branch *branch);

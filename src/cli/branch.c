@@ -7,7 +7,9 @@
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
-    {"kind", '\0', "KIND", "counter: the counter-rotating family; locked: every family of equilibria"},
+    {"kind", '\0', "KIND",
+     "counter: the counter-rotating family; locked: every family of equilibria; all: these with the orbits "
+     "born there"},
     {"over", '\0', "KEY=LO:HI", "the parameter and its range, as in drive.omega=0.2:3"},
     {"with", '\0', "KEY=LO:HI", "a second parameter and its range: the curves of special points over both"},
     {"follow", '\0', "TYPE", "which: fold, pitchfork, period-doubling, hopf, neimark-sacker, origin-crossing"},
@@ -84,11 +86,16 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
     *o = fst_default_branch_options();
     const char *kind = option_value(given, "kind"), *over = option_value(given, "over");
     const char *tolerance = option_value(given, "tolerance"), *step = option_value(given, "step");
-    if (!kind || (strcmp(kind, "counter") != 0 && strcmp(kind, "locked") != 0))
-        return fail(error, FST_BAD_INPUT, "--kind", "tell which: --kind counter or --kind locked");
+    int found = 0;
+    for (int k = FST_BRANCH_COUNTER; kind && k <= FST_BRANCH_ALL; k++)
+        if (strcmp(kind, fst_branch_kind_name((fst_branch_kind)k)) == 0) {
+            o->kind = (fst_branch_kind)k;
+            found = 1;
+        }
+    if (!found)
+        return fail(error, FST_BAD_INPUT, "--kind", "tell which: --kind counter, --kind locked or --kind all");
     if (!over)
         return fail(error, FST_BAD_INPUT, "--over", "tell over what: --over drive.omega=0.2:3");
-    o->kind = strcmp(kind, "locked") == 0 ? FST_BRANCH_LOCKED : FST_BRANCH_COUNTER;
     fst_status status = read_range("--over", over, keys[0], &o->from, &o->to, error);
     o->key = keys[0];
     if (status == FST_OK)
@@ -184,7 +191,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 const command branch_command = {
     .name = "branch",
     .synopsis =
-        "[SCENE.yaml] [--set KEY=VALUE]... --kind counter|locked --over KEY=LO:HI [-o FILE.json] [--json]",
+        "[SCENE.yaml] [--set KEY=VALUE]... --kind counter|locked|all --over KEY=LO:HI [-o FILE.json] [--json]",
     .summary = "Follow families of orbits or locked states over a parameter, with their bifurcations",
     .details =
         "counter: the symmetric counter-rotating branch both ways through the range, and the branches that\n"

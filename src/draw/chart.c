@@ -91,7 +91,7 @@ static void write_marks(fst_figure_file *figure, const fst_chart *chart, int top
 static void write_curves(fst_figure_file *figure, const fst_chart_panel *panel, int number)
 {
     static const char *const styles[] = {[FST_CURVE_LINE] = "lines lw 2",
-                                         [FST_CURVE_DASHED] = "lines dt 2 lw 2",
+                                         [FST_CURVE_DASHED] = "lines dt (6,5) lw 2",
                                          [FST_CURVE_POINTS] = "points pt 7 ps 0.6",
                                          [FST_CURVE_OPEN_POINTS] = "points pt 6 ps 0.7 lw 1.2"};
     for (int c = 0; c < panel->curve_count; c++) {
@@ -132,6 +132,8 @@ fst_status fst_figure_chart(const char *out, const fst_chart *chart, fst_error *
                   "set lmargin at screen %.4f\n"
                   "set rmargin at screen %.4f\n",
                   chart->x_low, chart->x_high, 104.0 / width, 1.0 - (two ? 92.0 : 24.0) / width);
+    if (chart->square)
+        (void)fputs("set size ratio -1\n", script);
     double head = (chart->x2_label ? HEAD_HEIGHT : HEAD_HEIGHT - 70) / (double)height;
     double each = (1.0 - head - FOOT_HEIGHT / (double)height) / chart->panel_count;
     for (int p = 0; p < chart->panel_count; p++) {

@@ -37,6 +37,7 @@ typedef struct fst_chart {
     const char *x2_label; /* a second abscissa on top, x2 = x2_factor x; NULL: none */
     double x2_factor;
     int width, height; /* pixels; 0: as usual */
+    int square;        /* one unit is as long on both axes */
     const fst_chart_panel *panels;
     int panel_count;
     const fst_chart_mark *marks;

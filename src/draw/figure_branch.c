@@ -8,7 +8,12 @@
 #include "base/error.h"
 #include "draw/chart.h"
 
-enum { CIRCLE = 181, SPECIAL_TYPES = FST_SPECIAL_ORIGIN_CROSSING + 1, CURVES = SPECIAL_TYPES + 4 };
+enum {
+    CIRCLE = 181,
+    CIRCLE_SIZE = 680,
+    SPECIAL_TYPES = FST_SPECIAL_ORIGIN_CROSSING + 1,
+    CURVES = SPECIAL_TYPES + 4
+};
 
 static const struct observable {
     const char *name, *label;
@@ -60,19 +65,52 @@ static void put(columns *c, double x, double y)
     c->y[c->count++] = y;
 }
 
-/* The pieces of one stability, a gap between them; a piece begins at the last point of the other kind. */
+/* Where between two neighbours the stability changes: at the special point there, if one is known; else half
+ * way.  A fold lies a little beyond both, so the search reaches out by their distance. */
+static void put_border(columns *c, const fst_branch *b, const fst_branch_point *p, const fst_branch_point *q,
+                       const struct observable *what)
+{
+    const double x = 0.5 * (p->value + q->value), reach = 1.5 * fabs(p->value - q->value) + 1e-9;
+    const double r = 0.5 * (p->mean_r + q->mean_r), reach_r = 1.5 * fabs(p->mean_r - q->mean_r) + 1e-6;
+    const fst_special *best = NULL;
+    for (size_t i = 0; i < b->special_count; i++) {
+        const fst_special *s = &b->specials[i];
+        if (s->type != FST_SPECIAL_ORIGIN_CROSSING && fabs(s->value - x) < reach &&
+            fabs(s->at.mean_r - r) < reach_r && (!best || fabs(s->value - x) < fabs(best->value - x)))
+            best = s;
+    }
+    if (best)
+        put(c, best->value, value_of(&best->at, what));
+    else
+        put(c, x, 0.5 * (value_of(p, what) + value_of(q, what)));
+}
+
+/* Whether a branch would be drawn over the one whose image under S2 it is: <n_z> and Phi tell them apart. */
+static int is_hidden(const fst_branch *b, const struct observable *what, int branch)
+{
+    if (strcmp(what->name, "mean_nz") == 0 || strcmp(what->name, "phi_deg") == 0)
+        return 0;
+    for (size_t i = 0; i < b->end_count; i++)
+        if (b->ends[i].branch == branch && b->ends[i].image >= 0 && b->ends[i].image < branch)
+            return 1;
+    return 0;
+}
+
+/* The pieces of one stability, a gap between them. */
 static void put_pieces(columns *c, const fst_branch *b, const struct observable *what, int stable)
 {
     for (size_t i = 0; i < b->point_count; i++) {
-        const fst_branch_point *p = &b->points[i], *before = i > 0 ? p - 1 : NULL;
-        const int joined = before && before->branch == p->branch;
-        if (p->stable == stable) {
-            if (joined && before->stable != stable)
-                put(c, before->value, value_of(before, what));
-            put(c, p->value, value_of(p, what));
-        }
-        const int goes_on = i + 1 < b->point_count && p[1].branch == p->branch && p[1].stable == stable;
-        if (!goes_on && p->stable == stable)
+        const fst_branch_point *p = &b->points[i];
+        const int joined = i > 0 && p[-1].branch == p->branch;
+        const int goes_on = i + 1 < b->point_count && p[1].branch == p->branch;
+        if (p->stable != stable || is_hidden(b, what, p->branch))
+            continue;
+        if (joined && p[-1].stable != stable)
+            put_border(c, b, p - 1, p, what);
+        put(c, p->value, value_of(p, what));
+        if (goes_on && p[1].stable != stable)
+            put_border(c, b, p, p + 1, what);
+        if (!goes_on || p[1].stable != stable)
             put(c, NAN, NAN);
     }
 }
@@ -81,7 +119,8 @@ static void put_multipliers(columns *c, const fst_branch *b, int stable)
 {
     for (size_t i = 0; i < b->point_count; i++)
         for (int k = 0; k < b->points[i].multipliers; k++)
-            if (b->points[i].stable == stable)
+            if (b->points[i].stable == stable &&
+                (b->kind == FST_BRANCH_LOCKED || b->points[i].multipliers == FST_MULTIPLIER_COUNT))
                 put(c, b->points[i].multiplier_re[k], b->points[i].multiplier_im[k]);
 }
 
@@ -118,7 +157,7 @@ static int add_diagram(const fst_branch *b, const struct observable *what, colum
 
 static int add_circle(const fst_branch *b, columns *c, fst_chart_curve *curves)
 {
-    for (int i = 0; i < CIRCLE && b->kind == FST_BRANCH_COUNTER; i++)
+    for (int i = 0; i < CIRCLE && b->kind != FST_BRANCH_LOCKED; i++)
         put(&c[2], cos(2.0 * 3.14159265358979323846 * i / (CIRCLE - 1)),
             sin(2.0 * 3.14159265358979323846 * i / (CIRCLE - 1)));
     put_multipliers(&c[0], b, 1);
@@ -171,17 +210,19 @@ fst_status fst_figure_branch(const fst_branch *branch, const char *observable, c
                                                                             : what->label;
         const fst_chart_panel panel = {.left_label = label,
                                        .left_colour = FST_COLOUR_BLACK,
-                                       .low = NAN,
-                                       .high = NAN,
-                                       .key = branch->kind == FST_BRANCH_LOCKED ? "top right" : "bottom right",
+                                       .low = circle ? -1.2 : NAN,
+                                       .high = circle ? 1.2 : NAN,
+                                       .key = branch->kind != FST_BRANCH_COUNTER ? "top right" : "bottom right",
                                        .curves = curves,
                                        .curve_count = count};
-        const fst_chart chart = {.title = circle ? "multipliers along the branch" : title,
+        const fst_chart chart = {.title = circle ? "multipliers along the branch, where they are less than 1.2"
+                                                 : title,
                                  .x_label = circle ? "real part" : branch->key,
                                  .x_low = circle ? -1.2 : fmin(branch->from, branch->to),
                                  .x_high = circle ? 1.2 : fmax(branch->from, branch->to),
-                                 .width = circle ? 760 : 0,
-                                 .height = circle ? 560 : 0,
+                                 .square = circle,
+                                 .width = circle ? CIRCLE_SIZE : 0,
+                                 .height = circle ? CIRCLE_SIZE : 0,
                                  .panels = &panel,
                                  .panel_count = 1};
         status = fst_figure_chart(out, &chart, error);

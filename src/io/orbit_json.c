@@ -160,9 +160,14 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
         json_object_set_new(end, "born_on", e->family >= 0 ? json_integer(e->family) : json_null());
         json_object_set_new(end, "value", fst_json_number(e->value));
         json_object_set_new(end, "reason", json_string(e->reason));
+        if (!branch->second_key[0])
+            json_object_set_new(end, "image_under_s2",
+                                e->image == e->branch ? json_string("itself")
+                                : e->image >= 0       ? json_integer(e->image)
+                                                      : json_string("not listed"));
         json_array_append_new(ends, end);
     }
-    json_object_set_new(object, "kind", json_string(branch->kind == FST_BRANCH_COUNTER ? "counter" : "locked"));
+    json_object_set_new(object, "kind", json_string(fst_branch_kind_name(branch->kind)));
     json_object_set_new(object, "parameter", json_string(branch->key));
     json_object_set_new(object, "from", fst_json_number(branch->from));
     json_object_set_new(object, "to", fst_json_number(branch->to));
@@ -267,12 +272,23 @@ static void read_special(const json_t *object, fst_special *s)
     read_point(json_object_get(object, "at"), &s->at);
 }
 
+/* What the figures need of an end: which branch is the image of which. */
+static void read_end(const json_t *object, fst_branch_end *end)
+{
+    const json_t *image = json_object_get(object, "image_under_s2");
+    memset(end, 0, sizeof *end);
+    end->branch = (int)json_integer_value(json_object_get(object, "branch"));
+    end->value = json_number_value(json_object_get(object, "value"));
+    end->image = json_is_integer(image) ? (int)json_integer_value(image) : end->branch;
+}
+
 fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *error)
 {
     json_error_t why;
     memset(branch, 0, sizeof *branch);
     json_t *object = json_load_file(path, 0, &why);
-    const json_t *points = json_object_get(object, "points"), *specials = json_object_get(object, "specials");
+    const json_t *points = json_object_get(object, "points"), *specials = json_object_get(object, "specials"),
+                 *ends = json_object_get(object, "ends");
     const char *key = json_string_value(json_object_get(object, "parameter"));
     if (!object || !json_is_array(points) || !json_is_array(specials) || !key) {
         const fst_status status =
@@ -282,7 +298,9 @@ fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *erro
         return status;
     }
     const char *kind = json_string_value(json_object_get(object, "kind"));
-    branch->kind = kind && strcmp(kind, "locked") == 0 ? FST_BRANCH_LOCKED : FST_BRANCH_COUNTER;
+    for (int k = FST_BRANCH_COUNTER; kind && k <= FST_BRANCH_ALL; k++)
+        if (strcmp(kind, fst_branch_kind_name((fst_branch_kind)k)) == 0)
+            branch->kind = (fst_branch_kind)k;
     branch->from = json_number_value(json_object_get(object, "from"));
     branch->to = json_number_value(json_object_get(object, "to"));
     (void)snprintf(branch->key, sizeof branch->key, "%s", key);
@@ -295,8 +313,9 @@ fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *erro
     }
     branch->points = calloc(json_array_size(points) + 1, sizeof *branch->points);
     branch->specials = calloc(json_array_size(specials) + 1, sizeof *branch->specials);
+    branch->ends = calloc(json_array_size(ends) + 1, sizeof *branch->ends);
     fst_status status = FST_OK;
-    if (!branch->points || !branch->specials) {
+    if (!branch->points || !branch->specials || !branch->ends) {
         fst_branch_free(branch);
         status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     } else {
@@ -304,6 +323,8 @@ fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *erro
             read_point(json_array_get(points, i), &branch->points[branch->point_count++]);
         for (size_t i = 0; i < json_array_size(specials); i++)
             read_special(json_array_get(specials, i), &branch->specials[branch->special_count++]);
+        for (size_t i = 0; i < json_array_size(ends); i++)
+            read_end(json_array_get(ends, i), &branch->ends[branch->end_count++]);
     }
     json_decref(object);
     return status;

@@ -16,6 +16,12 @@ const char *fst_special_name(fst_special_type type)
     return (unsigned)type < sizeof names / sizeof *names ? names[type] : "unknown";
 }
 
+const char *fst_branch_kind_name(fst_branch_kind kind)
+{
+    static const char *const names[] = {"counter", "locked", "all"};
+    return (unsigned)kind < sizeof names / sizeof *names ? names[kind] : "unknown";
+}
+
 fst_branch_options fst_default_branch_options(void)
 {
     fst_branch_options o;
@@ -144,6 +150,38 @@ static fst_status take_special(void *user, fst_special_type type, const fst_node
 
 /* ------------------------------------------------------------------ following */
 
+/* Whether an orbit lies on a branch that was followed, by its numbers: its first state may be any.  -1: on
+ * none.
+ */
+static int orbit_branch(const fst_branch *out, const fst_branch_point *seen)
+{
+    for (size_t i = 0; i + 1 < out->point_count; ++i) {
+        const fst_branch_point *a = &out->points[i], *b = a + 1;
+        if (a->branch != b->branch || a->multipliers != seen->multipliers || a->symmetry != seen->symmetry ||
+            (a->value > seen->value) == (b->value > seen->value))
+            continue;
+        const double x = (seen->value - a->value) / (b->value - a->value);
+        const double r = a->mean_r + x * (b->mean_r - a->mean_r), least = a->min_r + x * (b->min_r - a->min_r);
+        const double period = a->period + x * (b->period - a->period);
+        const double nz = fabs(a->mean_nz) + x * (fabs(b->mean_nz) - fabs(a->mean_nz));
+        if (fabs(r - seen->mean_r) < 2e-3 && fabs(least - seen->min_r) < 2e-2 &&
+            fabs(period / seen->period - 1.0) < 2e-3 && fabs(nz - fabs(seen->mean_nz)) < 5e-3)
+            return a->branch;
+    }
+    return -1;
+}
+
+/* Whether the branch born at a special point was met before, from its other end; the special point then names
+ * it. */
+static int was_met(fst_tracer *t, const fst_pending *from)
+{
+    const int met = from->start.s.segments > 0 && from->one_way ? orbit_branch(t->out, &from->start.seen) : -1;
+    for (size_t i = 0; met >= 0 && i < t->out->special_count; ++i)
+        if (t->out->specials[i].born == from->branch)
+            t->out->specials[i].born = met;
+    return met >= 0;
+}
+
 /* One branch from a node on it, both ways, or, if it was born at a special point, away from that. */
 static fst_status follow_branch(fst_tracer *t, const fst_pending *from, fst_error *error)
 {
@@ -153,7 +191,7 @@ static fst_status follow_branch(fst_tracer *t, const fst_pending *from, fst_erro
                        .longest_step = t->options->longest_step,
                        .follow = t->options->follow,
                        .sink = {t, take_node, take_special}};
-    if (!(from->start.s.value >= curve.from && from->start.s.value <= curve.to))
+    if (!(from->start.s.value >= curve.from && from->start.s.value <= curve.to) || was_met(t, from))
         return FST_OK;
     t->branch = from->branch;
     t->depth = from->depth;
@@ -196,26 +234,55 @@ fst_status fst_tracer_add(fst_tracer *t, const fst_node *start, fst_error *error
     return FST_OK;
 }
 
-int fst_tracer_knows(const fst_tracer *t, const fst_branch_point *seen)
+/* The branch on which a state lies, the nearest if there are several; -1: on none. */
+static int branch_through(const fst_branch *out, double value, const double *state)
 {
-    const fst_branch *out = t->out;
+    int best = -1;
+    double least = 1.0;
     for (size_t i = 0; i + 1 < out->point_count; ++i) {
         const fst_branch_point *a = &out->points[i], *b = a + 1;
-        if (a->branch != b->branch || (a->value > seen->value) == (b->value > seen->value))
+        if (a->branch != b->branch || (a->value > value) == (b->value > value))
             continue;
-        const double x = (seen->value - a->value) / (b->value - a->value);
-        double greatest = 0.0, conjugate = 0.0, image[FST_STATE_SIZE];
-        fst_apply_s2(seen->state, image);
+        const double x = (value - a->value) / (b->value - a->value);
+        double greatest = 0.0;
         for (int k = 0; k < FST_STATE_SIZE; ++k) {
             const double there = a->state[k] + x * (b->state[k] - a->state[k]);
             const double bent = 0.02 + 0.3 * fabs(b->state[k] - a->state[k]);
-            greatest = fmax(greatest, fabs(there - seen->state[k]) / bent);
-            conjugate = fmax(conjugate, fabs(there - image[k]) / bent);
+            greatest = fmax(greatest, fabs(there - state[k]) / bent);
         }
-        if (greatest < 1.0 || (conjugate < 1.0 && out->kind == FST_BRANCH_COUNTER))
-            return 1;
+        if (greatest < least) {
+            least = greatest;
+            best = a->branch;
+        }
     }
-    return 0;
+    return best;
+}
+
+int fst_tracer_knows(const fst_tracer *t, const fst_branch_point *seen)
+{
+    return branch_through(t->out, seen->value, seen->state) >= 0;
+}
+
+/* Where the images of each branch are.  Of orbits without the symmetry only one of the two is followed. */
+static void find_images(fst_branch *out)
+{
+    for (size_t e = 0; e < out->end_count; ++e) {
+        fst_branch_end *end = &out->ends[e];
+        size_t first = 0, count = 0;
+        for (size_t i = 0; i < out->point_count; ++i)
+            if (out->points[i].branch == end->branch && count++ == 0)
+                first = i;
+        const fst_branch_point *middle = &out->points[first + count / 2];
+        double image[FST_STATE_SIZE];
+        end->image = -1;
+        if (count == 0)
+            continue;
+        fst_apply_s2(middle->state, image);
+        if (middle->symmetry == FST_SYMMETRY_S2)
+            end->image = end->branch;
+        else if (middle->multipliers == FST_EIGENVALUE_COUNT)
+            end->image = branch_through(out, middle->value, image);
+    }
 }
 
 /* ------------------------------------------------------------------ the two kinds */
@@ -393,7 +460,7 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
         return out_of_memory(error);
     t->options = options;
     t->out = branch;
-    t->follow_hopf = options->kind == FST_BRANCH_LOCKED && options->follow;
+    t->follow_hopf = options->kind == FST_BRANCH_ALL;
     branch->kind = options->kind;
     branch->from = options->from;
     branch->to = options->to;
@@ -411,6 +478,8 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
         status = options->kind == FST_BRANCH_COUNTER ? follow_counter(t, error) : fst_follow_locked(t, error);
     if (status == FST_OK && options->second_key)
         status = follow_specials(t, params, error);
+    if (status == FST_OK)
+        find_images(branch);
     free(t);
     if (status != FST_OK)
         fst_branch_free(branch);

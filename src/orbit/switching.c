@@ -50,6 +50,30 @@ fst_status fst_switch_at_minus_one(const fst_family *family, const fst_node *at,
     return settle(family, &s, &way, born, error);
 }
 
+/* An orbit of four segments that is its own image under S2 is followed as such, by the half map. */
+static void prefer_symmetric(const fst_family *family, fst_node *born)
+{
+    fst_solution s = born->s;
+    fst_node half;
+    fst_error ignored;
+    double image[FST_STATE_SIZE], far = 0.0, size = 0.0;
+    fst_apply_s2(s.y[2], image);
+    for (int k = 0; k < FST_STATE_SIZE; ++k) {
+        far = fmax(far, fabs(image[k] - s.y[0][k]));
+        size = fmax(size, fabs(s.y[2][k] - s.y[0][k]));
+    }
+    if (!(far < 1e-6 * size))
+        return;
+    s.symmetric = 1;
+    s.segments = 2;
+    s.period *= 0.5;
+    /* The tangent is found anew, pointing the way the old one did. */
+    const fst_direction across = s.tangent;
+    if (fst_solution_correct(family, &s, &across, &ignored) == FST_OK &&
+        fst_node_make(family, &s, &half, &ignored) == FST_OK)
+        *born = half;
+}
+
 fst_status fst_switch_at_hopf(const fst_family *family, const fst_node *at, double frequency, fst_node *born,
                               fst_error *error)
 {
@@ -80,7 +104,10 @@ fst_status fst_switch_at_hopf(const fst_family *family, const fst_node *at, doub
         way.y[2][k] = -u[k];
         way.y[3][k] = v[k];
     }
-    return settle(family, &s, &way, born, error);
+    const fst_status found = settle(family, &s, &way, born, error);
+    if (found == FST_OK)
+        prefer_symmetric(family, born);
+    return found;
 }
 
 fst_status fst_switch_at_pitchfork(const fst_family *family, const fst_node *at, fst_node *born,
