@@ -13,12 +13,12 @@ enum { FST_MOST_LANES = 8 };
 
 /* The arrays of a batch that are read and written from outside. */
 typedef struct fst_lane_view {
-    const double *y, *end;          /* states at the step's start and end */
-    double *turns[2];               /* whole turns of Phi and of phi at the end (base/winding.h) */
-    const double *turns_before[2];  /* and at the start */
-    double *activity;               /* greatest |component of d(state)/dt| since it was last set */
-    double *next_mark;              /* time of the next mark; the step that reaches it is eventful */
-    double *phi_least, *phi_most;   /* directions between which Phi has stayed, two numbers; 0: to be asked for */
+    const double *y, *end;         /* states at the step's start and end */
+    double *turns[2];              /* whole turns of Phi and of phi at the end (base/winding.h) */
+    const double *turns_before[2]; /* and at the start */
+    double *activity;              /* greatest |component of d(state)/dt| since it was last set */
+    double *next_mark;             /* time of the next mark; the step that reaches it is eventful */
+    double *phi_least, *phi_most; /* directions between which Phi has stayed, two numbers; 0: to be asked for */
     double *total_high, *total_low; /* integrals up to the start of the last observed step, FST_Q_COUNT */
     double *increment;              /* and over it */
     double *r_reference, *b_reference;

@@ -241,7 +241,8 @@ static void accept(batch *b, fst_wide_mask mask, REAL factor)
     b->t_high = fst_wide_select(mask, fst_wide_select(lands, b->t_limit, high), b->t_high);
     b->t_low = fst_wide_select(mask, fst_wide_select(lands, zero, low), b->t_low);
     const REAL proposal = size * factor;
-    const REAL kept = REAL_MAX(b->h_next, proposal); /* a step cut short says nothing against the planned size */
+    const REAL kept =
+        REAL_MAX(b->h_next, proposal); /* a step cut short says nothing against the planned size */
     REAL next = fst_wide_select(lands, kept, proposal);
     const REAL bounded = -REAL_MAX(-next, -size);
     next = fst_wide_select(WIDE_LESS(zero, b->rejections), bounded, next);
@@ -338,15 +339,18 @@ static unsigned may_end(const batch *b)
 static unsigned wind(REAL *turns, REAL x0, REAL y0, REAL x, REAL y)
 {
     const REAL cross = x0 * y - y0 * x, zero = R(0.0), one = R(1.0);
-    const unsigned below0 = fst_wide_lanes_of(WIDE_LESS(y0, zero)), below = fst_wide_lanes_of(WIDE_LESS(y, zero));
-    const unsigned left = fst_wide_lanes_of(WIDE_LESS(zero, cross)), right = fst_wide_lanes_of(WIDE_LESS(cross, zero));
+    const unsigned below0 = fst_wide_lanes_of(WIDE_LESS(y0, zero)),
+                   below = fst_wide_lanes_of(WIDE_LESS(y, zero));
+    const unsigned left = fst_wide_lanes_of(WIDE_LESS(zero, cross)),
+                   right = fst_wide_lanes_of(WIDE_LESS(cross, zero));
     if ((below0 ^ below) & (left | right)) {
         *turns = fst_wide_add_where(fst_wide_mask_of(~below0 & below & left), *turns, one);
         *turns = fst_wide_add_where(fst_wide_mask_of(below0 & ~below & right), *turns, -one);
     }
     const REAL dx = x - x0, dy = y - y0, length2 = dx * dx + dy * dy;
     const REAL along0 = x0 * dx + y0 * dy, along1 = x * dx + y * dy;
-    const unsigned an_end = fst_wide_lanes_of(WIDE_LESS(zero, along0)) | fst_wide_lanes_of(WIDE_LESS(along1, zero));
+    const unsigned an_end =
+        fst_wide_lanes_of(WIDE_LESS(zero, along0)) | fst_wide_lanes_of(WIDE_LESS(along1, zero));
     return ~an_end & fst_wide_lanes_of(WIDE_LESS(R(16.0) * (cross * cross), length2 * length2));
 }
 
@@ -384,7 +388,8 @@ static unsigned watch(void *memory, unsigned accepted, unsigned observed, unsign
     const REAL before_most = end[FST_X] * m[1] - end[FST_Y] * m[0];
     *wandering = accepted & ~fst_wide_lanes_of(WIDE_LESS(margin, -REAL_MAX(-after_least, -before_most)));
     eventful &= accepted;
-    b->activity = fst_wide_select(fst_wide_mask_of(accepted & ~eventful), REAL_MAX(speed, b->activity), b->activity);
+    b->activity =
+        fst_wide_select(fst_wide_mask_of(accepted & ~eventful), REAL_MAX(speed, b->activity), b->activity);
     return eventful;
 }
 
@@ -421,7 +426,8 @@ static void see_stages(batch *b, fst_wide_mask before_window)
             b->r_reference = fst_wide_select(before_window, seen.r, b->r_reference);
             b->b_reference = fst_wide_select(before_window, seen.b_norm, b->b_reference);
         }
-        FN(integrands)(c, s->stage[j], &s->context.pull[j], &seen, b->r_reference, b->b_reference, b->integrands[n]);
+        FN(integrands)
+        (c, s->stage[j], &s->context.pull[j], &seen, b->r_reference, b->b_reference, b->integrands[n]);
         b->tracked[n][FST_TRACK_R] = seen.r;
         b->tracked[n][FST_TRACK_B] = seen.b_norm;
         b->tracked[n][FST_TRACK_GAP] = seen.gap2;

@@ -217,8 +217,8 @@ static void read_end(const crew *c, int l, double end[FST_STATE_SIZE])
         end[i] = c->view.end[i * c->engine->width + l];
 }
 
-/* Tell the lanes between which directions Phi has stayed; where that is more than half a turn, or of no interest any
- * more, they cannot or need not know. */
+/* Tell the lanes between which directions Phi has stayed; where that is more than half a turn, or of no
+ * interest any more, they cannot or need not know. */
 static void keep_phi_range(crew *c, int l)
 {
     const int width = c->engine->width;
