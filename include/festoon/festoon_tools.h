@@ -116,6 +116,7 @@ typedef struct fst_figure_options {
     fst_figure_kind kind;
     const char *colour; /* a column's name: "n_z", "slip", "angle", ... */
     int arrows;         /* draw arrows of the horizontal moment */
+    int inset;          /* the path of the moment in the local frame as an inset of the path's figure */
     double from, to;    /* drive periods shown; NAN: from the discard, as long as a good picture wants */
     double zoom[4];     /* x0 x1 y0 y1 in mm; NAN: all */
     const char *title;  /* NULL: made from the scene */

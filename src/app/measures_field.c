@@ -144,19 +144,21 @@ MEASURE(slow_parallel)
 
 MEASURE(slow_friction)
 {
-    double power = NAN, hertz = NAN;
+    double power = NAN, hertz = NAN, strictly = 0.0;
     for (int i = 0; i < paper->counts[FST_SCAN_SLOW]; i++) {
         const fst_run_result *result = &paper->scans[FST_SCAN_SLOW][dynamics][i].result;
-        if (result->regime != FST_REGIME_LOCKED)
+        if (result->regime != FST_REGIME_LOCKED && result->regime != FST_REGIME_LIBRATING)
             break;
         power = result->mean_friction_power;
         hertz = result->frequency_hz;
+        strictly = i == 0 ? result->mean_friction_power : strictly;
     }
     (void)snprintf(
         note, size,
-        "locked at %.1f Hz; no magnetic torque acts along n, so that the spin about it takes whatever value "
-        "brings the contact to rest: a locked bead rolls, whatever the friction law",
-        hertz);
+        "at %.1f Hz, where the bead swings about the magnet; strictly locked (%.0e ℓ²γ³ at the slowest "
+        "drive) it loses nothing: no magnetic torque acts along n, so that the spin about it takes the "
+        "value at which the contact is at rest",
+        hertz, strictly);
     return 100.0 * power / single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
 }
 

@@ -263,6 +263,7 @@ typedef struct fst_paper_figure {
     const char *colour;
     int zoomed;            /* the upper right corner only */
     int plain;             /* without arrows */
+    int inset;             /* with the path of the moment */
     fst_dynamics dynamics; /* which one of `each` */
     char file[48];         /* "f4-rigid" */
 } fst_paper_figure;

@@ -97,8 +97,6 @@ static double eps_of(const fst_paper_run *run)
 REGULAR(mean_r, run->result.mean_r)
 REGULAR(mean_alpha_dot, run->result.mean_alpha_dot)
 REGULAR(std_r, run->result.std_r)
-IRREGULAR(other_mean_r, run->result.mean_r)
-IRREGULAR(other_std_r, run->result.std_r)
 
 static const fst_scan comparison[2] = {FST_SCAN_COMPARISON, FST_SCAN_COUNT};
 static const fst_scan whole_range[2] = {FST_SCAN_COMPARISON, FST_SCAN_FAST};
@@ -113,34 +111,57 @@ static const struct {
     {FST_DYNAMICS_RIGID, FST_COLOUR_VERMILION, FST_CURVE_DASHED, "rigid (exact)"},
 };
 
+/* The curve of each dynamics through the runs of `through`, in the order of two_dynamics[]. */
+static const fst_chart_curve *add_both(curves *all, const fst_paper_state *paper, const fst_scan through[2],
+                                       reading x, reading y, const char *const titles[2],
+                                       const fst_colour colours[2], int right)
+{
+    int first = all->count;
+    for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
+        add(all, paper, through, two_dynamics[d].dynamics, x, y,
+            (fst_chart_curve){.title = titles ? titles[d] : NULL,
+                              .colour = colours[d],
+                              .style = two_dynamics[d].style,
+                              .right = right});
+    return all->curve + first;
+}
+
+/* As the paper has it: two ordinates, colours for the quantities, and the deviation as an inset. */
 fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_paper_figure *figure,
                                      const char *out, fst_error *error)
 {
-    static const reading regular[] = {mean_r, mean_alpha_dot, std_r};
-    static const reading others[] = {other_mean_r, NULL, other_std_r};
+    static const char *const of_r[] = {"⟨r⟩, farago2020", "⟨r⟩, rigid"};
+    static const char *const of_alpha[] = {"⟨α′⟩, farago2020", "⟨α′⟩, rigid"};
+    static const fst_colour blue[] = {FST_COLOUR_BLUE, FST_COLOUR_BLUE};
+    static const fst_colour red[] = {FST_COLOUR_VERMILION, FST_COLOUR_VERMILION};
+    static const fst_colour green[] = {FST_COLOUR_GREEN, FST_COLOUR_GREEN};
     curves all = {.status = FST_OK};
-    fst_chart_panel panels[3] = {
-        {.left_label = "⟨r⟩ (ℓ)", .low = 0.5, .high = 1.1, .key = "bottom right"},
-        {.left_label = "⟨α′⟩ (γ)", .low = NAN, .high = NAN},
-        {.left_label = "δr (ℓ)", .low = 0.0, .high = 0.3, .key = "top right"},
-    };
-    int first = 0;
-    for (int p = 0; p < 3; p++) {
-        for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
-            fst_chart_curve line = {.title = p == 0 ? two_dynamics[d].name : NULL,
-                                    .colour = two_dynamics[d].colour,
-                                    .style = two_dynamics[d].style};
-            add(&all, paper, comparison, two_dynamics[d].dynamics, omega_of, regular[p], line);
-            fst_chart_curve points = {.title = p == 2 && d == 0 ? "not counter-rotating" : NULL,
-                                      .colour = two_dynamics[d].colour,
-                                      .style = FST_CURVE_OPEN_POINTS};
-            if (others[p])
-                add(&all, paper, comparison, two_dynamics[d].dynamics, omega_of, others[p], points);
-        }
-        panels[p].curves = all.curve + first;
-        panels[p].curve_count = all.count - first;
-        first = all.count;
-    }
+    const fst_chart_curve *both = add_both(&all, paper, comparison, omega_of, mean_r, of_r, blue, 0);
+    (void)add_both(&all, paper, comparison, omega_of, mean_alpha_dot, of_alpha, red, 1);
+    const fst_chart_curve *deviation = add_both(&all, paper, comparison, omega_of, std_r, NULL, green, 0);
+    const fst_chart_inset inset = {.left = 0.55,
+                                   .right = 0.97,
+                                   .bottom = 0.08,
+                                   .top = 0.36,
+                                   .x_low = 0.15,
+                                   .x_high = 0.5,
+                                   .low = 0.0,
+                                   .high = NAN,
+                                   .label = "δr (ℓ)",
+                                   .curves = deviation,
+                                   .curve_count = FST_PAPER_DYNAMICS};
+    const fst_chart_panel panel = {.left_label = "⟨r⟩ (ℓ), blue",
+                                   .right_label = "⟨α′⟩ (γ), orange",
+                                   .left_colour = FST_COLOUR_BLUE,
+                                   .right_colour = FST_COLOUR_VERMILION,
+                                   .low = 0.3,
+                                   .high = 1.1,
+                                   .right_low = -0.085,
+                                   .right_high = -0.045,
+                                   .key = "at graph 0.98, graph 0.93 right top maxrows 2",
+                                   .curves = both,
+                                   .curve_count = 2 * FST_PAPER_DYNAMICS,
+                                   .inset = &inset};
     double per_hertz = 2.0 * PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma;
     const fst_chart_mark marks[] = {{7.0 * per_hertz, "7 Hz: lets go"},
                                     {10.7 * per_hertz, "10.7 Hz: 4 festoons"},
@@ -152,8 +173,9 @@ fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_pap
                        .x_high = 0.51,
                        .x2_label = "drive (Hz); dotted: what the paper's text tells of the experiment",
                        .x2_factor = 1.0 / per_hertz,
-                       .panels = panels,
-                       .panel_count = 3,
+                       .height = 620,
+                       .panels = &panel,
+                       .panel_count = 1,
                        .marks = marks,
                        .mark_count = 4};
     return draw_and_free(&all, out, &chart, error);
@@ -174,20 +196,13 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
 {
     static const fst_scan slow[2] = {FST_SCAN_SLOW, FST_SCAN_COUNT};
     static const double diagonal[] = {0.0, 10.0};
+    static const char *const names[] = {"farago2020 (as printed)", "rigid (exact)"};
+    static const fst_colour colours[] = {FST_COLOUR_BLUE, FST_COLOUR_VERMILION};
     curves all = {.status = FST_OK};
-    fst_chart_panel panels[2] = {
-        {.left_label = "⟨α′⟩/2π (Hz)", .low = -6.0, .high = 12.0, .key = "at graph 0.99, graph 0.86 right top"},
-        {.left_label = "the same, enlarged", .low = -4.4, .high = -2.6},
-    };
+    const fst_chart_curve *counter =
+        add_both(&all, paper, comparison, hertz_of, counter_hertz, names, colours, 0);
     for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
-        fst_chart_curve line = {
-            .title = two_dynamics[d].name, .colour = two_dynamics[d].colour, .style = two_dynamics[d].style};
-        add(&all, paper, comparison, two_dynamics[d].dynamics, hertz_of, counter_hertz, line);
-    }
-    panels[1].curves = all.curve;
-    panels[1].curve_count = all.count;
-    for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
-        fst_chart_curve points = {.title = d == 0 ? "released at rest: not counter-rotating" : NULL,
+        fst_chart_curve points = {.title = d == 0 ? "released at rest, farago2020" : "the same, rigid",
                                   .colour = two_dynamics[d].colour,
                                   .style = d == 0 ? FST_CURVE_POINTS : FST_CURVE_OPEN_POINTS};
         add(&all, paper, slow, two_dynamics[d].dynamics, hertz_of, other_hertz, points);
@@ -201,15 +216,35 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
                                                    .colour = FST_COLOUR_GREY,
                                                    .style = FST_CURVE_LINE};
     }
-    panels[0].curves = all.curve;
-    panels[0].curve_count = all.count;
+    const fst_chart_inset inset = {.left = 0.50,
+                                   .right = 0.97,
+                                   .bottom = 0.54,
+                                   .top = 0.90,
+                                   .x_low = 8.0,
+                                   .x_high = 25.0,
+                                   .low = -4.4,
+                                   .high = -2.6,
+                                   .label = "enlarged (Hz)",
+                                   .curves = counter,
+                                   .curve_count = FST_PAPER_DYNAMICS};
+    const fst_chart_panel panel = {.left_label = "⟨α′⟩/2π (Hz)",
+                                   .low = -12.0,
+                                   .high = 12.0,
+                                   .key = "bottom right",
+                                   .curves = all.curve,
+                                   .curve_count = all.count,
+                                   .inset = &inset};
+    double per_hertz = 2.0 * PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma;
     const fst_chart_mark marks[] = {{7.0, "7 Hz: lets go"}, {16.0, "16 Hz: slowest"}};
     fst_chart chart = {.title = figure->title,
                        .x_label = "drive (Hz); dotted: what the paper's text tells of the experiment",
-                       .x_low = 0.0,
-                       .x_high = 26.0,
-                       .panels = panels,
-                       .panel_count = 2,
+                       .x_low = 1.0,
+                       .x_high = 25.0,
+                       .x2_label = "drive ω (γ)",
+                       .x2_factor = per_hertz,
+                       .height = 620,
+                       .panels = &panel,
+                       .panel_count = 1,
                        .marks = marks,
                        .mark_count = 2};
     return draw_and_free(&all, out, &chart, error);

@@ -16,6 +16,7 @@ static fst_status draw_trajectory(const fst_paper_state *paper, const fst_paper_
     options.kind = figure->kind;
     options.colour = figure->colour;
     options.arrows = !figure->plain;
+    options.inset = figure->inset;
     if (figure->zoomed) {
         options.zoom[0] = options.zoom[2] = 0.0;
         options.zoom[1] = options.zoom[3] = 1e3 * run->params.magnet_half_length;
@@ -61,9 +62,9 @@ static const fst_paper_figure figures[] = {
     {.name = "supercritical",
      .source = "Fig. supercritical",
      .title = "The period halving is supercritical",
-     .caption =
-         "Ratio of successive swings of r, mean of n_z, and the time in which the motion settles, near the "
-         "threshold; bottom: r(t) at the lowest drive, where the two swings differ.",
+     .caption = "Ratio p of successive swings of r (inset: r(t) under the threshold, two unequal swings in "
+                "turn), mean of n_z, "
+                "and the time in which the motion settles. Dotted: the pitchfork of the periodic orbits.",
      .each = 1,
      .statements = "halving|halving-branch|halving-root|halving-time",
      .scan = FST_SCAN_COMPARISON,
@@ -90,11 +91,13 @@ static const fst_paper_figure figures[] = {
     {.name = "comparison",
      .source = "Figs. radius and comparison",
      .title = "Radius, speed and fluctuation against the drive",
-     .caption =
-         "Mean radius, mean angular velocity of the bead about the axis (negative: against the magnet) and "
-         "standard deviation of the radius. Where the bead does not counter-rotate regularly the line ends, "
-         "and open circles give the means. The measured points are not in the paper's text; what the text "
-         "tells of them is marked.",
+     .caption = "Mean radius (left ordinate) and mean angular velocity of the bead about the axis (right; "
+                "negative: against "
+                "the magnet); inset: standard deviation of the radius. Solid: farago2020, dashed: rigid. Where "
+                "the bead does "
+                "not counter-rotate regularly the lines end. The measured points are not in the paper's text; "
+                "what the text "
+                "tells of them is marked.",
      .statements = "bell|slowness|halving",
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_comparison},
@@ -102,7 +105,8 @@ static const fst_paper_figure figures[] = {
      .source = "Fig. dotal",
      .title = "How fast the bead circles",
      .caption = "The bead goes round with the magnet at low drives, and against it, more slowly, at high ones. "
-                "Lines: counter-rotation from the rolling start; circles: beads released at rest.",
+                "Lines: counter-rotation from the rolling start, enlarged in the inset; circles: beads "
+                "released at rest.",
      .statements = "corotation|onset|bell",
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_dotal},
@@ -140,15 +144,18 @@ static const fst_paper_figure figures[] = {
     {.name = "om04",
      .source = "Fig. om04",
      .title = "Many festoons at 19.9 Hz",
-     .caption = "Two revolutions of the bead at the drive 0.4, coloured by the speed of the contact point.",
+     .caption =
+         "Two revolutions of the bead at the drive 0.4, coloured by the speed of the contact point; inset: the "
+         "closed path of the moment in the local frame, seen along the radius.",
      .plain = 1,
+     .inset = 1,
      .each = 1,
      .statements = "fold15-festoons|fold15-angle",
      .scan = FST_SCAN_FOLD15,
      .draw = draw_trajectory,
      .colour = "slip"},
     {.name = "om04-n",
-     .source = "Fig. om04, inset",
+     .source = "Fig. om04, inset, larger and from two sides",
      .title = "The closed path of the moment",
      .caption = "The moment's direction in the local frame at the drive 0.4, seen along the radius and along "
                 "the circle; grey: the unit sphere's outline.",
@@ -255,8 +262,9 @@ static void plot_options(const fst_paper_state *paper, const fst_paper_figure *f
     char zoom[64] = "";
     if (figure->zoomed)
         (void)snprintf(zoom, sizeof zoom, " --zoom 0,%g,0,%g", corner, corner);
-    (void)snprintf(text, size, "%s%s%s%s%s", kinds[figure->kind], figure->colour ? " --colour " : "",
-                   figure->colour ? figure->colour : "", figure->plain ? " --no-arrows" : "", zoom);
+    (void)snprintf(text, size, "%s%s%s%s%s%s", kinds[figure->kind], figure->colour ? " --colour " : "",
+                   figure->colour ? figure->colour : "", figure->plain ? " --no-arrows" : "",
+                   figure->inset ? " --inset" : "", zoom);
 }
 
 void fst_paper_figure_command(const fst_paper_state *paper, const fst_paper_figure *figure, char *text,

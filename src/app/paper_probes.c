@@ -44,7 +44,6 @@ static void probe_end(probe *p)
 
 enum {
     MOST_RETURNS = 4096,
-    PARTS = 80,    /* small steps per drive period, for the extremes of r */
     LOOKED_AT = 24 /* drive periods at the end in which p and <n_z> are taken */
 };
 
@@ -116,8 +115,8 @@ static double order_parameter(const double *r, int count)
 static fst_status watch_end(probe *p, double t0, fst_halving_point *point, double *r_of_t, int kept,
                             fst_error *error)
 {
-    enum { COUNT = PARTS * LOOKED_AT };
-    double r[COUNT], nz_sum = 0.0, step = p->period / PARTS, phi_first = 0.0;
+    enum { COUNT = FST_HALVING_PARTS * LOOKED_AT };
+    double r[COUNT], nz_sum = 0.0, step = p->period / FST_HALVING_PARTS, phi_first = 0.0;
     double partial = 0.0, weight = 0.0, nz_before = 0.0;
     fst_status status = FST_OK;
     for (int i = 0; i < COUNT && status == FST_OK; i++) {

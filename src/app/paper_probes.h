@@ -17,8 +17,10 @@ typedef struct fst_halving_point {
                           seen */
 } fst_halving_point;
 
+enum { FST_HALVING_PARTS = 80 }; /* values of r per drive period */
+
 /* Follow the motion of `params` for `periods` drive periods.  If `r_of_t` is not NULL, the last `count` values
- * of r, a 1/80 of a drive period apart, are left there. */
+ * of r, 1/FST_HALVING_PARTS of a drive period apart, are left there. */
 fst_status fst_probe_halving(const fst_params *params, double periods, fst_halving_point *point, double *r_of_t,
                              int count, fst_error *error);
 

@@ -23,6 +23,7 @@ static const option options[] = {
     {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
     {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
     {"no-arrows", '\0', NULL, "draw none"},
+    {"inset", '\0', NULL, "into the middle of a path the path of the moment in the local frame"},
     {"from", '\0', "P", "first drive period shown"},
     {"to", '\0', "P", "last drive period shown"},
     {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
@@ -75,6 +76,7 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
         return fail(error, FST_BAD_INPUT, "", "--arrows and --no-arrows contradict each other");
     if (with || without)
         figure->arrows = with;
+    figure->inset = option_value(given, "inset") != NULL;
     fst_status status = kind ? read_kind(kind, &figure->kind, error) : FST_OK;
     if (status == FST_OK && colour)
         status = read_colour(colour, &figure->colour, error);

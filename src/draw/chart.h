@@ -15,13 +15,32 @@ typedef struct fst_chart_curve {
     int right; /* belongs to the right-hand ordinate */
 } fst_chart_curve;
 
+/* A word at a place of an inset. */
+typedef struct fst_chart_label {
+    double x, y;
+    const char *text;
+} fst_chart_label;
+
+/* A small chart within a panel, on white. */
+typedef struct fst_chart_inset {
+    double left, right, bottom, top; /* its frame, in parts of the panel */
+    double x_low, x_high, low, high; /* its axes; NAN: from the data */
+    const char *x_label, *label;     /* NULL: none */
+    const fst_chart_curve *curves;
+    int curve_count;
+    const fst_chart_label *labels;
+    int label_count;
+} fst_chart_inset;
+
 typedef struct fst_chart_panel {
     const char *left_label, *right_label; /* right: NULL for none */
     fst_colour left_colour, right_colour; /* of the labels, where they tell the curves apart */
     double low, high;                     /* of the left ordinate; NAN: from the data */
+    double right_low, right_high;         /* of the right one; both 0: from the data */
     const char *key;                      /* gnuplot's place of the key, "top right"; NULL: no key */
     const fst_chart_curve *curves;
     int curve_count;
+    const fst_chart_inset *inset; /* NULL: none */
 } fst_chart_panel;
 
 /* A vertical line through all panels, with its text in the top one. */

@@ -13,8 +13,9 @@ enum {
     SIDE = 510,
     LEFT = 70,
     TOP = 45,
-    ARROWS = 170,       /* about as many arrows as a picture bears */
-    MOST_SAMPLES = 6000 /* more would only make the file larger */
+    ARROWS = 170,        /* about as many arrows as a picture bears */
+    MOST_SAMPLES = 6000, /* more would only make the file larger */
+    MOST_PARTS = 8       /* of the path between two samples */
 };
 
 /* What a colour means, for columns that people look at most; others are labelled by name and unit. */
@@ -29,16 +30,17 @@ static const struct {
 };
 
 typedef struct path_columns {
-    const double *x, *y, *n_x, *n_y, *alpha, *phi, *colour;
+    const double *t, *x, *y, *vx, *vy, *n_x, *n_y, *n_alpha, *n_z, *alpha, *phi, *colour;
     const fst_column_info *colour_info;
 } path_columns;
 
 static fst_status find_columns(const fst_view *view, const char *colour, path_columns *columns,
                                fst_error *error)
 {
-    fst_status status =
-        fst_view_columns(view, error, "x", &columns->x, "y", &columns->y, "n_x", &columns->n_x, "n_y",
-                         &columns->n_y, "alpha", &columns->alpha, "Phi", &columns->phi, NULL);
+    fst_status status = fst_view_columns(view, error, "t", &columns->t, "x", &columns->x, "y", &columns->y,
+                                         "vx", &columns->vx, "vy", &columns->vy, "n_x", &columns->n_x, "n_y",
+                                         &columns->n_y, "n_alpha", &columns->n_alpha, "n_z", &columns->n_z,
+                                         "alpha", &columns->alpha, "Phi", &columns->phi, NULL);
     if (status == FST_OK)
         status = fst_view_column(view, colour ? colour : "n_z", &columns->colour, &columns->colour_info, error);
     return status;
@@ -146,13 +148,49 @@ static void write_colour(fst_figure_file *figure, const fst_view *view, const pa
 
 /* ------------------------------------------------------------------ data */
 
+/* Few samples are joined by smooth curves, for which the velocities are there; many are thinned out. */
 static void write_path(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
 {
-    size_t stride = (view->last - view->first) / MOST_SAMPLES + 1;
+    size_t rows = view->last - view->first, stride = rows / MOST_SAMPLES + 1, parts = MOST_SAMPLES / rows;
+    parts = parts < 1 ? 1 : parts > MOST_PARTS ? MOST_PARTS : parts;
     fst_figure_block(figure, "path", "x/mm y/mm colour");
-    for (size_t row = view->first; row < view->last; row += stride)
-        (void)fprintf(figure->data, "%.7g %.7g %.7g\n", columns->x[row] * view->millimetres,
-                      columns->y[row] * view->millimetres, columns->colour[row]);
+    for (size_t row = view->first; row < view->last; row += stride) {
+        size_t next = row + 1 < view->last ? row + 1 : row;
+        double h = columns->t[next] - columns->t[row];
+        for (size_t i = 0; i < (next > row ? parts : 1); i++) {
+            double part = (double)i / (double)parts;
+            double x = fst_view_between(columns->x[row], columns->vx[row], columns->x[next], columns->vx[next],
+                                        h, part);
+            double y = fst_view_between(columns->y[row], columns->vy[row], columns->y[next], columns->vy[next],
+                                        h, part);
+            double colour = columns->colour[row] + part * (columns->colour[next] - columns->colour[row]);
+            (void)fprintf(figure->data, "%.7g %.7g %.7g\n", x * view->millimetres, y * view->millimetres,
+                          colour);
+        }
+    }
+}
+
+/* The moment in the local frame, seen from outside along -e_r, in the middle of the picture. */
+static void write_inset(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
+{
+    static const double side = 0.36; /* of the square of plate */
+    double middle_x = (LEFT + 0.5 * SIDE) / WIDTH, middle_y = 1.0 - (TOP + 0.5 * SIDE) / HEIGHT;
+    double wide = 0.5 * side * SIDE / WIDTH, tall = 0.5 * side * SIDE / HEIGHT;
+    fst_figure_block(figure, "local", "n_alpha n_z: the moment in the local frame");
+    for (size_t row = view->first; row < view->last; row++)
+        (void)fprintf(figure->data, "%.6g %.6g\n", columns->n_alpha[row], columns->n_z[row]);
+    (void)fprintf(figure->script,
+                  "unset title\nunset colorbox\nunset key\n"
+                  "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"
+                  "set bmargin at screen %.4f\nset tmargin at screen %.4f\n"
+                  "set xrange [-1.1:1.1]\nset yrange [-1.1:1.1]\nset tics 1 font ',11' format '%%g'\n"
+                  "set xlabel 'n_α' font ',12' offset 0,0.8\nset ylabel 'n_z' font ',12' offset 1.5,0\n"
+                  "set object 1 rectangle from graph 0,0 to graph 1,1 behind fc rgb 'white' fs solid noborder\n"
+                  "set object 2 circle at 0,0 size 1 front fs empty border lc rgb '#b8b8b8'\n"
+                  "plot data index 'local' using 1:2 with lines lc rgb '%s' lw 1.6 notitle\n"
+                  "unset multiplot\n",
+                  middle_x - wide, middle_x + wide, middle_y - tall, middle_y + tall,
+                  fst_colour_code(FST_COLOUR_BLUE));
 }
 
 /* Arrows of the moment's horizontal part, as long as it is relative to the others; in a zoom there are as many
@@ -195,6 +233,8 @@ fst_status fst_figure_path(const fst_table *table, const char *out, const fst_fi
 
     draw_magnet(&figure, &view, &columns);
     write_path(&figure, &view, &columns);
+    if (options->inset)
+        (void)fputs("set multiplot\n", figure.script);
     write_frame(&figure, &view, box);
     write_colour(&figure, &view, &columns);
     fputs("plot data index 'magnet' using 1:2 with filledcurves closed fc rgb '#f4f4f4' notitle, \\\n"
@@ -211,5 +251,7 @@ fst_status fst_figure_path(const fst_table *table, const char *out, const fst_fi
           "     data index 'path' using 1:2 every ::0::0 with points pt 6 ps 1 lw 2 lc rgb '#222222' title "
           "'the bead then'\n",
           figure.script);
+    if (options->inset)
+        write_inset(&figure, &view, &columns);
     return fst_figure_finish(&figure, error);
 }

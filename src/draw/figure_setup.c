@@ -21,6 +21,26 @@ static void write_circle(fst_figure_file *figure, const char *name, double x, do
         (void)fprintf(figure->data, "%.6g %.6g\n", x + radius * cos(i * degree), y + radius * sin(i * degree));
 }
 
+static void write_arc(fst_figure_file *figure, const char *name, double radius, double from, double to)
+{
+    fst_figure_block(figure, name, "x/mm y/mm");
+    for (int i = 0; i <= 20; i++) {
+        double angle = (from + (to - from) * i / 20.0) * degree;
+        (void)fprintf(figure->data, "%.6g %.6g\n", radius * cos(angle), radius * sin(angle));
+    }
+}
+
+/* Short vectors along an arc about the axis, the last with the sense of the turning: anticlockwise. */
+static void write_turning(fst_figure_file *figure)
+{
+    fst_figure_block(figure, "turning", "x/mm y/mm dx dy: the sense of the magnet's turning");
+    for (int side = 0; side < 2; side++) {
+        double at = (205.0 + 180.0 * side) * degree, reach = 33.0, step = 9.0;
+        (void)fprintf(figure->data, "%.6g %.6g %.6g %.6g\n", reach * cos(at), reach * sin(at), -step * sin(at),
+                      step * cos(at));
+    }
+}
+
 /* A rectangle of half sides a, b about (x, y), turned by `angle` degrees. */
 static void write_box(fst_figure_file *figure, const char *name, const double box[4], double angle)
 {
@@ -40,6 +60,8 @@ static void write_sketch_data(fst_figure_file *figure, const fst_params *p)
     const double above[4] = {0.0, 0.0, l, 0.5 * width}, beside[4] = {0.0, -depth, l, 0.5 * MAGNET_THICKNESS};
     write_box(figure, "magnet-above", above, 25.0);
     write_circle(figure, "bead-above", r * cos(60 * degree), r * sin(60 * degree), radius);
+    write_arc(figure, "angle", 12.0, 25.0, 60.0);
+    write_turning(figure);
     write_box(figure, "magnet-beside", beside, 0.0);
     write_circle(figure, "bead-beside", r, radius, radius);
     fst_figure_block(figure, "lines", "x/mm y/mm dx dy: the model's lines of dipoles");
@@ -49,28 +71,35 @@ static void write_sketch_data(fst_figure_file *figure, const fst_params *p)
         (void)fprintf(figure->data, "%.6g %.6g %.6g %.6g\n", -l * c - across * s, -l * s + across * c,
                       2 * l * c, 2 * l * s);
     }
+    double turned = 60 * degree, c = cos(turned), s = sin(turned);
     (void)fprintf(figure->script,
-                  "set multiplot title 'The setup to scale' noenhanced\n"
+                  "set multiplot title 'The setup to scale'\n"
                   "set size ratio -1\nset grid ls 101\n"
                   "set tmargin at screen 0.86\nset bmargin at screen 0.15\n"
                   "set lmargin at screen 0.08\nset rmargin at screen 0.50\n"
                   "set xrange [-36:36]\nset yrange [-36:36]\n"
                   "set xlabel 'x (mm)'\nset ylabel 'y (mm)' offset 1,0\nset title 'from above' font ',12'\n"
-                  "set arrow 1 from 0,0 to %.5g,%.5g lc rgb '#222222' lw 1.2\n"
-                  "set label 1 'r' at %.5g,%.5g\n"
-                  "set object 1 circle at 0,0 size 12 arc [25:60] fs empty border lc rgb '#666666'\n"
-                  "set label 2 'Φ' at 9.5,11.5 font ',12'\n"
-                  "set label 3 'ω' at -31,-30 textcolor rgb '#666666'\n"
-                  "set arrow 3 from -33,-25 to -27,-32 lc rgb '#666666'\n",
-                  r * cos(60 * degree), r * sin(60 * degree), 0.45 * r * cos(66 * degree),
-                  0.5 * r * sin(66 * degree));
+                  "set arrow 1 from 0,0 to %.5g,%.5g front nohead lc rgb '#222222' lw 1.4\n"
+                  "set label 1 'r' at %.5g,%.5g front\n"
+                  "set arrow 2 from 0,0 to %.5g,%.5g front nohead dt 2 lc rgb '#222222'\n"
+                  "set label 2 'Φ' at 13.5,10.5 center front\n"
+                  "set label 3 'ω' at -29,-22 center front\n"
+                  "set arrow 4 from %.5g,%.5g to %.5g,%.5g front lc rgb '#009e73' lw 2\n"
+                  "set label 4 'e_r' at %.5g,%.5g center front textcolor rgb '#009e73'\n"
+                  "set arrow 5 from %.5g,%.5g to %.5g,%.5g front lc rgb '#009e73' lw 2\n"
+                  "set label 5 'e_α' at %.5g,%.5g center front textcolor rgb '#009e73'\n",
+                  r * c, r * s, 0.5 * r * c - 3.0, 0.5 * r * s + 1.0, 30 * cos(25 * degree),
+                  30 * sin(25 * degree), r * c, r * s, (r + 8) * c, (r + 8) * s, (r + 11) * c, (r + 11) * s,
+                  r * c, r * s, r * c - 8 * s, r * s + 8 * c, r * c - 11.5 * s, r * s + 11.5 * c);
 }
 
 static const char sketch_plots[] =
     "plot data index 'magnet-above' using 1:2 with filledcurves closed fc rgb '#eeeeee' notitle, \\\n"
     "     data index 'magnet-above' using 1:2 with lines lc rgb '#888888' notitle, \\\n"
     "     data index 'lines' using 1:2:3:4 with vectors nohead lc rgb '#0072b2' lw 1.5 notitle, \\\n"
-    "     data index 'bead-above' using 1:2 with filledcurves closed fc rgb '#d55e00' notitle\n"
+    "     data index 'bead-above' using 1:2 with filledcurves closed fc rgb '#d55e00' notitle, \\\n"
+    "     data index 'angle' using 1:2 with lines lc rgb '#222222' lw 1.2 notitle, \\\n"
+    "     data index 'turning' using 1:2:3:4 with vectors head filled lc rgb '#222222' lw 1.2 notitle\n"
     "unset arrow\nunset label\nunset object\n"
     "set lmargin at screen 0.57\nset rmargin at screen 0.98\n"
     "set xrange [-36:36]\nset yrange [-40:32]\n"
@@ -86,16 +115,21 @@ fst_status fst_figure_sketch(const fst_params *params, const char *out, fst_erro
         return status;
     write_sketch_data(&figure, params);
     (void)fputs(sketch_plots, figure.script);
-    double depth = 1e3 * params->magnet_depth;
+    double depth = 1e3 * params->magnet_depth, radius = 1e3 * params->bead_radius;
+    double r = 0.9e3 * params->magnet_half_length;
     (void)fprintf(
         figure.script,
         "set arrow 2 from -28,0 to -28,%.5g heads size screen 0.006,20 lc rgb '#666666'\n"
         "set label 2 '%.4g mm' at -27,%.5g font ',11'\n"
+        "set arrow 3 from %.5g,%.5g to %.5g,%.5g front lc rgb '#222222' lw 2\n"
+        "set label 3 'n' at %.5g,%.5g center front\n"
+        "set arrow 4 from 0,-36 to 0,28 nohead dt 4 lc rgb '#888888'\n"
+        "set label 4 'e_z' at 2,27 textcolor rgb '#666666'\n"
         "plot data index 'magnet-beside' using 1:2 with filledcurves closed fc rgb '#eeeeee' notitle, \\\n"
         "     data index 'magnet-beside' using 1:2 with lines lc rgb '#888888' notitle, \\\n"
         "     data index 'bead-beside' using 1:2 with filledcurves closed fc rgb '#d55e00' notitle\n"
         "unset multiplot\n",
-        -depth, depth, -0.45 * depth);
+        -depth, depth, -0.45 * depth, r, radius, r - 3.4, radius + 9.4, r - 5.0, radius + 12.0);
     return fst_figure_finish(&figure, error);
 }
 

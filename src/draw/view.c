@@ -65,6 +65,13 @@ void fst_view_range(const fst_view *view, const double *column, double *least, d
         *least = *greatest = 0.0;
 }
 
+double fst_view_between(double x0, double v0, double x1, double v1, double h, double part)
+{
+    double rest = 1.0 - part;
+    return rest * rest * ((1.0 + 2.0 * part) * x0 + part * h * v0) +
+           part * part * ((1.0 + 2.0 * rest) * x1 - rest * h * v1);
+}
+
 /* Find the rows; `turns` of the bead or `periods` of the drive end an open view. */
 static fst_status choose_rows(fst_view *view, const fst_figure_options *options, double turns, double periods,
                               fst_error *error)

@@ -34,4 +34,8 @@ fst_status fst_view_columns(const fst_view *view, fst_error *error, ...);
 /* Least and greatest finite value of a column in the view (0, 0 where none is finite). */
 void fst_view_range(const fst_view *view, const double *column, double *least, double *greatest);
 
+/* Between two samples, `part` of the way: the cubic that has the positions x0, x1 and, over the time step h,
+ * the velocities v0, v1 there (Hermite's interpolation; its error falls as h^4). */
+double fst_view_between(double x0, double v0, double x1, double v1, double h, double part);
+
 #endif
