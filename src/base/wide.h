@@ -131,8 +131,8 @@ static inline fst_wide fst_wide_reciprocal_sqrt(fst_wide x)
 #endif
 }
 
-/* x^(-5/2) = y^5 (1 - e)^(-5/2) with e = 1 - x y^2 and an estimate y of 1/sqrt(x), for x between 1e-30 and 1e30:
- * one series for root, quotient and power. */
+/* x^(-5/2) = y^5 (1 - e)^(-5/2) with e = 1 - x y^2 and an estimate y of 1/sqrt(x), for x between 1e-30 and
+ * 1e30: one series for root, quotient and power. */
 static inline fst_wide fst_wide_inverse_fifth(fst_wide x)
 {
     const fst_wide one = fst_wide_of(1.0), first = fst_wide_of(2.5);
@@ -143,7 +143,8 @@ static inline fst_wide fst_wide_inverse_fifth(fst_wide x)
     const fst_wide y2 = y * y, e = WIDE_NEGMULADD(x, y2, one);
     const fst_wide rest = WIDE_MULADD(e, fst_wide_of(6.5625), fst_wide_of(4.375 + 1.1135e-7));
 #else
-    /* A root and a quotient of floats, which are exactly rounded everywhere: |e| < 4e-7, and 6.6 e^3 is nothing. */
+    /* A root and a quotient of floats, which are exactly rounded everywhere: |e| < 4e-7, and 6.6 e^3 is
+     * nothing. */
     const __m128 root = _mm_sqrt_ps(_mm256_cvtpd_ps(WIDE_NATIVE(x)));
     const fst_wide y = (fst_wide)_mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0F), root));
     const fst_wide y2 = y * y, e = WIDE_NEGMULADD(x, y2, one);

@@ -12,13 +12,14 @@
  */
 
 #ifdef REAL_INVERSE_FIFTH
-/* Lanes with fused operations.  All that B and G need of a line's end are the moments S_m = sum of Y^m/|d|^5 with
- * m = 0 to 3 over the lines, Y being the distance along y: |d|^2 = a + Y^2 with one a = X^2 + h^2 for an end, so
+/* Lanes with fused operations.  All that B and G need of a line's end are the moments S_m = sum of Y^m/|d|^5
+ * with m = 0 to 3 over the lines, Y being the distance along y: |d|^2 = a + Y^2 with one a = X^2 + h^2 for an
+ * end, so
  *
  *     sum of 1/|d|^3 = a S_0 + S_2,        sum of Y/|d|^3 = a S_1 + S_3.
  *
- * So the whole gradient comes with B, and is kept for whoever needs it along another direction.  The other forms
- * sum as below, in the order that their bits are known by.
+ * So the whole gradient comes with B, and is kept for whoever needs it along another direction.  The other
+ * forms sum as below, in the order that their bits are known by.
  */
 #define FIELD_KEEPS_GRADIENT
 
