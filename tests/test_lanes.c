@@ -151,6 +151,84 @@ static void test_fast_rows_depend_on_nothing_else(void **state)
     }
 }
 
+typedef struct range {
+    double r[2], b[2], load[2];
+} range;
+
+static void widen(double bounds[2], double value)
+{
+    bounds[0] = value < bounds[0] ? value : bounds[0];
+    bounds[1] = value > bounds[1] ? value : bounds[1];
+}
+
+static fst_status take_sample(void *user, const fst_sample *sample, fst_error *error)
+{
+    (void)error;
+    range *seen = user;
+    widen(seen->r, sample->seen.r);
+    widen(seen->b, sample->seen.b_norm);
+    widen(seen->load, sample->seen.load);
+    return FST_OK;
+}
+
+static int one_job(void *user, fst_row_job *job)
+{
+    store *s = user;
+    if (s->next++ > 0)
+        return 0;
+    memset(job, 0, sizeof *job);
+    job->params = bead_at(s->order[0] / 1e6, FST_DYNAMICS_FARAGO2020);
+    job->params.run_periods = 24;
+    job->params.run_discard = 10;
+    job->params.run_rtol = 1e-10;
+    return 1;
+}
+
+/* Samples lie inside the true range by up to (a dt)^2/8 of it, a being the greatest rate: some 50 rad a period
+ * over 20000 samples a period give 1e-6.  The trajectories differ by much less than 1e-7. */
+static void check_range(const double sampled[2], double unit, double least, double greatest)
+{
+    const double low = sampled[0] / unit, high = sampled[1] / unit;
+    assert_true(least < low + 1e-7 * high && least > low - 1e-6 * high);
+    assert_true(greatest > high - 1e-7 * high && greatest < high + 1e-6 * high);
+}
+
+/* The extremes that are located in lanes, against those of a finely sampled trajectory. */
+static void test_extremes_are_those_of_the_path(void **state)
+{
+    (void)state;
+    static const int millionths_of_omega[] = {926563, 1079688, 1178125, 346875};
+    static store s;
+    for (size_t i = 0; i < sizeof millionths_of_omega / sizeof *millionths_of_omega; ++i) {
+        fst_row_job job;
+        memset(&s, 0, sizeof s);
+        s.order[0] = millionths_of_omega[i];
+        assert_int_equal(one_job(&s, &job), 1);
+        range seen = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
+        fst_run_options options = fst_default_run_options();
+        fst_run_result run;
+        job.params.run_samples = 20000;
+        options.sample_from = job.params.run_discard;
+        options.sink.user = &seen;
+        options.sink.sample = take_sample;
+        assert_int_equal(fst_run(&job.params, &options, &run, NULL), FST_OK);
+        fst_model *model = model_of(&job.params);
+        const double gravity = fst_model_groups(model).gravity;
+        fst_model_free(model);
+        for (int form = FST_ARITHMETIC_AVX2; form <= FST_ARITHMETIC_AVX512; ++form) {
+            if (!fst_lane_engine_of((fst_arithmetic)form, 0))
+                continue;
+            const fst_row_work work = {&s, (fst_arithmetic)form, 0, one_job, job_done, never};
+            s.next = 0;
+            assert_int_equal(fst_rows(&work, NULL), FST_OK);
+            const fst_run_result *row = &s.results[0];
+            check_range(seen.r, 1.0, row->min_r, row->max_r);
+            check_range(seen.b, 1.0, row->min_b, row->max_b);
+            check_range(seen.load, gravity, row->min_load_weights, row->max_load_weights);
+        }
+    }
+}
+
 static void test_no_such_engine(void **state)
 {
     (void)state;
@@ -203,6 +281,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_portable_rows_are_runs),
         cmocka_unit_test(test_fast_rows_depend_on_nothing_else),
+        cmocka_unit_test(test_extremes_are_those_of_the_path),
         cmocka_unit_test(test_no_such_engine),
         cmocka_unit_test(test_final_states),
     };

@@ -23,7 +23,7 @@ typedef struct fst_lane_view {
     double *increment;              /* and over it */
     double *r_reference, *b_reference;
     double *integrands, *tracked; /* at the path's stages: FST_PATH_STAGES times FST_Q_COUNT, FST_TRACK_COUNT */
-    double *greatest, *least;     /* records of the tracked quantities, FST_TRACK_COUNT */
+    double *records;              /* of the tracked quantities, times their signs, FST_RECORD_COUNT */
 } fst_lane_view;
 
 /* Lanes, one bit each. */
@@ -56,14 +56,22 @@ typedef struct fst_lane_engine {
     unsigned (*past)(const void *batch, unsigned accepted, const double *t);
 
     /* Take the last step of the lanes `accepted` into their integrals; references are renewed in lanes that are
-     * not in their window yet.  Returns the lanes in which a record of a tracked quantity may be beaten. */
-    unsigned (*observe)(void *batch, unsigned accepted, unsigned in_window);
+     * not in their window yet.  beaten[]: the lanes in which a record may be beaten.  In the fast form the
+     * batch's records are of the stages alone, and go on by themselves in the lanes that are in their window.
+     */
+    void (*observe)(void *batch, unsigned accepted, unsigned in_window, unsigned beaten[FST_RECORD_COUNT]);
 
     /* Make the end of the last step the start of the next, and choose its size: fst_flow_plan(). */
     void (*advance)(void *batch, unsigned accepted);
 
     /* The last step of a lane as the scalar step, stages, derivatives and fields included. */
     void (*extract)(const void *batch, int lane, fst_bead_step_double *step);
+
+    /* The fast form locates extremes in lanes too: a step is set aside for one record in a slot of its own, and
+     * when the slots are full, sign times the extreme of each is found. */
+    size_t slots_bytes;
+    void (*set_aside)(const void *batch, int lane, int record, void *slots, int slot);
+    void (*locate)(void *slots, double *values);
 
     /* The time, size and counts of a lane, as its flow has them; the drive does not change in lanes. */
     void (*extract_clock)(const void *batch, int lane, fst_flow *flow);

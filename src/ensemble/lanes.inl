@@ -25,7 +25,7 @@ typedef struct batch {
     REAL total_high[FST_Q_COUNT], total_low[FST_Q_COUNT], increment[FST_Q_COUNT];
     REAL r_reference, b_reference;
     REAL integrands[FST_PATH_STAGES][FST_Q_COUNT], tracked[FST_PATH_STAGES][FST_TRACK_COUNT];
-    REAL greatest[FST_TRACK_COUNT], least[FST_TRACK_COUNT];
+    REAL records[FST_RECORD_COUNT];
 } batch;
 
 /* A wide value's lanes as doubles in memory. */
@@ -54,8 +54,7 @@ static void view(void *memory, fst_lane_view *v)
     v->b_reference = lanes_of(&b->b_reference);
     v->integrands = lanes_of(b->integrands);
     v->tracked = lanes_of(b->tracked);
-    v->greatest = lanes_of(b->greatest);
-    v->least = lanes_of(b->least);
+    v->records = lanes_of(b->records);
 }
 
 /* ------------------------------------------------------------------ in and out */
@@ -150,10 +149,8 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     for (int i = 0; i < FST_Q_COUNT; ++i)
         b->total_high[i][lane] = b->total_low[i][lane] = b->increment[i][lane] = 0.0;
     b->r_reference[lane] = b->b_reference[lane] = 0.0;
-    for (int i = 0; i < FST_TRACK_COUNT; ++i) {
-        b->greatest[i][lane] = -INFINITY;
-        b->least[i][lane] = INFINITY;
-    }
+    for (int i = 0; i < FST_RECORD_COUNT; ++i)
+        b->records[i][lane] = -INFINITY;
     b->in_use |= 1u << lane;
     plan(b, fst_wide_mask_of(1u << lane));
 }
@@ -449,38 +446,60 @@ static void integrate(batch *b, fst_wide_mask mask)
     }
 }
 
-/* Where sign times a tracked quantity may exceed its record (best_in_step() of the quadrature, which decides).
- */
-static fst_wide_mask may_beat(const batch *b, int which, REAL sign, REAL record)
+/* The greatest of sign times a tracked quantity at the stages, and where it lies between which neighbours. */
+typedef struct summit {
+    REAL best, fall, before, after; /* the values of the neighbours are lower by up to `fall`; their nodes */
+} summit;
+
+static summit find_summit(const batch *b, int record)
 {
-    REAL best = sign * b->tracked[0][which], before = best, after = sign * b->tracked[1][which];
+    /* The nodes of the path's stages, with the first and the last once more as their own neighbours. */
+    const REAL zero = R(0.0), one = R(1.0);
+    const REAL node[FST_PATH_STAGES + 2] = {zero,   zero,    DOP_C7, DOP_C8, DOP_C6, DOP_C10,
+                                            DOP_C9, DOP_C11, one,    one,    one};
+    const int which = FST_RECORD_TRACKS[record];
+    const REAL sign = REAL_OF(fst_record_sign(record));
+    summit top = {sign * b->tracked[0][which], zero, zero, DOP_C7};
+    REAL before = top.best, after = sign * b->tracked[1][which];
     for (int n = 1; n < FST_PATH_STAGES; ++n) {
         const REAL value = sign * b->tracked[n][which];
-        const fst_wide_mask higher = WIDE_LESS(best, value);
+        const fst_wide_mask higher = WIDE_LESS(top.best, value);
         const int next = n + 1 < FST_PATH_STAGES ? n + 1 : n;
         before = fst_wide_select(higher, sign * b->tracked[n - 1][which], before);
         after = fst_wide_select(higher, sign * b->tracked[next][which], after);
-        best = fst_wide_select(higher, value, best);
+        top.best = fst_wide_select(higher, value, top.best);
+        top.before = fst_wide_select(higher, node[n], top.before);
+        top.after = fst_wide_select(higher, node[n + 2], top.after);
     }
-    const REAL fall = REAL_MAX(best - before, best - after);
-    return WIDE_LESS(record, best + R(0.3) * fall);
+    top.before = -REAL_MAX(-top.before, -DOP_C11); /* the last two stages both lie at the end */
+    top.fall = REAL_MAX(top.best - before, top.best - after);
+    return top;
 }
 
-static unsigned observe(void *memory, unsigned accepted, unsigned in_window)
+/* A record may be beaten in a step as best_in_step() of the quadrature has it, which decides. */
+static void observe(void *memory, unsigned accepted, unsigned in_window, unsigned beaten[FST_RECORD_COUNT])
 {
     batch *b = memory;
     const fst_wide_mask mask = fst_wide_mask_of(accepted);
     add_increments(b, mask);
     see_stages(b, fst_wide_mask_of(accepted & ~in_window));
     integrate(b, mask);
-    unsigned beaten = 0;
-    for (int i = 0; i < FST_TRACK_COUNT; ++i) {
-        beaten |= fst_wide_lanes_of(may_beat(b, i, R(1.0), b->greatest[i]));
-        if (i != FST_TRACK_GAP && i != FST_TRACK_SLIP)
-            beaten |= fst_wide_lanes_of(may_beat(b, i, R(-1.0), -b->least[i]));
+    for (int i = 0; i < FST_RECORD_COUNT; ++i) {
+        const summit top = find_summit(b, i);
+        beaten[i] = accepted & fst_wide_lanes_of(WIDE_LESS(b->records[i], top.best + R(0.3) * top.fall));
+#ifdef FST_FUSED
+        /* The end of a step lies on the trajectory; the stages within it do so but roughly, and a record that
+         * one of them overshot would hide the ones to come. */
+        const REAL end = REAL_OF(fst_record_sign(i)) * b->tracked[FST_PATH_STAGES - 1][FST_RECORD_TRACKS[i]];
+        const fst_wide_mask counts = fst_wide_mask_of(accepted & in_window);
+        b->records[i] = fst_wide_select(counts, REAL_MAX(end, b->records[i]), b->records[i]);
+#endif
     }
-    return beaten & accepted;
 }
+
+#ifdef FST_FUSED
+#include "ensemble/lane_extremes.inl"
+#endif
 
 const fst_lane_engine ENGINE = {
     .name = ENGINE_NAME,
@@ -497,4 +516,9 @@ const fst_lane_engine ENGINE = {
     .advance = advance,
     .extract = extract,
     .extract_clock = extract_clock,
+#ifdef FST_FUSED
+    .slots_bytes = sizeof(slots),
+    .set_aside = set_aside,
+    .locate = locate,
+#endif
 };

@@ -37,4 +37,14 @@ enum {
 /* Quantities whose extremes a run locates. */
 enum { FST_TRACK_R, FST_TRACK_B, FST_TRACK_GAP, FST_TRACK_SLIP, FST_TRACK_LOAD, FST_TRACK_COUNT };
 
+/* The records that a run keeps: the greatest of each tracked quantity at its number, then the least of some. */
+enum { FST_LEAST_R = FST_TRACK_COUNT, FST_LEAST_B, FST_LEAST_LOAD, FST_RECORD_COUNT };
+static const int FST_RECORD_TRACKS[FST_RECORD_COUNT] = {FST_TRACK_R,    FST_TRACK_B,    FST_TRACK_GAP,
+                                                        FST_TRACK_SLIP, FST_TRACK_LOAD, FST_TRACK_R,
+                                                        FST_TRACK_B,    FST_TRACK_LOAD};
+static inline double fst_record_sign(int record)
+{
+    return record < FST_TRACK_COUNT ? 1.0 : -1.0;
+}
+
 #endif

@@ -1,11 +1,11 @@
 /* lane_rows.c - rows in lanes: the engine makes the steps and their integrals, the code of fst_run() looks at
  * them.
  *
- * Each lane has the fst_run_state of its run.  Most steps hold nothing to be looked at closely, and only time
- * and windings go on.  A step that may hold an end, a mark, a return to the section or a new extreme is taken
- * out of the lanes into the run's own flow and quadrature, and fst_run_watch_step() does the rest: dense
- * output, locating, marking.  So there is one writing of what a row is, and in the portable form its bits are
- * those of fst_run().
+ * Each lane has the fst_run_state of its run.  Time, windings and what is to be looked at are followed in the
+ * lanes.  A step that may hold an end, a mark or a return to the section is taken out of the lanes into the
+ * run's own flow and quadrature, and fst_run_watch_step() does the rest: dense output, locating, marking.  In
+ * the portable form new extremes go the same way, so that a row has the bits of fst_run(); in the fast forms
+ * the steps that may hold one are set aside, and located as many at a time as there are lanes.
  */
 #include "study/lane_rows.h"
 
@@ -31,6 +31,11 @@ typedef struct crew {
     lane lanes[FST_MOST_LANES];
     double observe_from[FST_MOST_LANES]; /* steps that end later are taken into the integrals */
     unsigned observed, in_window;        /* lanes whose steps are, and those in their window */
+    void *slots;                         /* the fast form: steps that were set aside, */
+    struct {
+        int lane, record;
+    } set_aside[FST_MOST_LANES]; /* and for what */
+    int aside;
     int occupied;
     fst_row_job waiting; /* a job whose model shares no batch with those at work */
     int has_waiting, no_more;
@@ -99,6 +104,7 @@ static beginning begin(crew *c, int l, fst_status *status, fst_error *error)
         return refused ? REFUSED : FAILED;
     }
     at->run = run;
+    run->extremes_elsewhere = c->engine->fused;
     c->occupied += 1;
     c->engine->load(c->batch, l, run->flow, run->t_end);
     c->view.next_mark[l] = next_mark(run);
@@ -150,12 +156,30 @@ static void occupy_idle(crew *c)
             occupy(c, l, 0);
 }
 
+/* Locate the extremes that were set aside. */
+static void locate(crew *c)
+{
+    double values[FST_MOST_LANES];
+    c->engine->locate(c->slots, values);
+    for (int i = 0; i < c->aside; ++i) {
+        const int record = c->set_aside[i].record;
+        fst_extreme *e = &c->lanes[c->set_aside[i].lane].run->q.extreme[FST_RECORD_TRACKS[record]];
+        if (fst_record_sign(record) > 0)
+            e->greatest = values[i] > e->greatest ? values[i] : e->greatest;
+        else
+            e->least = -values[i] < e->least ? -values[i] : e->least;
+    }
+    c->aside = 0;
+}
+
 /* The run of a lane is over; `status` other than FST_OK: it failed. */
 static void finish(crew *c, int l, fst_status status, fst_error *error)
 {
     fst_run_state *run = c->lanes[l].run;
     fst_run_result result;
     fst_result_clear(&result);
+    if (c->aside > 0)
+        locate(c);
     if (status == FST_OK)
         status = fst_run_conclude(run, &result, error);
     forget(c, l);
@@ -186,11 +210,12 @@ static void extract_quadrature(const crew *c, int l, fst_quadrature *q)
     q->has_dense = 0;
 }
 
+/* The portable form's records are those of the run. */
 static void keep_records(crew *c, int l, const fst_quadrature *q)
 {
-    for (int i = 0; i < FST_TRACK_COUNT; ++i) {
-        c->view.greatest[i * c->engine->width + l] = q->extreme[i].greatest;
-        c->view.least[i * c->engine->width + l] = q->extreme[i].least;
+    for (int i = 0; i < FST_RECORD_COUNT; ++i) {
+        const fst_extreme *e = &q->extreme[FST_RECORD_TRACKS[i]];
+        c->view.records[i * c->engine->width + l] = fst_record_sign(i) > 0 ? e->greatest : -e->least;
     }
 }
 
@@ -201,13 +226,22 @@ static int repeats(const fst_run_state *run)
     return run->section_marks.offered >= 3 && run->section_marks.latest.full_distance < 1e-9;
 }
 
-/* Lanes in their window whose records may be beaten, and are worth it. */
-static unsigned worth_tracking(const crew *c, unsigned beaten)
+/* The fast form: set the steps aside in which a record may be beaten. */
+static void set_aside(crew *c, unsigned lanes, const unsigned *beaten)
 {
-    for (int l = 0; c->engine->fused && l < c->engine->width; ++l)
-        if (beaten & bit(l) && repeats(c->lanes[l].run))
-            beaten &= ~bit(l);
-    return beaten;
+    for (int l = 0; l < c->engine->width; ++l)
+        if (lanes & bit(l) && repeats(c->lanes[l].run))
+            lanes &= ~bit(l);
+    for (int i = 0; i < FST_RECORD_COUNT; ++i)
+        for (int l = 0; (beaten[i] & lanes) != 0 && l < c->engine->width; ++l)
+            if (beaten[i] & lanes & bit(l)) {
+                c->engine->set_aside(c->batch, l, i, c->slots, c->aside);
+                c->set_aside[c->aside].lane = l;
+                c->set_aside[c->aside].record = i;
+                c->aside += 1;
+                if (c->aside == c->engine->width)
+                    locate(c);
+            }
 }
 
 /* A lane's state at the end of its step. */
@@ -269,7 +303,8 @@ static int watch(crew *c, int l)
     c->view.turns[1][l] = (double)run->q.small_phi.turns;
     c->view.next_mark[l] = next_mark(run);
     c->in_window |= run->in_window ? bit(l) : 0;
-    keep_records(c, l, &run->q);
+    if (!c->engine->fused)
+        keep_records(c, l, &run->q);
     keep_phi_range(c, l);
     return over || flow->t.high >= run->t_end;
 }
@@ -297,13 +332,18 @@ static void step(crew *c)
     const unsigned observed = accepted & c->observed;
     unsigned wandering, over = 0;
     unsigned eventful = c->engine->watch(c->batch, accepted, observed, &wandering);
+    unsigned beaten[FST_RECORD_COUNT] = {0};
     if (observed)
-        eventful |= worth_tracking(c, c->engine->observe(c->batch, observed, c->in_window) & c->in_window);
+        c->engine->observe(c->batch, observed, c->in_window, beaten);
+    for (int i = 0; !c->engine->fused && i < FST_RECORD_COUNT; ++i)
+        eventful |= beaten[i] & c->in_window;
     for (int l = 0; l < c->engine->width; ++l)
         if (eventful & bit(l))
             over |= watch(c, l) ? bit(l) : 0;
         else if (wandering & c->in_window & bit(l))
             watch_phi(c, l);
+    if (c->engine->fused)
+        set_aside(c, observed & c->in_window, beaten);
     c->engine->advance(c->batch, accepted & ~over);
     for (int l = 0; (over | tries.failed) != 0 && l < c->engine->width; ++l) {
         if (over & bit(l))
@@ -319,12 +359,18 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine
 {
     crew *c = calloc(1, sizeof *c);
     void *batch = aligned_alloc(64, (engine->bytes + 63) / 64 * 64);
-    fst_status status = c && batch ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
+    void *slots = engine->slots_bytes > 0 ? aligned_alloc(64, (engine->slots_bytes + 63) / 64 * 64) : NULL;
+    fst_status status = c && batch && (slots || engine->slots_bytes == 0)
+                            ? FST_OK
+                            : fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
     if (status == FST_OK) {
         memset(batch, 0, engine->bytes);
         c->work = work;
         c->engine = engine;
         c->batch = batch;
+        c->slots = slots;
+        if (slots)
+            memset(slots, 0, engine->slots_bytes);
         engine->view(batch, &c->view);
         occupy_idle(c);
     }
@@ -336,6 +382,7 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine
     }
     for (int l = 0; c && l < engine->width; ++l)
         forget(c, l);
+    free(slots);
     free(batch);
     free(c);
     return status;

@@ -166,7 +166,7 @@ int fst_run_watch_step(fst_run_state *run)
     double activity = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         activity = fabs(k[i]) > activity ? fabs(k[i]) : activity;
-    if (run->in_window)
+    if (run->in_window && !run->extremes_elsewhere)
         fst_quadrature_track(&run->q, run->flow);
     fst_run_watch_quietly(run, activity);
     return 0;

@@ -31,7 +31,8 @@ typedef struct fst_run_state {
     double least_phi, greatest_phi;      /* range of Phi since the discard */
     double window_start[FST_STATE_SIZE]; /* state at the first period mark, for the exponent */
     int in_window;
-    int ended; /* an event ended the run: ejected or lifted */
+    int extremes_elsewhere; /* someone else looks for them */
+    int ended;              /* an event ended the run: ejected or lifted */
     fst_regime end_regime;
     double end_fraction; /* where in the last step */
     /* a ramp; its rate is 0 where both ends are the same */

@@ -1,0 +1,83 @@
+/* lane_extremes.inl - the fast form of lanes.inl: extremes of tracked quantities, as many at a time as there
+ * are lanes.
+ *
+ * A slot holds what the dense output of one step needs, and which quantity is looked at; steps of several lanes
+ * and moments fill the slots, so that no lane of a vector is idle while the others look.
+ */
+typedef struct slots {
+    FN(bead_step) step;
+    REAL weight[FST_TRACK_COUNT]; /* the sign of the quantity that is looked at, 0 for the others */
+    REAL from, to;                /* the fractions of the step between which its extreme lies */
+} slots;
+
+static void set_aside(const void *memory, int lane, int record, void *to_memory, int slot)
+{
+    const batch *b = memory;
+    slots *to = to_memory;
+    const FN(bead_step) *from = &b->step;
+    FN(coefficients) *c = &to->step.context.coefficients;
+    const FN(coefficients) *d = &from->context.coefficients;
+    c->lines = d->lines;
+    c->magnetisable = d->magnetisable;
+    c->gyroscopic_term_lost = d->gyroscopic_term_lost;
+    const REAL *reals = &d->eps;
+    for (int i = 0; i < (int)((const REAL *)(d + 1) - reals); ++i)
+        (&c->eps)[i][slot] = reals[i][lane];
+    to->step.h[slot] = from->h[lane];
+    to->step.omega[slot] = from->omega[lane];
+    static const int needed[] = {0, 5, 6, 7, 8, 9, 10, 11, 12}; /* by the dense output */
+    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+        to->step.y[i][slot] = from->y[i][lane];
+        to->step.end[i][slot] = from->end[i][lane];
+        for (int j = 0; j < 9; ++j)
+            to->step.k[needed[j]][i][slot] = from->k[needed[j]][i][lane];
+    }
+    const summit top = find_summit(b, record);
+    to->from[slot] = top.before[lane];
+    to->to[slot] = top.after[lane];
+    for (int i = 0; i < FST_TRACK_COUNT; ++i)
+        to->weight[i][slot] = i == FST_RECORD_TRACKS[record] ? fst_record_sign(record) : 0.0;
+}
+
+/* Sign times each slot's quantity at the fraction x of its step. */
+static __attribute__((noinline)) REAL look(const slots *s, REAL x)
+{
+    REAL state[FST_STATE_SIZE];
+    FN(pull) p;
+    FN(seen) seen;
+    const FN(coefficients) *c = &s->step.context.coefficients;
+    FN(bead_evaluate_dense)(FST_STATE_SIZE, &s->step.dense[0][0], FST_STATE_SIZE, x, state);
+    (void)FN(renormalise)(state);
+    FN(magnetic_pull)(c, state[FST_X], state[FST_Y], state + FST_NX, &p);
+    FN(see)(c, s->step.omega, state, &p, &seen);
+    return SUM_5(s->weight[FST_TRACK_R], seen.r, s->weight[FST_TRACK_B], seen.b_norm, s->weight[FST_TRACK_GAP],
+                 seen.gap2, s->weight[FST_TRACK_SLIP], seen.slip2, s->weight[FST_TRACK_LOAD], seen.load);
+}
+
+/* Four parabolas, each through three points of the dense output: the bracket's ends and middle, then around the
+ * vertex of the one before, four times closer each time. */
+static void locate(void *memory, double *values)
+{
+    slots *s = memory;
+    const REAL half = R(0.5), zero = R(0.0);
+    FN(bead_make_dense)(&s->step);
+    REAL middle = half * (s->from + s->to), reach = half * (s->to - s->from), best = R(-INFINITY);
+    for (int round = 0; round < 4; ++round) {
+        const REAL low = look(s, middle - reach), centre = look(s, middle), high = look(s, middle + reach);
+        best = REAL_MAX(best, REAL_MAX(centre, REAL_MAX(low, high)));
+        const REAL slope = half * (high - low), bend = (high - centre) - (centre - low);
+        const fst_wide_mask curved = WIDE_LESS(bend, zero);
+        const REAL raw = -(slope / fst_wide_select(curved, bend, R(-1.0)));
+        const REAL at = REAL_MAX(R(-1.0), -REAL_MAX(R(-1.0), -raw));
+        const REAL towards = fst_wide_select(WIDE_LESS(low, high), R(1.0), R(-1.0));
+        const REAL to = fst_wide_select(curved, at, towards);
+        const REAL inside = fst_wide_select(curved, centre + half * (slope * at), best);
+        const fst_wide_mask vertex = WIDE_LESS(REAL_ABS(raw), R(1.0));
+        if (round == 3)
+            best = fst_wide_select(vertex, REAL_MAX(best, inside), best);
+        const REAL next = reach * R(0.25), from = s->from + next, until = s->to - next;
+        middle = REAL_MAX(from, -REAL_MAX(-until, -(middle + to * reach)));
+        reach = next;
+    }
+    memcpy(values, &best, sizeof best);
+}
