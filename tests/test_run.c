@@ -188,6 +188,36 @@ static void test_samples(void **unused)
     fst_model_free(model);
 }
 
+static fst_status greatest_load(void *user, const fst_sample *sample, fst_error *error)
+{
+    (void)error;
+    double *greatest = user;
+    *greatest = fmax(*greatest, sample->seen.load);
+    return FST_OK;
+}
+
+/* At this drive the load's greatest value lies in a wide gap between the stages of its step. */
+static void test_extreme_between_distant_stages(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(1.003125, FST_DYNAMICS_RIGID);
+    p.run_periods = 60;
+    p.run_discard = 20;
+    p.run_rtol = 1e-8;
+    p.run_samples = 4000;
+    double sampled = 0;
+    fst_run_options options = fst_default_run_options();
+    options.sample_from = p.run_discard;
+    options.sink.user = &sampled;
+    options.sink.sample = greatest_load;
+    fst_run_result r;
+    assert_int_equal(fst_run(&p, &options, &r, NULL), FST_OK);
+    fst_model *model = model_of(&p);
+    const double gravity = fst_model_groups(model).gravity;
+    fst_model_free(model);
+    CHECK_WITHIN(r.max_load_weights * gravity / sampled, 1 - 1e-9, 1 + 2e-5);
+}
+
 /* Phi and alpha are continuous from the first sample on, also where the start has Phi = 180 degrees. */
 static void test_samples_from_half_a_turn(void **unused)
 {
@@ -461,6 +491,7 @@ int main(void)
         cmocka_unit_test(test_means_do_not_depend_on_the_tolerance),
         cmocka_unit_test(test_samples),
         cmocka_unit_test(test_samples_from_half_a_turn),
+        cmocka_unit_test(test_extreme_between_distant_stages),
         cmocka_unit_test(test_means_and_extremes_by_brute_force),
         cmocka_unit_test(test_interruption),
         cmocka_unit_test(test_no_discard),

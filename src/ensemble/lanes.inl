@@ -486,7 +486,8 @@ static void observe(void *memory, unsigned accepted, unsigned in_window, unsigne
     integrate(b, mask);
     for (int i = 0; i < FST_RECORD_COUNT; ++i) {
         const summit top = find_summit(b, i);
-        beaten[i] = accepted & fst_wide_lanes_of(WIDE_LESS(b->records[i], top.best + R(0.3) * top.fall));
+        beaten[i] =
+            accepted & fst_wide_lanes_of(WIDE_LESS(b->records[i], top.best + R(EXTREME_MARGIN) * top.fall));
 #ifdef FST_FUSED
         /* The end of a step lies on the trajectory; the stages within it do so but roughly, and a record that
          * one of them overshot would hide the ones to come. */

@@ -7,4 +7,8 @@
 enum { FST_PATH_STAGES = 9 };
 static const int FST_PATH_STAGE[FST_PATH_STAGES] = {0, 6, 7, 5, 9, 8, 10, 11, 12};
 
+/* What the greatest value at these stages may at most be exceeded by between them, over its fall to the
+ * neighbours: 2.4 for a parabola (fst_quadrature_track), and some more. */
+#define EXTREME_MARGIN 3.0
+
 #endif

@@ -178,8 +178,9 @@ static const fst_state_function TRACKED[FST_TRACK_COUNT] = {tracked_r, tracked_b
                                                             tracked_load};
 
 /* The greatest sign * value of one quantity in the last step, if it may beat the record.  The stages show
- * roughly where it lies; between them it may rise above the best one by no more than about a quarter of the
- * fall to the neighbours, taken here as three tenths. */
+ * roughly where it lies.  A parabola through the best one and its neighbours, at the distances a and b, rises
+ * above it by at most a^2/(4 b (a + b)) of the greater fall; the stages lie unevenly, and where one neighbour
+ * is ten times as far as the other that is 2.4. */
 static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record)
 {
     int best = 0;
@@ -196,7 +197,7 @@ static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, d
         sign * q->tracked[FST_PATH_STAGES - 1][which]; /* the end lies on the trajectory exactly */
     if (end > record)
         record = end;
-    if (top + 0.3 * fall <= record)
+    if (top + EXTREME_MARGIN * fall <= record)
         return record;
     double lo = ON_PATH_NODE[before], hi = ON_PATH_NODE[after];
     if (hi - lo < 0.05)
