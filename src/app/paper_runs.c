@@ -246,7 +246,7 @@ int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan sc
 {
     if (step != FST_STEP_RUNS && !paper->done[step])
         return 0;
-    for (int s = scan; s < FST_SCAN_COUNT; s++)
+    for (int s = (int)scan; s < FST_SCAN_COUNT; s++)
         for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
             for (int i = 0; i < paper->counts[s]; i++)
                 if (!paper->scans[s][d] || !paper->scans[s][d][i].done)
