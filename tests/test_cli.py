@@ -131,6 +131,8 @@ class Usage(Case):
         self.bad(["plot", "x.h5", "-o", "x.svg", "--from", "3", "--to", "2"], "--to")
         self.bad(["plot", "x.h5", "-o", "x.svg", "--zoom", "1,0,0,1"], "--zoom")
         self.bad(["paper"], "-o DIR")
+        self.bad(["run", "--set", "bead.a=1e-3"], "bead.a", "hard", "paramagnetic or mixed")
+        self.bad(["run", "--set", "bead.material=paramagnetic", "--set", "bead.b=1e-3"], "bead.b", "mixed only")
 
 
 class Scenes(Case):

@@ -18,6 +18,7 @@
 
 #include "draw/chart.h"
 #include "draw/gnuplot.h"
+#include "draw/view.h"
 
 #include <festoon/festoon_tools.h>
 
@@ -280,6 +281,25 @@ static void a_curve_breaks_where_it_is_not_a_number(void **state)
     free(data);
 }
 
+/* Hermite's interpolation is exact for cubics, and its error on a sine falls as h^4. */
+static void between_samples_the_path_is_smooth(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i <= 10; i++) {
+        double t = 0.7 * i / 10.0, cubic = ((2.0 * t - 3.0) * t + 0.5) * t + 1.0;
+        double there = fst_view_between(1.0, 0.5, ((1.4 - 3.0) * 0.7 + 0.5) * 0.7 + 1.0,
+                                        (4.2 - 6.0) * 0.7 + 0.5, 0.7, i / 10.0);
+        assert_true(fabs(there - cubic) < 1e-14);
+    }
+    double error[2];
+    for (int i = 0; i < 2; i++) {
+        double h = i ? 0.1 : 0.2;
+        error[i] =
+            fabs(fst_view_between(sin(1.0), cos(1.0), sin(1.0 + h), cos(1.0 + h), h, 0.5) - sin(1.0 + 0.5 * h));
+    }
+    assert_true(error[0] / error[1] > 14.0 && error[0] / error[1] < 18.0);
+}
+
 int main(void)
 {
     if (system("gnuplot --version >/dev/null 2>&1") != 0)
@@ -289,6 +309,7 @@ int main(void)
     if (!path_before || !mkdtemp(directory))
         return 1;
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(between_samples_the_path_is_smooth),
         cmocka_unit_test_teardown(every_kind_in_every_format, clear_directory),
         cmocka_unit_test_teardown(the_script_draws_the_figure_again, clear_directory),
         cmocka_unit_test_teardown(bad_requests_say_what_is_wrong, clear_directory),

@@ -90,8 +90,9 @@ class Movie(unittest.TestCase):
         frames = self.frames("place", "--to", "4", "--fps", "1", "--size", "480x480")
         for turn in (2, 3):
             row = min(rows, key=lambda r: abs(r["drive_turns"] - turn))
-            x, y = (240 + s * row[k] * 23.0 * 240 / reach for s, k in ((1, "x"), (-1, "y")))
-            pixels, radius = read_png(frames[turn])[2], 2.5 * 240 / reach
+            scale = 0.84 * 240 / reach  # pixels a millimetre: the plate leaves room for what stands around it
+            x, y = (240 + s * row[k] * 23.0 * scale for s, k in ((1, "x"), (-1, "y")))
+            pixels, radius = read_png(frames[turn])[2], 2.5 * scale
             dark = 0
             for step in range(72):  # the outline is dark all round
                 px, py = x + radius * math.cos(step / 72 * 6.2832), y + radius * math.sin(step / 72 * 6.2832)

@@ -90,7 +90,7 @@ static void force_and_torque_follow_from_the_energy(void **unused)
 static void a_paramagnetic_bead_feels_no_torque(void **unused)
 {
     (void)unused;
-    fst_params params = bead(FST_MATERIAL_PARAMAGNETIC, 1.5, 5e-3, 1e-3);
+    fst_params params = bead(FST_MATERIAL_PARAMAGNETIC, 1.5, 5e-3, 0.0);
     fst_model *model = model_of(&params);
     double derivative[FST_STATE_SIZE];
     fst_rhs(model, at_rest, derivative);

@@ -42,6 +42,7 @@ typedef struct film {
     double *trail;     /* x, y and shade of the trail's points, one after another */
     size_t trail_room;
     char title[192], label[64];
+    double slower; /* than the motion itself */
     int frames;
 } film;
 
@@ -91,9 +92,9 @@ static void set_stage(film *f, const fst_table *table)
     for (size_t row = m->first; row <= m->last; row++)
         reach = fmax(reach, fmax(fabs(m->x[row]), fabs(m->y[row])));
     double hertz = omega * p->friction_gamma / 6.283185307179586;
-    (void)snprintf(f->title, sizeof f->title, "%.3g Hz (ω = %.4g), %s, %.3g times slower", hertz, omega,
-                   p->model_dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020",
-                   hertz * f->options->seconds_per_turn);
+    (void)snprintf(f->title, sizeof f->title, "%.3g Hz (ω = %.4g), %s", hertz, omega,
+                   p->model_dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
+    f->slower = hertz * f->options->seconds_per_turn;
     (void)snprintf(f->label, sizeof f->label, "%s (%s)", m->colour_info->name, m->colour_info->unit);
     f->stage = (fst_film_stage){
         .width = f->options->width,
@@ -172,8 +173,8 @@ static fst_status make_frames(film *f, fst_error *error)
         fst_film_motion_frame(m, &frame);
         set_trail(f, &frame);
         double t = m->t[m->row] + m->part * (m->t[m->row + 1] - m->t[m->row]);
-        (void)snprintf(clock, sizeof clock, "t = %.1f ms, turn %.2f of the magnet",
-                       1e3 * t / m->table->params.friction_gamma, now);
+        (void)snprintf(clock, sizeof clock, "t = %.1f ms, turn %.2f, %.3g times slower",
+                       1e3 * t / m->table->params.friction_gamma, now, f->slower);
         frame.clock = clock;
         f->module->paint(f->canvas, &f->stage, &frame);
         fst_status status = give_frame(f, i, error);

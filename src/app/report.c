@@ -63,7 +63,7 @@ static void write_festoons(FILE *out, const fst_paper_state *paper, int row, fst
         fprintf(out, "<td class=\"n\">%s<br>", fst_regime_name(result->regime));
     fst_report_badge(out, fst_table1_verdict(paper, row, d));
     if (isfinite(closed->omega))
-        fprintf(out, "<br><small>%d at ω = %.9f</small></td>", fst_table1[row].count, closed->omega);
+        fprintf(out, "<br><small>%d at ω = %.7f</small></td>", fst_table1[row].count, closed->omega);
     else
         fprintf(out, "<br><small>%d: %s</small></td>", fst_table1[row].count,
                 paper->done[FST_STEP_EXACT] && !paper->exact[d].missing[0] ? "nowhere stable" : "not searched");

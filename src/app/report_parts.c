@@ -31,7 +31,9 @@ const char fst_report_head[] =
     "f9d9cf;color:#7d2600}\n"
     ".incomplete{background:#fdeccb;padding:.5rem .8rem;border-radius:6px}\n"
     ".rules dt{font-weight:600;margin-top:.5rem}.rules dd{margin:0 0 0 1rem;font-size:.9rem}\n"
-    "nav a{margin-right:1rem;white-space:nowrap}a{color:#0064a0}\n"
+    "nav{display:flex;flex-wrap:wrap;gap:.2rem 1rem}a{color:#0064a0}\n"
+    "@media(max-width:30rem){.scroll table,.card "
+    "table{font-size:.82rem}th,td{padding-right:.45rem}.card{padding:.6rem}}\n"
     "</style></head>\n"
     "<body><main>\n";
 

@@ -179,7 +179,7 @@ static void paint_plate(cairo_t *pen, const fst_film_stage *stage, const fst_fil
 /* From the front: the plate, the magnet's slab below it, and the bead on it. */
 static void paint_side(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame)
 {
-    double width = 0.34 * stage->width, scale = width / (2.0 * stage->reach);
+    double width = 0.30 * stage->width, scale = width / (2.0 * stage->reach);
     double left = 12.0, down = stage->depth + 0.8 * stage->magnet[2], up = 2.6 * stage->radius;
     double height = scale * (up + down), top = stage->height - height - 12.0;
     cairo_rectangle(pen, left, top, width, height);
@@ -280,7 +280,8 @@ static void paint(fst_film_canvas *canvas, const fst_film_stage *stage, const fs
 {
     cairo_t *pen = canvas->pen;
     int side = stage->width < stage->height ? stage->width : stage->height;
-    double scale = side / (2.0 * stage->reach);
+    /* So small that the bead passes the view from the front without being hidden by it. */
+    double scale = 0.84 * side / (2.0 * stage->reach);
     cairo_set_source_rgb(pen, 1.0, 1.0, 1.0);
     cairo_paint(pen);
     paint_plate(pen, stage, frame, scale);

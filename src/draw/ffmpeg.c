@@ -3,52 +3,18 @@
 #include "draw/ffmpeg.h"
 
 #include "base/error.h"
+#include "draw/process.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char **environ;
-
 enum { WORDS_SIZE = 512, MOST_ARGUMENTS = 40 };
-
-static int spawn(pid_t *child, char *const arguments[], int input, int words)
-{
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    int failed = posix_spawn_file_actions_init(&actions);
-    if (failed)
-        return failed;
-    failed = posix_spawnattr_init(&attributes);
-    if (failed) {
-        (void)posix_spawn_file_actions_destroy(&actions);
-        return failed;
-    }
-    /* The caller may have signals blocked or ignored; ffmpeg starts with a clean slate. */
-    sigset_t none, restored;
-    (void)sigemptyset(&none);
-    (void)sigemptyset(&restored);
-    (void)sigaddset(&restored, SIGPIPE);
-    (void)posix_spawnattr_setsigmask(&attributes, &none);
-    (void)posix_spawnattr_setsigdefault(&attributes, &restored);
-    (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    failed = posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    if (!failed)
-        failed = posix_spawn_file_actions_adddup2(&actions, words, STDERR_FILENO);
-    if (!failed)
-        failed = posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    if (!failed)
-        failed = posix_spawnp(child, "ffmpeg", &actions, &attributes, arguments, environ);
-    (void)posix_spawnattr_destroy(&attributes);
-    (void)posix_spawn_file_actions_destroy(&actions);
-    return failed;
-}
 
 fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps, const char *format,
                             const char *out, fst_error *error)
@@ -84,7 +50,8 @@ fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps,
     }
     char *writable[MOST_ARGUMENTS];
     memcpy(writable, arguments, sizeof writable);
-    int failed = spawn(&film->child, writable, input[1], words[1]);
+    const fst_process ffmpeg = {"ffmpeg", writable, NULL, input[1], -1, words[1]};
+    int failed = fst_process_start(&ffmpeg, &film->child);
     (void)close(input[1]);
     (void)close(words[1]);
     film->frames = input[0];

@@ -1,23 +1,21 @@
-#define _GNU_SOURCE /* posix_spawn_file_actions_addchdir_np, pipe2 */
+#define _GNU_SOURCE /* pipe2 */
 
 #include "draw/gnuplot.h"
 
 #include "base/error.h"
+#include "draw/process.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
-
-extern char **environ;
 
 enum { PATIENCE_MS = 60000, WORDS_SIZE = 512 };
 
@@ -26,42 +24,6 @@ static long long milliseconds(void)
     struct timespec now;
     (void)clock_gettime(CLOCK_MONOTONIC, &now);
     return (long long)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-}
-
-/* Start gnuplot with nothing to read and both outputs going into `output`; an errno, or 0. */
-static int start(const char *directory, char *const arguments[], int output, pid_t *child)
-{
-    posix_spawn_file_actions_t actions;
-    int failed = posix_spawn_file_actions_init(&actions);
-    if (failed)
-        return failed;
-    posix_spawnattr_t attributes;
-    failed = posix_spawnattr_init(&attributes);
-    if (failed) {
-        (void)posix_spawn_file_actions_destroy(&actions);
-        return failed;
-    }
-    /* The caller's thread may have signals blocked or ignored; gnuplot starts with a clean slate. */
-    sigset_t none, restored;
-    (void)sigemptyset(&none);
-    (void)sigemptyset(&restored);
-    (void)sigaddset(&restored, SIGPIPE);
-    (void)posix_spawnattr_setsigmask(&attributes, &none);
-    (void)posix_spawnattr_setsigdefault(&attributes, &restored);
-    (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-
-    failed = posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    if (!failed)
-        failed = posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
-    if (!failed)
-        failed = posix_spawn_file_actions_adddup2(&actions, output, STDERR_FILENO);
-    if (!failed)
-        failed = posix_spawn_file_actions_addchdir_np(&actions, directory);
-    if (!failed)
-        failed = posix_spawnp(child, "gnuplot", &actions, &attributes, arguments, environ);
-    (void)posix_spawnattr_destroy(&attributes);
-    (void)posix_spawn_file_actions_destroy(&actions);
-    return failed;
 }
 
 /* Read until the other end closes or the deadline passes; keep the beginning, on one line. */
@@ -136,7 +98,8 @@ fst_status fst_gnuplot_run(const char *directory, const char *script, const char
         return fst_fail(error, FST_IO, script, "no pipe to gnuplot: %s", strerror(errno));
     long long deadline = milliseconds() + PATIENCE_MS;
     pid_t child = 0;
-    int failed = start(directory, arguments, ends[1], &child);
+    const fst_process gnuplot = {"gnuplot", arguments, directory, -1, ends[1], ends[1]};
+    int failed = fst_process_start(&gnuplot, &child);
     (void)close(ends[1]);
     if (failed) {
         (void)close(ends[0]);
