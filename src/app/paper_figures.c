@@ -62,7 +62,8 @@ static const fst_paper_figure figures[] = {
     {.name = "supercritical",
      .source = "Fig. supercritical",
      .title = "The period halving is supercritical",
-     .caption = "Ratio p of successive swings of r (inset: r(t) under the threshold, two unequal swings in "
+     .caption = "Ratio p of successive swings of r where it is under 6 (inset: r(t) under the threshold, two "
+                "unequal swings in "
                 "turn), mean of n_z, "
                 "and the time in which the motion settles. Dotted: the pitchfork of the periodic orbits.",
      .each = 1,

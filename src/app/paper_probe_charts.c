@@ -137,8 +137,7 @@ static fst_status draw_halving(const fst_paper_halving *halving, const halving_c
                                const char *out, fst_error *error)
 {
     const fst_chart_curve curves[4] = {
-        halving_curve("p = Δ+/Δ− − 1 (where it is under 6)", c->omega, c->p, FST_HALVING_POINTS,
-                      FST_COLOUR_BLUE, FST_CURVE_POINTS),
+        halving_curve("p = Δ+/Δ− − 1", c->omega, c->p, FST_HALVING_POINTS, FST_COLOUR_BLUE, FST_CURVE_POINTS),
         halving_curve("|⟨n_z⟩|", c->omega, c->nz, FST_HALVING_POINTS, FST_COLOUR_VERMILION, FST_CURVE_POINTS),
         halving_curve("square root of the distance", c->line_x, c->line_y, LINE, FST_COLOUR_GREY,
                       FST_CURVE_LINE),

@@ -128,8 +128,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     sweep.with_ranks = 1;
     status = fst_sweep(&params, path, &sweep, &result, error);
     progress_end(&line);
-    if (result.rank != 0) /* rank 0 tells what happened to all */
-        return status;
+    /* Rank 0 tells what happened to all, in words and by its status: mpirun kills the others as soon as one
+     * process has ended with a status of its own, be rank 0 still about to speak. */
+    if (result.rank != 0)
+        return FST_OK;
     if (status == FST_INTERRUPTED)
         return fail(error, FST_INTERRUPTED, path,
                     "interrupted with %lld of %lld points done; the same command goes on",
