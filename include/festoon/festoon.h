@@ -508,8 +508,9 @@ typedef struct fst_festoon_list {
     double *omegas; /* rising; each has a stable orbit with N festoons */
     fst_orbit *orbits;
     size_t count;
-    double least, greatest; /* the range of N on the stable branch */
-    double from, to;        /* and of omega */
+    double least[2],
+        greatest[2]; /* N on the stable S1 orbits, on the stable S2 orbits; inf, -inf: none is stable */
+    double from, to; /* the range of omega of both */
 } fst_festoon_list;
 
 /* Every omega at which a stable counter-rotating pattern has exactly N festoons.  FST_NO_CONVERGENCE: none; the

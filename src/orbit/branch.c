@@ -369,7 +369,7 @@ static fst_status first_orbit(fst_tracer *t, fst_node *start, fst_error *error)
     return fst_fail(
         error, FST_NO_CONVERGENCE, "branch",
         "no counter-rotating orbit was found between %.10g and %.10g from the scene's start (the last try: "
-        "%.240s); try another range or start.r",
+        "%.480s); try another range or start.r",
         lo, hi, why.sentence);
 }
 

@@ -2,6 +2,7 @@
 #include "orbit/describe.h"
 #include "orbit/search.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -93,8 +94,9 @@ static fst_status look_between(const fst_family *family, const fst_branch_point 
                                double target, fst_festoon_list *list, fst_error *error)
 {
     if (a->stable && a->turns < 0) {
-        list->least = fmin(list->least, a->festoons);
-        list->greatest = fmax(list->greatest, a->festoons);
+        const int part = a->symmetry == FST_SYMMETRY_S2;
+        list->least[part] = fmin(list->least[part], a->festoons);
+        list->greatest[part] = fmax(list->greatest[part], a->festoons);
         list->from = fmin(list->from, a->value);
         list->to = fmax(list->to, a->value);
     }
@@ -108,6 +110,21 @@ static fst_status look_between(const fst_family *family, const fst_branch_point 
         fst_orbit_from_solution(family, &s, &orbit, &ignored) != FST_OK || !orbit.stable)
         return FST_OK;
     return add(list, &orbit, error);
+}
+
+/* The branch has a gap in N: where the period halves, N doubles. */
+static fst_status none_closes(const fst_festoon_list *list, double festoons, fst_error *error)
+{
+    static const char *const names[2] = {"S1", "S2"};
+    char reach[2][80] = {"", ""};
+    for (int part = 0; part < 2; ++part)
+        if (list->least[part] <= list->greatest[part])
+            (void)snprintf(reach[part], sizeof reach[part], "; N is from %.6g to %.6g on its %s orbits",
+                           list->least[part], list->greatest[part], names[part]);
+    return fst_fail(error, FST_NO_CONVERGENCE, "festoons",
+                    "no stable pattern closes after %.10g festoons: the stable counter-rotating branch reaches "
+                    "from omega = %.8g to %.8g%s%s",
+                    festoons, list->from, list->to, reach[0], reach[1]);
 }
 
 fst_status fst_festoons_find(const fst_params *params, double festoons, fst_festoon_list *list,
@@ -125,8 +142,8 @@ fst_status fst_festoons_find(const fst_params *params, double festoons, fst_fest
     if (status != FST_OK)
         return status;
     status = fst_family_begin(&family, params, "drive.omega", error);
-    list->least = list->from = INFINITY;
-    list->greatest = list->to = -INFINITY;
+    list->least[0] = list->least[1] = list->from = INFINITY;
+    list->greatest[0] = list->greatest[1] = list->to = -INFINITY;
     for (size_t i = 0; i + 1 < branch.point_count && status == FST_OK; ++i)
         status = look_between(&family, &branch.points[i], &branch.points[i + 1], festoons, list, error);
     for (size_t i = 0; i < branch.special_count; ++i) { /* where the turning begins, and where it ends */
@@ -137,11 +154,7 @@ fst_status fst_festoons_find(const fst_params *params, double festoons, fst_fest
     }
     fst_branch_free(&branch);
     if (status == FST_OK && list->count == 0)
-        status = fst_fail(
-            error, FST_NO_CONVERGENCE, "festoons",
-            "no stable pattern closes after %.10g festoons: the stable counter-rotating branch reaches "
-            "from omega = %.8g to %.8g, and N from %.6g to %.6g on it",
-            festoons, list->from, list->to, list->least, list->greatest);
+        status = none_closes(list, festoons, error);
     if (status != FST_OK)
         fst_festoons_free(list);
     return status;
