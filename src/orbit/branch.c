@@ -348,9 +348,11 @@ static void climb_to_symmetric(const fst_tracer *t, fst_node *start)
     }
 }
 
-/* A counter-rotating orbit to begin with: a symmetric one where there is one, for from it the others are born.
+/* Counter-rotating orbits to begin with: a symmetric one where there is one, for from it the others are born,
+ * and before it the first that was met, in case it lies on none of the branches that are followed from the
+ * other.
  */
-static fst_status first_orbit(fst_tracer *t, fst_node *start, fst_error *error)
+static fst_status first_orbits(fst_tracer *t, fst_node start[2], int *count, fst_error *error)
 {
     enum { TRIALS = 8 };
     static const double part[TRIALS] = {0.5, 0.25, 0.1, 0.75, 0.35, 0.05, 0.9, 0.02};
@@ -358,12 +360,18 @@ static fst_status first_orbit(fst_tracer *t, fst_node *start, fst_error *error)
     const double given = fst_family_value(&t->family);
     fst_error why;
     memset(&why, 0, sizeof why);
-    for (int i = -1; i < TRIALS; ++i) {
+    *count = 0;
+    for (int i = -1; i < TRIALS && *count < 2; ++i) {
         const double value = i < 0 ? given : lo + (hi - lo) * part[i];
-        if (!(value >= lo && value <= hi) || !search_at(t, value, start, &why))
+        if (!(value >= lo && value <= hi) || !search_at(t, value, &start[*count], &why))
             continue;
-        if (!start->s.symmetric)
-            climb_to_symmetric(t, start);
+        if (start[*count].s.symmetric || *count == 0)
+            *count += 1;
+        if (start[*count - 1].s.symmetric)
+            return FST_OK;
+    }
+    if (*count > 0) {
+        climb_to_symmetric(t, start);
         return FST_OK;
     }
     return fst_fail(
@@ -375,12 +383,16 @@ static fst_status first_orbit(fst_tracer *t, fst_node *start, fst_error *error)
 
 static fst_status follow_counter(fst_tracer *t, fst_error *error)
 {
-    fst_node start;
-    fst_status status = first_orbit(t, &start, error);
-    if (status == FST_OK)
-        status = fst_tracer_add(t, &start, error);
-    if (status == FST_OK)
-        status = fst_tracer_run(t, error);
+    fst_node start[2];
+    int count;
+    fst_status status = first_orbits(t, start, &count, error);
+    for (int i = count - 1; i >= 0 && status == FST_OK; --i) {
+        if (orbit_branch(t->out, &start[i].seen) >= 0)
+            continue;
+        status = fst_tracer_add(t, &start[i], error);
+        if (status == FST_OK)
+            status = fst_tracer_run(t, error);
+    }
     return status;
 }
 

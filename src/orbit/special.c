@@ -16,22 +16,29 @@ static double hermite(double a, double ta, double b, double tb, double h, double
     return a + x * d + x * rest * (rest * (h * ta - d) - x * (h * tb - d));
 }
 
-fst_status fst_node_between(const fst_family *family, const fst_node *a, const fst_node *b, double x,
-                            fst_node *out, fst_error *error)
+void fst_solution_between(const fst_node *a, const fst_node *b, double x, fst_solution *s)
 {
-    fst_solution s = a->s;
     const fst_direction *ta = &a->s.tangent, *tb = &b->s.tangent;
-    fst_direction way, step;
-    fst_direction_between(&a->s, &b->s, &way);
     const double h = b->length;
+    fst_direction step;
     memset(&step, 0, sizeof step);
-    for (int i = 0; i < fst_states_of(&s); ++i)
+    *s = a->s;
+    for (int i = 0; i < fst_states_of(s); ++i)
         for (int k = 0; k < FST_STATE_SIZE; ++k)
             step.y[i][k] = hermite(a->s.y[i][k], ta->y[i][k], b->s.y[i][k], tb->y[i][k], h, x) - a->s.y[i][k];
     step.period = hermite(a->s.period, ta->period, b->s.period, tb->period, h, x) - a->s.period;
     step.value = hermite(a->s.value, ta->value, b->s.value, tb->value, h, x) - a->s.value;
-    s.on_section = 0;
-    fst_solution_move(&s, &step, 1.0);
+    s->on_section = 0;
+    fst_solution_move(s, &step, 1.0);
+}
+
+fst_status fst_node_between(const fst_family *family, const fst_node *a, const fst_node *b, double x,
+                            fst_node *out, fst_error *error)
+{
+    fst_solution s;
+    fst_direction way;
+    fst_direction_between(&a->s, &b->s, &way);
+    fst_solution_between(a, b, x, &s);
     const fst_status status = fst_solution_correct(family, &s, &way, error);
     return status == FST_OK ? fst_node_make(family, &s, out, error) : status;
 }
