@@ -426,6 +426,21 @@ static int is_branch_point(const fst_family *family, const fst_solution *s)
     return fabs(along) < 1e-3 * fmax(greatest, 0.01 * sqrt(size));
 }
 
+/* A curve of orbits went through the equilibrium on which they shrink, from a to b, and comes back on itself:
+ * what happens on the way down belongs to it, up to an orbit a twentieth as large as that at a. */
+static fst_status look_before_hopf_end(fst_curve *curve, const fst_node *a, const fst_node *b, fst_error *error)
+{
+    const double x = 0.95 * extent(&a->s) / (extent(&a->s) + extent(&b->s));
+    fst_node last;
+    fst_error ignored;
+    int ends = 0;
+    if (fst_node_between(curve->family, a, b, x, &last, &ignored) != FST_OK)
+        return FST_OK;
+    last.length = x * b->length;
+    const fst_status status = fst_specials_between(curve, a, &last, &ends, error);
+    return status == FST_OK && !ends ? curve->sink.node(curve->sink.user, &last, error) : status;
+}
+
 /* A turn of the parameter between a and b.  The curve of S1 orbits also turns where it meets the symmetric one,
  * and that of librations where they shrink to nothing: there it would only come back on itself. */
 static fst_status report_turn(fst_curve *curve, const fst_node *a, const fst_node *b, int *ends,
@@ -441,8 +456,9 @@ static fst_status report_turn(fst_curve *curve, const fst_node *a, const fst_nod
         return FST_OK;
     }
     if (find_hopf(curve->family, a, b, frequency, &at)) {
+        const fst_status status = look_before_hopf_end(curve, a, b, error);
         *ends = 1;
-        return report_hopf_end(curve, a, &at, frequency, error);
+        return status == FST_OK ? report_hopf_end(curve, a, &at, frequency, error) : status;
     }
     if (fst_locate_special(curve->family, a, b, FST_TEST_FOLD, &at, &why) != FST_OK) {
         if (a->s.segments == 0) { /* Newton's matrix is singular where two curves meet */
@@ -491,13 +507,23 @@ static fst_status report_other(fst_curve *curve, const fst_node *a, const fst_no
                                error);
 }
 
+/* Whether more became unstable, or stable, between two nodes than the tests that change sign account for: as
+ * where a pair crosses the border and meets on the real axis right after. */
+static int hides_something(const fst_node *a, const fst_node *b)
+{
+    const int change = abs(unstable(&a->s) - unstable(&b->s));
+    const int pairs = abs(unstable_pairs(&a->s) - unstable_pairs(&b->s));
+    return change > 2 ||
+           change > 2 * pairs + changes_sign(a, b, FST_TEST_MINUS) + changes_sign(a, b, FST_TEST_PLUS);
+}
+
 fst_status fst_specials_between(fst_curve *curve, const fst_node *a, const fst_node *b, int *ends,
                                 fst_error *error)
 {
     fst_node at;
     fst_error why;
     /* Several crossings in one step may hide each other: look at its halves. */
-    if (abs(unstable(&a->s) - unstable(&b->s)) > 2 && b->length > 1e-4 &&
+    if (hides_something(a, b) && b->length > 1e-4 &&
         fst_node_between(curve->family, a, b, 0.5, &at, &why) == FST_OK) {
         fst_node last = *b;
         at.length = last.length = 0.5 * b->length;
