@@ -405,8 +405,8 @@ static fst_status check(const fst_branch_options *o, fst_error *error)
     if (!isfinite(o->from) || !isfinite(o->to) || o->from == o->to)
         return fst_fail(error, FST_BAD_INPUT, where,
                         "a branch needs a range with two different ends, not %g to %g", o->from, o->to);
-    if (!(o->tolerance >= 1e-15 && o->tolerance <= 1e-6))
-        return fst_fail(error, FST_BAD_INPUT, where, "tolerance = %g is out of range: 1e-15 to 1e-6",
+    if (!(o->tolerance >= 1e-14 && o->tolerance <= 1e-6))
+        return fst_fail(error, FST_BAD_INPUT, where, "tolerance = %g is out of range: 1e-14 to 1e-6",
                         o->tolerance);
     if (o->second_key &&
         (!isfinite(o->second_from) || !isfinite(o->second_to) || o->second_from == o->second_to))
@@ -485,7 +485,7 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     }
     status = fst_family_begin(&t->family, params, options->key, error);
     t->family.scale = fst_branch_scale(options->key, options->from, options->to);
-    t->family.tolerance = options->tolerance;
+    fst_family_tighten(&t->family, options->tolerance);
     if (status == FST_OK)
         status = options->kind == FST_BRANCH_COUNTER ? follow_counter(t, error) : fst_follow_locked(t, error);
     if (status == FST_OK && options->second_key)

@@ -307,7 +307,7 @@ fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const
         fst_status status = fst_newton_equations(family, s, &l, error);
         if (status != FST_OK)
             return status;
-        if (s->residual < FST_RESIDUAL_TINY || (s->residual < FST_RESIDUAL_GOOD && s->residual > 0.1 * before))
+        if (fst_newton_is_done(family, s->residual, before))
             return family->key >= 0 ? find_tangent(family, s, &l, across, error) : FST_OK;
         if (!isfinite(s->residual) || (s->iterations > patience && s->residual > before))
             break;

@@ -173,7 +173,8 @@ fst_status fst_locate_special(const fst_family *family, const fst_node *a, const
 {
     double lo = 0.0, hi = 1.0, f_lo = fst_test_value(a, test), f_hi = fst_test_value(b, test);
     int side = 0;
-    const double least = test == FST_TEST_PAIR ? 1e-12 : 1e-13 * fmin(1.0, fmax(fabs(f_lo), fabs(f_hi)));
+    const double least =
+        family->location * (test == FST_TEST_PAIR ? 10.0 : fmin(1.0, fmax(fabs(f_lo), fabs(f_hi))));
     *out = fabs(f_lo) < fabs(f_hi) ? *a : *b;
     if (test == FST_TEST_PAIR && !narrow_to_one_pair(family, a, b, &lo, &hi, &f_lo, &f_hi))
         return fst_fail(error, FST_NO_CONVERGENCE, "special point", "no single pair crosses at %.10g",
@@ -192,7 +193,7 @@ fst_status fst_locate_special(const fst_family *family, const fst_node *a, const
         if (!isfinite(f))
             return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test is undefined at %.10g",
                             node.s.value);
-        if (fabs(f) <= least || (i > 1 && fabs(f) < 100.0 * least && moved < 1e-13 * family->scale))
+        if (fabs(f) <= least || (i > 1 && fabs(f) < 100.0 * least && moved < family->location * family->scale))
             break;
         if ((f < 0) == (f_lo < 0)) {
             lo = x, f_lo = f;
