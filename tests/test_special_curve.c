@@ -158,7 +158,7 @@ static void parameters_may_be_exchanged(void **state)
     o.second_to = 0.29;
     o.special = FST_SPECIAL_PITCHFORK;
     assert_int_equal(fst_branch_follow(&params, &o, &b, NULL), FST_OK);
-    const fst_branch_point *p = &b.points[b.point_count - 1];
+    const fst_branch_point *p = end_at(&b, 0.29);
     CHECK_CLOSE(p->second, 0.29, 1e-9);
     CHECK_CLOSE(at_kappa(FST_BRANCH_COUNTER, FST_SPECIAL_PITCHFORK, p->value, 0.29, 0.25, 0.32), p->second,
                 1e-9);

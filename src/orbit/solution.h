@@ -62,6 +62,11 @@ void fst_solution_move(fst_solution *s, const fst_direction *direction, double l
 fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const fst_direction *across,
                                 fst_error *error);
 
+/* One iteration of it by a rough integration, for a guess that is no better; an equilibrium is left as it is.
+ */
+fst_status fst_solution_approach(const fst_family *family, fst_solution *s, const fst_direction *across,
+                                 fst_error *error);
+
 /* Multipliers (or eigenvalues) of a corrected solution, the flow direction of an orbit split off. */
 fst_status fst_solution_spectrum(const fst_family *family, fst_solution *s, fst_error *error);
 
