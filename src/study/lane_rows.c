@@ -31,6 +31,7 @@ typedef struct crew {
     lane lanes[FST_MOST_LANES];
     double observe_from[FST_MOST_LANES]; /* steps that end later are taken into the integrals */
     unsigned observed, in_window;        /* lanes whose steps are, and those in their window */
+    unsigned tracked;                    /* those in which extremes are looked for */
     void *slots;                         /* the fast form: steps that were set aside, */
     struct {
         int lane, record;
@@ -60,6 +61,7 @@ static void forget(crew *c, int l)
     c->engine->release(c->batch, l);
     c->observed &= ~bit(l);
     c->in_window &= ~bit(l);
+    c->tracked &= ~bit(l);
     c->occupied -= 1;
 }
 
@@ -227,14 +229,11 @@ static int repeats(const fst_run_state *run)
 }
 
 /* The fast form: set the steps aside in which a record may be beaten. */
-static void set_aside(crew *c, unsigned lanes, const unsigned *beaten)
+static void set_aside(crew *c, const unsigned *beaten)
 {
-    for (int l = 0; l < c->engine->width; ++l)
-        if (lanes & bit(l) && repeats(c->lanes[l].run))
-            lanes &= ~bit(l);
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
-        for (int l = 0; (beaten[i] & lanes) != 0 && l < c->engine->width; ++l)
-            if (beaten[i] & lanes & bit(l)) {
+        for (int l = 0; (beaten[i] & c->tracked) != 0 && l < c->engine->width; ++l)
+            if (beaten[i] & c->tracked & bit(l)) {
                 c->engine->set_aside(c->batch, l, i, c->slots, c->aside);
                 c->set_aside[c->aside].lane = l;
                 c->set_aside[c->aside].record = i;
@@ -296,6 +295,8 @@ static int watch(crew *c, int l)
         fst_quadrature_follow(&run->q, flow, flow->step.end);
     }
     extract_quadrature(c, l, &run->q);
+    if (!run->in_window) /* crossings before it were not looked at */
+        fst_returns_begin(run);
     run->activity = c->view.activity[l];
     const int over = fst_run_watch_step(run);
     c->view.activity[l] = run->activity;
@@ -303,6 +304,9 @@ static int watch(crew *c, int l)
     c->view.turns[1][l] = (double)run->q.small_phi.turns;
     c->view.next_mark[l] = next_mark(run);
     c->in_window |= run->in_window ? bit(l) : 0;
+    c->tracked &= ~bit(l);
+    if (run->in_window && !(c->engine->fused && repeats(run)))
+        c->tracked |= bit(l);
     if (!c->engine->fused)
         keep_records(c, l, &run->q);
     keep_phi_range(c, l);
@@ -324,6 +328,12 @@ static void give_up(crew *c, int l)
     finish(c, l, fst_flow_fail(flow, &error), &error);
 }
 
+/* In the fast form the first step that is observed is the one in which the window begins. */
+static unsigned tracked_soon(const crew *c)
+{
+    return c->engine->fused ? c->observed & ~c->in_window : 0;
+}
+
 static void step(crew *c)
 {
     const fst_lane_tries tries = c->engine->try_steps(c->batch);
@@ -331,19 +341,19 @@ static void step(crew *c)
     c->observed |= c->engine->past(c->batch, accepted & ~c->observed, c->observe_from);
     const unsigned observed = accepted & c->observed;
     unsigned wandering, over = 0;
-    unsigned eventful = c->engine->watch(c->batch, accepted, observed, &wandering);
+    unsigned eventful = c->engine->watch(c->batch, accepted, observed, c->in_window, &wandering);
     unsigned beaten[FST_RECORD_COUNT] = {0};
     if (observed)
-        c->engine->observe(c->batch, observed, c->in_window, beaten);
+        c->engine->observe(c->batch, observed, c->in_window, c->tracked | tracked_soon(c), beaten);
     for (int i = 0; !c->engine->fused && i < FST_RECORD_COUNT; ++i)
-        eventful |= beaten[i] & c->in_window;
+        eventful |= beaten[i];
     for (int l = 0; l < c->engine->width; ++l)
         if (eventful & bit(l))
             over |= watch(c, l) ? bit(l) : 0;
         else if (wandering & c->in_window & bit(l))
             watch_phi(c, l);
     if (c->engine->fused)
-        set_aside(c, observed & c->in_window, beaten);
+        set_aside(c, beaten);
     c->engine->advance(c->batch, accepted & ~over);
     for (int l = 0; (over | tries.failed) != 0 && l < c->engine->width; ++l) {
         if (over & bit(l))

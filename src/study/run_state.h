@@ -52,6 +52,9 @@ fst_status fst_run_begin(fst_run_state *run, fst_error *error);
 int fst_run_watch_step(fst_run_state *run);
 void fst_run_watch_quietly(fst_run_state *run, double activity);
 
+/* The side of the section where the bead is, before a step of which more will be asked. */
+void fst_returns_begin(fst_run_state *run);
+
 /* Crossings of the section in the last step: marks and statistics of the returns. */
 void fst_returns_step(fst_run_state *run);
 
