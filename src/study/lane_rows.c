@@ -222,10 +222,12 @@ static void keep_records(crew *c, int l, const fst_quadrature *q)
 }
 
 /* Whether the orbit repeats itself so closely that later returns can raise no record by what counts (1e-6 after
- * hundreds of returns): the fast form then looks for extremes no more. */
+ * hundreds of returns, or what the integration's errors make of them at loose tolerances): the fast form then
+ * looks for extremes no more. */
 static int repeats(const fst_run_state *run)
 {
-    return run->section_marks.offered >= 3 && run->section_marks.latest.full_distance < 1e-9;
+    const fst_mark_series *marks = &run->section_marks;
+    return marks->offered >= 3 && marks->latest.full_distance < fmax(1e-9, 10.0 * run->params->run_rtol);
 }
 
 /* The fast form: set the steps aside in which a record may be beaten. */
