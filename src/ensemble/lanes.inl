@@ -8,7 +8,9 @@
 #include "model/field.inl"
 #include "model/rhs.inl"
 #include "model/observe.inl"
+#include "model/jacobian.inl"
 #include "ode/bead_step.inl"
+#include "ode/tangent_step.inl"
 
 typedef struct batch {
     FN(bead_step) step;
@@ -547,6 +549,9 @@ static void observe(void *memory, unsigned accepted, unsigned in_window, unsigne
 #include "ensemble/lane_extremes.inl"
 #endif
 
+#define TANGENT_WIDTH FST_LANES
+#include "ensemble/tangents.inl"
+
 const fst_lane_engine ENGINE = {
     .name = ENGINE_NAME,
     .width = FST_LANES,
@@ -562,6 +567,7 @@ const fst_lane_engine ENGINE = {
     .advance = advance,
     .extract = extract,
     .extract_clock = extract_clock,
+    .tangents = TANGENT_ENGINE,
 #ifdef FST_FUSED
     .slots_bytes = sizeof(slots),
     .set_aside = set_aside,

@@ -38,8 +38,12 @@ typedef struct crew {
     } set_aside[FST_MOST_LANES]; /* and for what */
     int aside;
     int occupied;
-    fst_row_job waiting; /* a job whose model shares no batch with those at work */
-    int has_waiting, no_more;
+    lane parked[FST_MOST_LANES]; /* runs to their ends whose exponents are wanted */
+    int parked_count;
+    fst_row_job waiting[3 * FST_MOST_LANES]; /* jobs for lanes to come: as many as were in lanes or parked */
+    int waiting_count;
+    int misfit; /* one of them shares no batch with those at work */
+    int no_more;
 } crew;
 
 static unsigned bit(int l)
@@ -49,15 +53,19 @@ static unsigned bit(int l)
 
 /* ------------------------------------------------------------------ beginning and ending */
 
-static void forget(crew *c, int l)
+static void free_run(lane *at)
 {
-    lane *at = &c->lanes[l];
     if (!at->run)
         return;
     fst_flow_free(at->run->flow);
     fst_model_free(at->run->model);
     free(at->run);
     at->run = NULL;
+}
+
+/* The run of a lane is no longer there. */
+static void vacate(crew *c, int l)
+{
     c->engine->release(c->batch, l);
     c->observed &= ~bit(l);
     c->in_window &= ~bit(l);
@@ -107,6 +115,7 @@ static beginning begin(crew *c, int l, fst_status *status, fst_error *error)
     }
     at->run = run;
     run->extremes_elsewhere = c->engine->fused;
+    run->exponent_elsewhere = 1;
     c->occupied += 1;
     c->engine->load(c->batch, l, run->flow, run->t_end);
     c->view.next_mark[l] = next_mark(run);
@@ -115,19 +124,18 @@ static beginning begin(crew *c, int l, fst_status *status, fst_error *error)
     return BEGUN;
 }
 
-/* Hand over the result of a lane's job; 1 if another one follows in its place. */
-static int hand_over(crew *c, int l, fst_status status, const fst_run_result *result, const fst_error *error)
+/* Hand over the result of a job; 1 if another one follows in its place. */
+static int hand_over(crew *c, lane *at, fst_status status, const fst_run_result *result, const fst_error *error)
 {
-    return c->work->done(c->work->user, &c->lanes[l].job, status, result, error);
+    return c->work->done(c->work->user, &at->job, status, result, error);
 }
 
 static void occupy(crew *c, int l, int has_job)
 {
     lane *at = &c->lanes[l];
     for (;;) {
-        if (!has_job && c->has_waiting) {
-            at->job = c->waiting;
-            c->has_waiting = 0;
+        if (!has_job && c->waiting_count > 0) {
+            at->job = c->waiting[--c->waiting_count];
         } else if (!has_job && (c->no_more || !c->work->next(c->work->user, &at->job))) {
             c->no_more = 1;
             return;
@@ -138,23 +146,24 @@ static void occupy(crew *c, int l, int has_job)
         case BEGUN:
             return;
         case REFUSED:
-            c->waiting = at->job;
-            c->has_waiting = 1;
+            c->waiting[c->waiting_count++] = at->job;
+            c->misfit = 1;
             return;
         case FAILED:
             break;
         }
         fst_run_result nothing;
         fst_result_clear(&nothing);
-        has_job = hand_over(c, l, status, &nothing, &error);
+        has_job = hand_over(c, at, status, &nothing, &error);
     }
 }
 
-/* Idle lanes take new jobs, but for those that wait for the batch to empty. */
+/* Idle lanes take new jobs; where one fits not in, not before the batch is empty. */
 static void occupy_idle(crew *c)
 {
+    c->misfit &= c->occupied > 0;
     for (int l = 0; l < c->engine->width; ++l)
-        if (!c->lanes[l].run && (!c->has_waiting || c->occupied == 0))
+        if (!c->lanes[l].run && !c->misfit)
             occupy(c, l, 0);
 }
 
@@ -174,19 +183,57 @@ static void locate(crew *c)
     c->aside = 0;
 }
 
+/* Put the run of a lane where those are whose exponents are wanted. */
+static void park(crew *c, int l)
+{
+    lane *to = &c->parked[c->parked_count++], *from = &c->lanes[l];
+    *to = *from;
+    from->run = NULL;
+    to->run->params = &to->job.params;
+    to->run->options = &to->options;
+    vacate(c, l);
+}
+
 /* The run of a lane is over; `status` other than FST_OK: it failed. */
 static void finish(crew *c, int l, fst_status status, fst_error *error)
 {
-    fst_run_state *run = c->lanes[l].run;
+    lane *at = &c->lanes[l];
     fst_run_result result;
     fst_result_clear(&result);
     if (c->aside > 0)
         locate(c);
     if (status == FST_OK)
-        status = fst_run_conclude(run, &result, error);
-    forget(c, l);
-    if (hand_over(c, l, status, &result, error))
+        status = fst_run_conclude(at->run, &result, error);
+    if (status == FST_OK && at->run->exponent_is == FST_EXPONENT_WANTED) {
+        park(c, l);
+        return;
+    }
+    free_run(at);
+    vacate(c, l);
+    if (hand_over(c, at, status, &result, error))
         occupy(c, l, 1);
+}
+
+/* The exponents of the runs that are parked, side by side too. */
+static fst_status conclude_parked(crew *c, fst_error *error)
+{
+    fst_exponent *asked[FST_MOST_LANES];
+    for (int i = 0; i < c->parked_count; ++i)
+        asked[i] = &c->parked[i].run->exponent;
+    const fst_status status = fst_largest_exponents(&c->engine->tangents, asked, c->parked_count, error);
+    for (int i = 0; status == FST_OK && i < c->parked_count; ++i) {
+        lane *at = &c->parked[i];
+        fst_run_result result;
+        fst_error own = {FST_OK, "", ""};
+        fst_result_clear(&result);
+        at->run->exponent_is = FST_EXPONENT_KNOWN;
+        const fst_status concluded = fst_run_conclude(at->run, &result, &own);
+        free_run(at);
+        if (hand_over(c, at, concluded, &result, &own))
+            c->waiting[c->waiting_count++] = at->job;
+    }
+    c->parked_count = status == FST_OK ? 0 : c->parked_count;
+    return status;
 }
 
 /* ------------------------------------------------------------------ steps */
@@ -389,11 +436,17 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine
     for (unsigned steps = 1; status == FST_OK && c->occupied > 0; ++steps) {
         step(c);
         occupy_idle(c);
-        if (steps % 64 == 0 && work->stopped(work->user))
+        if (c->parked_count == engine->width || (c->occupied == 0 && c->parked_count > 0)) {
+            status = conclude_parked(c, error);
+            occupy_idle(c);
+        }
+        if (status == FST_OK && steps % 64 == 0 && work->stopped(work->user))
             status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
     }
     for (int l = 0; c && l < engine->width; ++l)
-        forget(c, l);
+        free_run(&c->lanes[l]);
+    for (int i = 0; c && i < c->parked_count; ++i)
+        free_run(&c->parked[i]);
     free(slots);
     free(batch);
     free(c);
