@@ -7,6 +7,7 @@
 #ifndef FST_ENSEMBLE_LANES_H
 #define FST_ENSEMBLE_LANES_H
 
+#include "ensemble/tangents.h"
 #include "ode/flow.h"
 
 enum { FST_MOST_LANES = 8 };
@@ -48,18 +49,20 @@ typedef struct fst_lane_engine {
     fst_lane_tries (*try_steps)(void *batch);
 
     /* The lanes whose last step, an accepted one, is to be looked at closely: the bead may have left the plate
-     * (all that have, and a few more), a mark or the limit is reached, X has changed its sign, or an angle is
-     * doubtful; phi counts in the lanes `observed`.  *wandering: those where Phi may have left its bounds. */
-    unsigned (*watch)(void *batch, unsigned accepted, unsigned observed, unsigned *wandering);
+     * (all that have, and a few more), a mark or the limit is reached, X has changed its sign in a lane in its
+     * window, or an angle is doubtful; phi counts in the lanes `observed`.  *wandering: those where Phi may
+     * have left its bounds. */
+    unsigned (*watch)(void *batch, unsigned accepted, unsigned observed, unsigned in_window,
+                      unsigned *wandering);
 
     /* The lanes among `accepted` whose last step ends at the time `t` of their own or later. */
     unsigned (*past)(const void *batch, unsigned accepted, const double *t);
 
     /* Take the last step of the lanes `accepted` into their integrals; references are renewed in lanes that are
-     * not in their window yet.  beaten[]: the lanes in which a record may be beaten.  In the fast form the
-     * batch's records are of the stages alone, and go on by themselves in the lanes that are in their window.
-     */
-    void (*observe)(void *batch, unsigned accepted, unsigned in_window, unsigned beaten[FST_RECORD_COUNT]);
+     * not in their window yet.  beaten[]: the lanes among `tracked` in which a record may be beaten.  In the
+     * fast form the records are of the ends of steps alone, and go on by themselves in these lanes. */
+    void (*observe)(void *batch, unsigned accepted, unsigned in_window, unsigned tracked,
+                    unsigned beaten[FST_RECORD_COUNT]);
 
     /* Make the end of the last step the start of the next, and choose its size: fst_flow_plan(). */
     void (*advance)(void *batch, unsigned accepted);
@@ -75,6 +78,8 @@ typedef struct fst_lane_engine {
 
     /* The time, size and counts of a lane, as its flow has them; the drive does not change in lanes. */
     void (*extract_clock)(const void *batch, int lane, fst_flow *flow);
+
+    fst_tangent_engine tangents; /* of the same width and form */
 } fst_lane_engine;
 
 /* The engine of a form of arithmetic and a width (0: the widest of that form), or NULL where this processor or

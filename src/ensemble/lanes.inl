@@ -8,7 +8,9 @@
 #include "model/field.inl"
 #include "model/rhs.inl"
 #include "model/observe.inl"
+#include "model/jacobian.inl"
 #include "ode/bead_step.inl"
+#include "ode/tangent_step.inl"
 
 typedef struct batch {
     FN(bead_step) step;
@@ -26,6 +28,8 @@ typedef struct batch {
     REAL r_reference, b_reference;
     REAL integrands[FST_PATH_STAGES][FST_Q_COUNT], tracked[FST_PATH_STAGES][FST_TRACK_COUNT];
     REAL records[FST_RECORD_COUNT];
+    unsigned observed; /* the lanes whose last step was */
+    unsigned known;    /* those whose integrands at the start of the present step are there */
 } batch;
 
 /* A wide value's lanes as doubles in memory. */
@@ -152,6 +156,7 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
         b->records[i][lane] = -INFINITY;
     b->in_use |= 1u << lane;
+    b->known &= ~(1u << lane);
     plan(b, fst_wide_mask_of(1u << lane));
 }
 
@@ -282,6 +287,20 @@ static fst_lane_tries try_steps(void *memory)
     return tries;
 }
 
+/* The integrands at the end of an observed step are those at the start of the next. */
+static void keep_integrands(batch *b, unsigned accepted)
+{
+    const unsigned kept = accepted & b->observed;
+    const fst_wide_mask mask = fst_wide_mask_of(kept);
+    enum { LAST = FST_PATH_STAGES - 1 };
+    for (int i = 0; kept && i < FST_Q_COUNT; ++i)
+        b->integrands[0][i] = fst_wide_select(mask, b->integrands[LAST][i], b->integrands[0][i]);
+    for (int i = 0; kept && i < FST_TRACK_COUNT; ++i)
+        b->tracked[0][i] = fst_wide_select(mask, b->tracked[LAST][i], b->tracked[0][i]);
+    b->known = (b->known & ~accepted) | kept;
+    b->observed = 0;
+}
+
 static void advance(void *memory, unsigned accepted)
 {
     batch *b = memory;
@@ -308,6 +327,7 @@ static void advance(void *memory, unsigned accepted)
 #endif
     for (int i = 0; i < 2; ++i)
         b->turns_before[i] = fst_wide_select(mask, b->turns[i], b->turns_before[i]);
+    keep_integrands(b, accepted);
     plan(b, mask);
 }
 
@@ -358,7 +378,8 @@ static void small_phi_point(const REAL *y, REAL *u, REAL *w)
     *w = y[FST_X] * y[FST_NY] - y[FST_Y] * y[FST_NX];
 }
 
-static unsigned watch(void *memory, unsigned accepted, unsigned observed, unsigned *wandering)
+static unsigned watch(void *memory, unsigned accepted, unsigned observed, unsigned in_window,
+                      unsigned *wandering)
 {
     batch *b = memory;
     const REAL *y = b->step.y, *end = b->step.end, zero = R(0.0);
@@ -369,7 +390,7 @@ static unsigned watch(void *memory, unsigned accepted, unsigned observed, unsign
     unsigned eventful = may_end(b);
     eventful |= fst_wide_lanes_of(WIDE_LESS_EQUAL(b->next_mark, b->t_high + R(1e-9) * b->step.h));
     eventful |= fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t_high));
-    eventful |= fst_wide_lanes_of(WIDE_LESS_EQUAL(y[FST_X] * end[FST_X], zero));
+    eventful |= fst_wide_lanes_of(WIDE_LESS_EQUAL(y[FST_X] * end[FST_X], zero)) & in_window;
     b->turns[0] = b->turns_before[0];
     b->turns[1] = b->turns_before[1];
     eventful |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
@@ -411,26 +432,42 @@ static void add_increments(batch *b, fst_wide_mask mask)
     }
 }
 
-static void see_stages(batch *b, fst_wide_mask before_window)
+static void see_stage(batch *b, int n, fst_wide_mask renew)
 {
     const FN(bead_step) *s = &b->step;
     const FN(coefficients) *c = &s->context.coefficients;
-    for (int n = 0; n < FST_PATH_STAGES; ++n) {
-        const int j = FST_PATH_STAGE[n];
-        FN(seen) seen;
-        FN(see)(c, s->omega, s->stage[j], &s->context.pull[j], &seen);
-        if (n == 0) {
-            b->r_reference = fst_wide_select(before_window, seen.r, b->r_reference);
-            b->b_reference = fst_wide_select(before_window, seen.b_norm, b->b_reference);
-        }
-        FN(integrands)
-        (c, s->stage[j], &s->context.pull[j], &seen, b->r_reference, b->b_reference, b->integrands[n]);
-        b->tracked[n][FST_TRACK_R] = seen.r;
-        b->tracked[n][FST_TRACK_B] = seen.b_norm;
-        b->tracked[n][FST_TRACK_GAP] = seen.gap2;
-        b->tracked[n][FST_TRACK_SLIP] = seen.slip2;
-        b->tracked[n][FST_TRACK_LOAD] = seen.load;
+    const int j = FST_PATH_STAGE[n];
+    FN(seen) seen;
+    FN(see)(c, s->omega, s->stage[j], &s->context.pull[j], &seen);
+    if (n == 0) {
+        b->r_reference = fst_wide_select(renew, seen.r, b->r_reference);
+        b->b_reference = fst_wide_select(renew, seen.b_norm, b->b_reference);
     }
+    FN(integrands)
+    (c, s->stage[j], &s->context.pull[j], &seen, b->r_reference, b->b_reference, b->integrands[n]);
+    b->tracked[n][FST_TRACK_R] = seen.r;
+    b->tracked[n][FST_TRACK_B] = seen.b_norm;
+    b->tracked[n][FST_TRACK_GAP] = seen.gap2;
+    b->tracked[n][FST_TRACK_SLIP] = seen.slip2;
+    b->tracked[n][FST_TRACK_LOAD] = seen.load;
+}
+
+/* The references of the lanes before their window are renewed; where the integrands at the start of the step
+ * are known, that is all there is to do for this stage. */
+static void see_start(batch *b, unsigned accepted, unsigned before_window)
+{
+    const fst_wide_mask renew = fst_wide_mask_of(before_window);
+    if (accepted & ~b->known) {
+        see_stage(b, 0, renew);
+        return;
+    }
+    if (!before_window)
+        return;
+    REAL *q = b->integrands[0];
+    b->r_reference = fst_wide_select(renew, b->tracked[0][FST_TRACK_R], b->r_reference);
+    b->b_reference = fst_wide_select(renew, b->tracked[0][FST_TRACK_B], b->b_reference);
+    q[FST_Q_R2] = fst_wide_select(renew, R(0.0), q[FST_Q_R2]);
+    q[FST_Q_B2] = fst_wide_select(renew, R(0.0), q[FST_Q_B2]);
 }
 
 /* h times the weighted sum of the integrands, in the order of the stages. */
@@ -477,30 +514,43 @@ static summit find_summit(const batch *b, int record)
 }
 
 /* A record may be beaten in a step as best_in_step() of the quadrature has it, which decides. */
-static void observe(void *memory, unsigned accepted, unsigned in_window, unsigned beaten[FST_RECORD_COUNT])
+static void find_beaten(batch *b, unsigned tracked, unsigned beaten[FST_RECORD_COUNT])
 {
-    batch *b = memory;
-    const fst_wide_mask mask = fst_wide_mask_of(accepted);
-    add_increments(b, mask);
-    see_stages(b, fst_wide_mask_of(accepted & ~in_window));
-    integrate(b, mask);
     for (int i = 0; i < FST_RECORD_COUNT; ++i) {
         const summit top = find_summit(b, i);
         beaten[i] =
-            accepted & fst_wide_lanes_of(WIDE_LESS(b->records[i], top.best + R(EXTREME_MARGIN) * top.fall));
+            tracked & fst_wide_lanes_of(WIDE_LESS(b->records[i], top.best + R(EXTREME_MARGIN) * top.fall));
 #ifdef FST_FUSED
         /* The end of a step lies on the trajectory; the stages within it do so but roughly, and a record that
          * one of them overshot would hide the ones to come. */
         const REAL end = REAL_OF(fst_record_sign(i)) * b->tracked[FST_PATH_STAGES - 1][FST_RECORD_TRACKS[i]];
-        const fst_wide_mask counts = fst_wide_mask_of(accepted & in_window);
+        const fst_wide_mask counts = fst_wide_mask_of(tracked);
         b->records[i] = fst_wide_select(counts, REAL_MAX(end, b->records[i]), b->records[i]);
 #endif
     }
 }
 
+static void observe(void *memory, unsigned accepted, unsigned in_window, unsigned tracked,
+                    unsigned beaten[FST_RECORD_COUNT])
+{
+    batch *b = memory;
+    const fst_wide_mask mask = fst_wide_mask_of(accepted);
+    add_increments(b, mask);
+    see_start(b, accepted, accepted & ~in_window);
+    for (int n = 1; n < FST_PATH_STAGES; ++n)
+        see_stage(b, n, fst_wide_mask_of(0));
+    integrate(b, mask);
+    if (accepted & tracked)
+        find_beaten(b, accepted & tracked, beaten);
+    b->observed = accepted;
+}
+
 #ifdef FST_FUSED
 #include "ensemble/lane_extremes.inl"
 #endif
+
+#define TANGENT_WIDTH FST_LANES
+#include "ensemble/tangents.inl"
 
 const fst_lane_engine ENGINE = {
     .name = ENGINE_NAME,
@@ -517,6 +567,7 @@ const fst_lane_engine ENGINE = {
     .advance = advance,
     .extract = extract,
     .extract_clock = extract_clock,
+    .tangents = TANGENT_ENGINE,
 #ifdef FST_FUSED
     .slots_bytes = sizeof(slots),
     .set_aside = set_aside,

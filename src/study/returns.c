@@ -32,6 +32,12 @@ static void judge_alternation(fst_returns *r, int half, int direction)
     r->since_break += 1;
 }
 
+void fst_returns_begin(fst_run_state *run)
+{
+    const int side = sign_of(run->flow->step.y[FST_X]);
+    run->returns.side = side ? side : run->returns.side;
+}
+
 void fst_returns_step(fst_run_state *run)
 {
     fst_returns *r = &run->returns;
