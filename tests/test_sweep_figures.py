@@ -167,6 +167,17 @@ class Units(Figures):
             self.assertLess(abs(x / (float(row["drive.omega"]) * GAMMA / (2 * math.pi)) - 1), 1e-6)
             self.assertLess(abs(y / (float(row["mean_r"]) * 23) - 1), 1e-6)
 
+    def test_keys_without_values(self):
+        self.sweep("c.db", "drive.frequency=10,11,12")
+        script, blocks = self.plot("c.db", "--key", "mean_r,largest_exponent,min_b")
+        self.assertIn("no value of: largest exponent (gamma)", script)
+        self.assertEqual(sorted(blocks), ["panel1-curve1", "panel2-curve1"])
+        self.assertIn("no point", self.refused("plot", self.path("c.db"), "--key", "largest_exponent", "-o",
+                                               self.path("f.svg")))
+        self.sweep("m.db", "drive.frequency=10,11", "model.kappa=1.5,1.6")
+        self.assertIn("no point", self.refused("plot", self.path("m.db"), "--key", "largest_exponent", "-o",
+                                               self.path("f.svg")))
+
 
 if __name__ == "__main__":
     if not shutil.which("gnuplot"):

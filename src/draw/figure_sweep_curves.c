@@ -15,7 +15,24 @@ typedef struct drawing {
     fst_chart_panel panels[MOST_KEYS];
     int curve_count, panel_count;
     size_t points;
+    char title[256];
 } drawing;
+
+static int any_value(const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (isfinite(values[i]))
+            return 1;
+    return 0;
+}
+
+/* A key without any value gets no panel, but a word in the title. */
+static void mention_empty(drawing *d, const char *label)
+{
+    const size_t used = strlen(d->title);
+    (void)snprintf(d->title + used, sizeof d->title - used, "%s%s",
+                   strchr(d->title, ':') ? ", " : "; no value of: ", label);
+}
 
 /* One curve for each regime that occurs, at the height of `values`: who does what where. */
 static void add_regimes(drawing *d, const double *regime, const double *values)
@@ -48,6 +65,10 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep
             continue;
         for (size_t i = 0; i < d->points; ++i)
             values[i] *= quantities[k].factor;
+        if (!any_value(values, d->points)) {
+            mention_empty(d, quantities[k].label);
+            continue;
+        }
         fst_chart_panel *panel = &d->panels[d->panel_count++];
         *panel = (fst_chart_panel){.left_label = quantities[k].label,
                                    .low = NAN,
@@ -111,12 +132,13 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
     d->by_regime = memory + points;
     double low, high;
     lay_abscissa(d, table->grid, axis, &low, &high);
+    (void)snprintf(d->title, sizeof d->title, "Sweep over one parameter");
     add_panels(d, table, quantities, count);
     char tics[512] = "";
     if (axis->choice)
         fst_sweep_choice_tics(axis->choice, tics, sizeof tics);
     const double scale = scale_of_drive(table->grid, axis);
-    const fst_chart chart = {.title = "Sweep over one parameter",
+    const fst_chart chart = {.title = d->title,
                              .x_label = axis->label,
                              .x_low = low,
                              .x_high = high,
@@ -126,7 +148,9 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
                              .x2_factor = scale,
                              .panels = d->panels,
                              .panel_count = d->panel_count};
-    const fst_status status = fst_figure_chart(out, &chart, error);
+    const fst_status status = d->panel_count > 0 ? fst_figure_chart(out, &chart, error)
+                                                 : fst_fail(error, FST_BAD_INPUT, out,
+                                                            "no point of the sweep has a value to draw yet");
     free(memory);
     free(d);
     return status;

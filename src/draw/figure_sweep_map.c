@@ -182,14 +182,21 @@ static void write_heat(fst_figure_file *figure, const map *m, const char *label)
                 figure->script);
 }
 
-/* What is shown, and how many points have no value: they have no row yet, failed, or it is undefined there. */
+/* Points without a value: they have no row yet, failed, or it is undefined there. */
+static int64_t blank_points(const map *m)
+{
+    int64_t blank = 0;
+    for (int64_t i = 0; i < fst_grid_points(m->table->grid); ++i)
+        blank += !isfinite(m->table->values[i]);
+    return blank;
+}
+
+/* What is shown, and how many points have no value. */
 static void write_title(fst_figure_file *figure, const map *m)
 {
     const int64_t points = fst_grid_points(m->table->grid);
-    int64_t blank = 0;
+    const int64_t blank = blank_points(m);
     char title[192];
-    for (int64_t i = 0; i < points; ++i)
-        blank += !isfinite(m->table->values[i]);
     int used =
         snprintf(title, sizeof title, "%s", m->regimes ? "Regimes of motion" : "Sweep over two parameters");
     if (blank > 0 && used > 0 && (size_t)used < sizeof title)
@@ -204,6 +211,8 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
 {
     const fst_grid *grid = m->table->grid;
     fst_figure_file figure;
+    if (blank_points(m) == fst_grid_points(grid))
+        return fst_fail(error, FST_BAD_INPUT, out, "no point of the sweep has a value to draw yet");
     fst_status status = lay_side(&m->up, grid, &m->axes[0], error);
     if (status == FST_OK)
         status = lay_side(&m->right, grid, &m->axes[1], error);
