@@ -174,7 +174,7 @@ class Units(Figures):
         self.assertEqual(sorted(blocks), ["panel1-curve1", "panel2-curve1"])
         self.assertIn("no point", self.refused("plot", self.path("c.db"), "--key", "largest_exponent", "-o",
                                                self.path("f.svg")))
-        self.sweep("m.db", "drive.frequency=10,11", "model.kappa=1.5,1.6")
+        self.sweep("m.db", "drive.frequency=19,20", "model.kappa=1.5,1.6")
         self.assertIn("no point", self.refused("plot", self.path("m.db"), "--key", "largest_exponent", "-o",
                                                self.path("f.svg")))
 
