@@ -80,6 +80,23 @@ class Rows(Case):
         self.assertEqual(self.rows("up.db"), up)
 
 
+class Bands(Case):
+    def test_librating_bands_lie_between_bifurcations_of_locked_states(self):
+        """Rows come from integration, bifurcations from eigenvalues (docs/regimes.md)."""
+        branch = json.loads(self.good("branch", "--kind", "locked", "--over", "drive.frequency=4Hz:8Hz", "--json"))
+        stable = {}
+        for point in branch["points"]:
+            if point["stable"]:
+                stable.setdefault(point["branch"], []).append(point["value"])
+        def is_locked(frequency):
+            return any(min(values) <= frequency <= max(values) for values in stable.values())
+        self.good("sweep", "--over", "drive.frequency=4.2,4.5,4.8,5.5,6.2,6.6,7,7.4,7.8", "-o", self.path("a.db"))
+        rows = json.loads(self.good("export", self.path("a.db"), "--json"))
+        for row in rows:
+            self.assertEqual(row["regime"], "locked" if is_locked(row["drive.frequency"]) else "librating")
+        self.assertEqual(len({row["regime"] for row in rows}), 2)
+
+
 class Refusals(Case):
     def test_other_parameters(self):
         self.good("sweep", *SMALL, "-o", self.path("a.db"))

@@ -560,6 +560,10 @@ FST_API const char *fst_grid_axis_text(const fst_grid *grid, int axis);
 FST_API int64_t fst_grid_axis_points(const fst_grid *grid, int axis);
 FST_API int64_t fst_grid_axis_stride(const fst_grid *grid, int axis);
 
+/* How the values of an axis lie. */
+typedef enum { FST_SPACING_LINEAR, FST_SPACING_LOG, FST_SPACING_LIST, FST_SPACING_RANDOM } fst_spacing;
+FST_API fst_spacing fst_grid_axis_spacing(const fst_grid *grid, int axis);
+
 /* The value of an axis at a point, in SI (of a choice: its index). */
 FST_API double fst_grid_value(const fst_grid *grid, int axis, int64_t point);
 

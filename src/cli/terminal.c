@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -88,7 +89,8 @@ void progress_end(progress_line *line)
         (void)fputs("\r\033[K", stderr);
 }
 
-int write_standard_output(const char *text, size_t size)
+/* 0, or errno. */
+static int write_all(const char *text, size_t size)
 {
     while (size > 0) {
         ssize_t written = write(STDOUT_FILENO, text, size);
@@ -99,6 +101,44 @@ int write_standard_output(const char *text, size_t size)
         text += written;
         size -= (size_t)written;
     }
-    /* Some file systems tell only now that the disk is full. */
-    return close(STDOUT_FILENO) != 0 ? errno : 0;
+    return 0;
+}
+
+/* Some file systems tell only now that the disk is full. */
+static int end_standard_output(int reason)
+{
+    return close(STDOUT_FILENO) != 0 && reason == 0 ? errno : reason;
+}
+
+int write_standard_output(const char *text, size_t size)
+{
+    return end_standard_output(write_all(text, size));
+}
+
+FILE *spool_open(void)
+{
+    const char *folder = getenv("TMPDIR");
+    char path[4096];
+    const int length = snprintf(path, sizeof path, "%s/festoon-XXXXXX", folder && folder[0] ? folder : "/tmp");
+    const int descriptor = length < (int)sizeof path ? mkstemp(path) : -1;
+    if (descriptor < 0)
+        return NULL;
+    (void)unlink(path); /* it lives as long as it is open */
+    FILE *spool = fdopen(descriptor, "w+");
+    if (!spool)
+        (void)close(descriptor);
+    return spool;
+}
+
+int spool_to_standard_output(FILE *spool)
+{
+    char piece[65536];
+    size_t size;
+    int reason = 0;
+    rewind(spool);
+    while (reason == 0 && (size = fread(piece, 1, sizeof piece, spool)) > 0)
+        reason = write_all(piece, size);
+    if (reason == 0 && ferror(spool))
+        reason = EIO;
+    return end_standard_output(reason);
 }
