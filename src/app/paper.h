@@ -71,8 +71,8 @@ const char *fst_verdict_name(fst_verdict verdict);
 enum {
     FST_TABLE1_ROWS = 5,
     FST_MOST_FIGURES = 64,
-    FST_HALVING_BELOW = 8, /* drives under the threshold, the nearest last */
-    FST_HALVING_ABOVE = 6, /* and over it, the nearest first */
+    FST_HALVING_BELOW = 10, /* drives under the threshold, the nearest last */
+    FST_HALVING_ABOVE = 6,  /* and over it, the nearest first */
     FST_HALVING_POINTS = FST_HALVING_BELOW + FST_HALVING_ABOVE,
     FST_HALVING_INSET = 5,   /* the drive whose r(t) the figure's inset shows, */
     FST_HALVING_SHOWN = 400, /* in so many values */

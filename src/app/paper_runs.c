@@ -17,13 +17,13 @@ static const struct {
     const char *samples; /* run.samples, where the trajectory is kept */
 } scans[FST_SCAN_COUNT] = {
     [FST_SCAN_COMPARISON] = {0.15, 0.50, 71, 8, "rolling", NULL},
-    [FST_SCAN_FAST] = {0.5, 2.0, 16, 4, "rolling", NULL},
+    [FST_SCAN_FAST] = {0.5, 2.0, 31, 4, "rolling", NULL},
     [FST_SCAN_SLOW] = {0.02, 0.24, 12, 5, "rest", NULL},
     [FST_SCAN_TABLE] = {0.0, 0.0, FST_TABLE1_ROWS, FST_TABLE1_ROWS, "rolling", NULL},
     [FST_SCAN_FOLD4] = {0.215, 0.215, 1, 1, "rolling", "128"},
     [FST_SCAN_FOLD15] = {0.4, 0.4, 1, 1, "rolling", "128"},
     [FST_SCAN_CONJUGATE] = {0.215, 0.215, 1, 1, "rolling", NULL},
-    [FST_SCAN_ASYMPTOTIC] = {2.2, 2.3, 2, 2, "rolling", NULL},
+    [FST_SCAN_ASYMPTOTIC] = {2.2, 3.0, 3, 3, "rolling", NULL},
 };
 
 /* Where a change of the motion is looked for: in which scan, and how many halvings refine it. */

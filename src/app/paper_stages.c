@@ -11,9 +11,11 @@ const double fst_remanence_drives[FST_REMANENCE_DRIVES] = {0.3, 0.4};
 const double fst_remanence_strengths[FST_REMANENCE_STRENGTHS] = {1e-3, 1.4e-3, 1.8e-3, 2.2e-3, 2.6e-3, 3e-3};
 
 /* Distances of the drive from the threshold. */
-static const double halving_offsets[FST_HALVING_POINTS] = {-0.010,  -0.008,  -0.006,  -0.0045, -0.0035,
-                                                           -0.0025, -0.0018, -0.0012, 0.0015,  0.0022,
+static const double halving_offsets[FST_HALVING_POINTS] = {-0.010,  -0.008,  -0.006,  -0.0045, -0.0035, -0.0025,
+                                                           -0.0018, -0.0012, -0.0006, -0.0003, 0.0015,  0.0022,
                                                            0.003,   0.0045,  0.0065,  0.010};
+/* The relaxation time goes as the inverse distance: nearer than this the motion is followed for longer. */
+static const double NEAR_THRESHOLD = 0.0012;
 
 enum { SEARCH = 240, REDUCED_SEARCH = 24 };
 
@@ -43,6 +45,7 @@ static fst_status halving_piece(fst_paper_state *paper, int index, fst_error *er
     double wider = paper->options->reduced ? 4.0 : 1.0;
     fst_params params = probe_params(dynamics, centre + wider * halving_offsets[point]);
     double periods = paper->options->reduced ? 700.0 : 1000.0;
+    periods *= fmax(1.0, NEAR_THRESHOLD / fabs(halving_offsets[point]));
     int shown = point == FST_HALVING_INSET;
     return fst_probe_halving(&params, periods, &halving->points[point], shown ? halving->r : NULL,
                              shown ? FST_HALVING_SHOWN : 0, error);
