@@ -517,6 +517,11 @@ typedef struct fst_festoon_list {
  * sentence tells how far the branch reaches. */
 FST_API fst_status fst_festoons_find(const fst_params *params, double festoons, fst_festoon_list *list,
                                      fst_error *error);
+
+/* The same on a branch of the kind FST_BRANCH_COUNTER over drive.omega that fst_branch_follow() made of the
+ * same parameters: for many N. */
+FST_API fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
+                                   fst_festoon_list *list, fst_error *error);
 FST_API void fst_festoons_free(fst_festoon_list *list);
 
 /* The spectrum of Lyapunov exponents. */

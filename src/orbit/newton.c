@@ -55,6 +55,15 @@ static void normalise(double *y)
         n[i] /= length;
 }
 
+void fst_direction_scale(fst_direction *direction, double factor)
+{
+    for (int i = 0; i < FST_SEGMENTS; ++i)
+        for (int k = 0; k < FST_STATE_SIZE; ++k)
+            direction->y[i][k] *= factor;
+    direction->period *= factor;
+    direction->value *= factor;
+}
+
 void fst_solution_move(fst_solution *s, const fst_direction *direction, double length)
 {
     for (int i = 0; i < fst_states_of(s); ++i) {
@@ -261,13 +270,7 @@ static fst_status find_tangent(const fst_family *family, fst_solution *s, fst_ne
     const fst_status status = solve(family, s, l, across, 1, &s->tangent, error);
     if (status != FST_OK)
         return status;
-    const double length = sqrt(fst_direction_product(family, s, &s->tangent, &s->tangent));
-    fst_direction *t = &s->tangent;
-    for (int i = 0; i < fst_states_of(s); ++i)
-        for (int k = 0; k < FST_STATE_SIZE; ++k)
-            t->y[i][k] /= length;
-    t->period /= length;
-    t->value /= length;
+    fst_direction_scale(&s->tangent, 1.0 / sqrt(fst_direction_product(family, s, &s->tangent, &s->tangent)));
     return FST_OK;
 }
 

@@ -53,6 +53,8 @@ double fst_direction_product(const fst_family *family, const fst_solution *of, c
 /* From one solution to another (tangent components alone matter). */
 void fst_direction_between(const fst_solution *from, const fst_solution *to, fst_direction *out);
 
+void fst_direction_scale(fst_direction *direction, double factor);
+
 /* s moved by `length` along a direction, n kept on the unit sphere. */
 void fst_solution_move(fst_solution *s, const fst_direction *direction, double length);
 
