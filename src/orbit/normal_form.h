@@ -23,8 +23,8 @@ typedef struct fst_local_map {
 fst_status fst_cubic_coefficient(const fst_lapack *lapack, const fst_local_map *map, const double *matrix,
                                  double frequency, double *coefficient, double *spread, fst_error *error);
 
-/* That coefficient of a Hopf point or of a Neimark-Sacker point: of the field in the tangent space, or of the return
- * to the section across the flow. */
+/* That coefficient of a Hopf point or of a Neimark-Sacker point: of the field in the tangent space, or of the
+ * return to the section across the flow. */
 fst_status fst_pair_coefficient(const fst_family *family, const fst_solution *s, double frequency,
                                 double *coefficient, double *spread, fst_error *error);
 
