@@ -424,9 +424,10 @@ typedef enum {
     FST_SPECIAL_PERIOD_DOUBLING,
     FST_SPECIAL_HOPF,
     FST_SPECIAL_NEIMARK_SACKER,
-    FST_SPECIAL_ORIGIN_CROSSING
+    FST_SPECIAL_ORIGIN_CROSSING,
+    FST_SPECIAL_TRANSCRITICAL /* two families pass through each other */
 } fst_special_type;
-/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing" */
+/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing", "transcritical" */
 FST_API const char *fst_special_name(fst_special_type type);
 
 /* A point of a branch. */

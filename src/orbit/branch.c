@@ -11,8 +11,8 @@
 
 const char *fst_special_name(fst_special_type type)
 {
-    static const char *const names[] = {"fold", "pitchfork",      "period-doubling",
-                                        "hopf", "neimark-sacker", "origin-crossing"};
+    static const char *const names[] = {"fold",           "pitchfork",       "period-doubling", "hopf",
+                                        "neimark-sacker", "origin-crossing", "transcritical"};
     return (unsigned)type < sizeof names / sizeof *names ? names[type] : "unknown";
 }
 

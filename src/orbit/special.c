@@ -287,6 +287,15 @@ static int meets_symmetric(const fst_node *a, const fst_node *b)
     return product_ab < -0.01 * size;
 }
 
+/* Whether it is an equilibrium that S2 maps onto itself, on the axis: there the symmetry can break.  Elsewhere
+ * nothing is broken where an eigenvalue passes 0: a family that slips changes places with one that rolls. */
+static int is_own_image(const fst_solution *s)
+{
+    double image[FST_STATE_SIZE];
+    fst_apply_s2(s->y[0], image);
+    return s->segments == 0 && greatest_difference(image, s->y[0]) < 1e-6;
+}
+
 /* How large an orbit is: the way between its states half a period apart. */
 static double extent(const fst_solution *s)
 {
@@ -497,12 +506,12 @@ static fst_status report_other(fst_curve *curve, const fst_node *a, const fst_no
         if (!orbit)
             switched = fst_switch_at_hopf(curve->family, at, frequency, &born, &ignored);
     } else if (test == FST_TEST_PLUS) {
-        type = FST_SPECIAL_PITCHFORK;
+        type = is_own_image(&at->s) ? FST_SPECIAL_PITCHFORK : FST_SPECIAL_TRANSCRITICAL;
         if (!orbit)
             switched = fst_switch_at_pitchfork(curve->family, at, &born, &ignored);
     }
     const int found = switched == FST_OK;
-    if (found && !criticality)
+    if (found && !criticality && type != FST_SPECIAL_TRANSCRITICAL)
         criticality = criticality_of(a, b, at, &born);
     return curve->sink.special(curve->sink.user, type, at, criticality, found && curve->follow ? &born : NULL,
                                error);
