@@ -154,7 +154,7 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
         b->total_high[i][lane] = b->total_low[i][lane] = b->increment[i][lane] = 0.0;
     b->r_reference[lane] = b->b_reference[lane] = 0.0;
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
-        b->records[i][lane] = -INFINITY;
+        b->records[i][lane] = -1e300;
     b->in_use |= 1u << lane;
     b->known &= ~(1u << lane);
     plan(b, fst_wide_mask_of(1u << lane));
@@ -513,13 +513,24 @@ static summit find_summit(const batch *b, int record)
     return top;
 }
 
+/* What a record must be beaten by: in the fast form by what counts, 1e-9 of it (and, for the squares of an
+ * angle and of a slip, those of 1e-8), so that a bead at rest is not looked at for its rounding errors. */
+static REAL to_beat(REAL record)
+{
+#ifdef FST_FUSED
+    return record + REAL_MULADD(R(1e-9), REAL_ABS(record), R(1e-16));
+#else
+    return record;
+#endif
+}
+
 /* A record may be beaten in a step as best_in_step() of the quadrature has it, which decides. */
 static void find_beaten(batch *b, unsigned tracked, unsigned beaten[FST_RECORD_COUNT])
 {
     for (int i = 0; i < FST_RECORD_COUNT; ++i) {
         const summit top = find_summit(b, i);
-        beaten[i] =
-            tracked & fst_wide_lanes_of(WIDE_LESS(b->records[i], top.best + R(EXTREME_MARGIN) * top.fall));
+        const REAL bound = top.best + R(EXTREME_MARGIN) * top.fall;
+        beaten[i] = tracked & fst_wide_lanes_of(WIDE_LESS(to_beat(b->records[i]), bound));
 #ifdef FST_FUSED
         /* The end of a step lies on the trajectory; the stages within it do so but roughly, and a record that
          * one of them overshot would hide the ones to come. */
