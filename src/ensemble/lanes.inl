@@ -48,6 +48,7 @@ static void view(void *memory, fst_lane_view *v)
         v->turns_before[i] = lanes_of(&b->turns_before[i]);
     }
     v->activity = lanes_of(&b->activity);
+    v->speed = lanes_of(&b->speed);
     v->next_mark = lanes_of(&b->next_mark);
     v->phi_least = lanes_of(b->phi_least);
     v->phi_most = lanes_of(b->phi_most);
@@ -174,7 +175,7 @@ static void extract_clock(const void *memory, int lane, fst_flow *flow)
     flow->t_start = (fst_twofold){b->t_start_high[lane], b->t_start_low[lane]};
     flow->t = (fst_twofold){b->t_high[lane], b->t_low[lane]};
     flow->h_next = b->h_next[lane];
-    flow->attempt = b->step.h[lane];
+    flow->attempt = flow->step.h = b->step.h[lane];
     flow->worst_error = b->worst_error[lane];
     flow->norm_drift = b->norm_drift[lane];
     const uint64_t accepted = (uint64_t)b->accepted[lane], rejected = (uint64_t)b->rejected[lane];
@@ -189,17 +190,23 @@ static void extract_clock(const void *memory, int lane, fst_flow *flow)
 static void extract(const void *memory, int lane, fst_bead_step_double *to)
 {
     const FN(bead_step) *from = &((const batch *)memory)->step;
-    to->h = from->h[lane];
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
         to->y[i] = from->y[i][lane];
         to->end[i] = from->end[i][lane];
-        to->slope[i] = from->slope[i][lane];
     }
-    for (int j = 0; j < 13; ++j) {
-        for (int i = 0; i < FST_STATE_SIZE; ++i) {
+    static const int needed[] = {0, 5, 6, 7, 8, 9, 10, 11, 12}; /* by the dense output */
+    for (size_t j = 0; j < sizeof needed / sizeof *needed; ++j)
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            to->k[needed[j]][i] = from->k[needed[j]][i][lane];
+}
+
+static void extract_stages(const void *memory, int lane, fst_bead_step_double *to)
+{
+    const FN(bead_step) *from = &((const batch *)memory)->step;
+    for (int n = 0; n < FST_PATH_STAGES; ++n) {
+        const int j = FST_PATH_STAGE[n];
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
             to->stage[j][i] = from->stage[j][i][lane];
-            to->k[j][i] = from->k[j][i][lane];
-        }
         extract_pull(&from->context.pull[j], lane, &to->context.pull[j]);
     }
 }
@@ -378,8 +385,7 @@ static void small_phi_point(const REAL *y, REAL *u, REAL *w)
     *w = y[FST_X] * y[FST_NY] - y[FST_Y] * y[FST_NX];
 }
 
-static unsigned watch(void *memory, unsigned accepted, unsigned observed, unsigned in_window,
-                      unsigned *wandering)
+static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed, unsigned in_window)
 {
     batch *b = memory;
     const REAL *y = b->step.y, *end = b->step.end, zero = R(0.0);
@@ -387,28 +393,29 @@ static unsigned watch(void *memory, unsigned accepted, unsigned observed, unsign
     for (int i = 1; i < FST_STATE_SIZE; ++i)
         speed = REAL_MAX(REAL_ABS(b->step.k[12][i]), speed);
     b->speed = speed;
-    unsigned eventful = may_end(b);
-    eventful |= fst_wide_lanes_of(WIDE_LESS_EQUAL(b->next_mark, b->t_high + R(1e-9) * b->step.h));
-    eventful |= fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t_high));
-    eventful |= fst_wide_lanes_of(WIDE_LESS_EQUAL(y[FST_X] * end[FST_X], zero)) & in_window;
+    const unsigned ending = may_end(b), landed = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t_high));
+    const unsigned at_mark = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->next_mark, b->t_high + R(1e-9) * b->step.h));
+    const unsigned crossing = fst_wide_lanes_of(WIDE_LESS_EQUAL(y[FST_X] * end[FST_X], zero)) & in_window;
+    unsigned close = ending | landed | crossing;
     b->turns[0] = b->turns_before[0];
     b->turns[1] = b->turns_before[1];
-    eventful |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
+    close |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
     if (observed) {
         REAL u0, w0, u, w;
         small_phi_point(y, &u0, &w0);
         small_phi_point(end, &u, &w);
-        eventful |= wind(&b->turns[1], u0, w0, u, w) & observed;
+        close |= wind(&b->turns[1], u0, w0, u, w) & observed;
         b->turns[1] = fst_wide_select(fst_wide_mask_of(observed), b->turns[1], b->turns_before[1]);
     }
     const REAL *l = b->phi_least, *m = b->phi_most, margin = R(1e-12);
     const REAL after_least = l[0] * end[FST_Y] - l[1] * end[FST_X];
     const REAL before_most = end[FST_X] * m[1] - end[FST_Y] * m[0];
-    *wandering = accepted & ~fst_wide_lanes_of(WIDE_LESS(margin, -REAL_MAX(-after_least, -before_most)));
-    eventful &= accepted;
-    b->activity =
-        fst_wide_select(fst_wide_mask_of(accepted & ~eventful), REAL_MAX(speed, b->activity), b->activity);
-    return eventful;
+    const unsigned inside = fst_wide_lanes_of(WIDE_LESS(margin, -REAL_MAX(-after_least, -before_most)));
+    const unsigned quiet = accepted & ~(close | at_mark);
+    b->activity = fst_wide_select(fst_wide_mask_of(quiet), REAL_MAX(speed, b->activity), b->activity);
+    const fst_lane_events events = {accepted & ending, accepted & at_mark, accepted & close,
+                                    accepted & ~inside};
+    return events;
 }
 
 static unsigned past(const void *memory, unsigned accepted, const double *t)
@@ -577,6 +584,7 @@ const fst_lane_engine ENGINE = {
     .observe = observe,
     .advance = advance,
     .extract = extract,
+    .extract_stages = extract_stages,
     .extract_clock = extract_clock,
     .tangents = TANGENT_ENGINE,
 #ifdef FST_FUSED
