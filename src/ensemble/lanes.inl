@@ -77,6 +77,7 @@ static void load_coefficients(FN(coefficients) * to, int lane, const fst_coeffic
     LOAD(first_line);
     LOAD(line_strength);
     LOAD(hard);
+    LOAD(hard_over_eps);
     LOAD(twice_a);
     LOAD(twice_b);
     LOAD(torque);
@@ -485,7 +486,7 @@ static void integrate(batch *b, fst_wide_mask mask)
     for (int i = 0; i < FST_Q_COUNT; ++i) {
         REAL sum = R(0.0);
         for (int j = 0; j < 8; ++j)
-            sum = sum + weight[j] * b->integrands[place[j]][i];
+            sum = REAL_MULADD(weight[j], b->integrands[place[j]][i], sum);
         b->increment[i] = fst_wide_select(mask, b->step.h * sum, b->increment[i]);
     }
 }
