@@ -116,6 +116,7 @@ static beginning begin(crew *c, int l, fst_status *status, fst_error *error)
     at->run = run;
     run->extremes_elsewhere = c->engine->fused;
     run->exponent_elsewhere = 1;
+    run->sparse_marks = 1;
     c->occupied += 1;
     c->engine->load(c->batch, l, run->flow, run->t_end);
     c->view.next_mark[l] = next_mark(run);
@@ -328,14 +329,12 @@ static void watch_phi(crew *c, int l)
     keep_phi_range(c, l);
 }
 
-/* Look closely at a lane's accepted step; 1 if its run is over. */
-static int watch(crew *c, int l)
+/* A lane's step as the run's own flow has it, and Phi and phi at its end. */
+static void extract_step(crew *c, int l, int observed)
 {
     fst_run_state *run = c->lanes[l].run;
     fst_flow *flow = run->flow;
-    const int observed = (c->observed & bit(l)) != 0;
     c->engine->extract(c->batch, l, &flow->step);
-    c->engine->extract_clock(c->batch, l, flow);
     const double *y = flow->step.y;
     flow->phi_start = (fst_winding){(int64_t)c->view.turns_before[0][l], y[FST_X], y[FST_Y]};
     flow->phi = flow->phi_start;
@@ -345,11 +344,34 @@ static int watch(crew *c, int l)
         run->q.small_phi.turns = (int64_t)c->view.turns_before[1][l];
         fst_quadrature_follow(&run->q, flow, flow->step.end);
     }
-    extract_quadrature(c, l, &run->q);
+}
+
+/* Whether a step that is looked at is wanted with its integrals. */
+static int needs_integrals(const crew *c, int l, int at_mark)
+{
+    const fst_run_state *run = c->lanes[l].run;
+    return !c->engine->fused || fst_returns_need_integrals(run) ||
+           (at_mark && fst_run_period_needs_integrals(run));
+}
+
+/* Look closely at a lane's accepted step; 1 if its run is over. */
+static int watch(crew *c, int l, fst_lane_events events)
+{
+    fst_run_state *run = c->lanes[l].run;
+    fst_flow *flow = run->flow;
+    c->engine->extract_clock(c->batch, l, flow);
+    extract_step(c, l, (c->observed & bit(l)) != 0);
+    if (events.ending & bit(l)) {
+        c->engine->extract_stages(c->batch, l, &flow->step);
+        if (fst_run_watch_end(run))
+            return 1;
+    }
+    if (needs_integrals(c, l, (events.at_mark & bit(l)) != 0))
+        extract_quadrature(c, l, &run->q);
     if (!run->in_window) /* crossings before it were not looked at */
         fst_returns_begin(run);
     run->activity = c->view.activity[l];
-    const int over = fst_run_watch_step(run);
+    fst_run_watch_step(run);
     c->view.activity[l] = run->activity;
     c->view.turns[0][l] = (double)flow->phi.turns;
     c->view.turns[1][l] = (double)run->q.small_phi.turns;
@@ -361,7 +383,37 @@ static int watch(crew *c, int l)
     if (!c->engine->fused)
         keep_records(c, l, &run->q);
     keep_phi_range(c, l);
-    return over || flow->t.high >= run->t_end;
+    return flow->t.high >= run->t_end;
+}
+
+/* A step that ends a period whose mark is not needed, and holds nothing else. */
+static void pass_mark(crew *c, int l)
+{
+    fst_run_state *run = c->lanes[l].run;
+    run->activity = c->view.activity[l];
+    fst_run_mark_periods(run);
+    c->view.activity[l] = c->view.speed[l] > run->activity ? c->view.speed[l] : run->activity;
+    c->view.next_mark[l] = next_mark(run);
+}
+
+/* Look at the accepted steps that may hold something; the lanes whose runs are over. */
+static unsigned look_at_steps(crew *c, fst_lane_events events)
+{
+    unsigned over = 0;
+    for (int l = 0; l < c->engine->width; ++l) {
+        int close = (events.close & bit(l)) != 0;
+        if (!close && events.at_mark & bit(l)) {
+            c->engine->extract_clock(c->batch, l, c->lanes[l].run->flow);
+            close = fst_run_period_needs_integrals(c->lanes[l].run);
+            if (!close)
+                pass_mark(c, l);
+        }
+        if (close)
+            over |= watch(c, l, events) ? bit(l) : 0;
+        else if (events.wandering & c->in_window & bit(l))
+            watch_phi(c, l);
+    }
+    return over;
 }
 
 static void conclude(crew *c, int l)
@@ -391,18 +443,13 @@ static void step(crew *c)
     const unsigned accepted = tries.accepted;
     c->observed |= c->engine->past(c->batch, accepted & ~c->observed, c->observe_from);
     const unsigned observed = accepted & c->observed;
-    unsigned wandering, over = 0;
-    unsigned eventful = c->engine->watch(c->batch, accepted, observed, c->in_window, &wandering);
+    fst_lane_events events = c->engine->watch(c->batch, accepted, observed, c->in_window);
     unsigned beaten[FST_RECORD_COUNT] = {0};
     if (observed)
         c->engine->observe(c->batch, observed, c->in_window, c->tracked | tracked_soon(c), beaten);
     for (int i = 0; !c->engine->fused && i < FST_RECORD_COUNT; ++i)
-        eventful |= beaten[i];
-    for (int l = 0; l < c->engine->width; ++l)
-        if (eventful & bit(l))
-            over |= watch(c, l) ? bit(l) : 0;
-        else if (wandering & c->in_window & bit(l))
-            watch_phi(c, l);
+        events.close |= beaten[i];
+    const unsigned over = look_at_steps(c, events);
     if (c->engine->fused)
         set_aside(c, beaten);
     c->engine->advance(c->batch, accepted & ~over);

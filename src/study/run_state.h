@@ -33,6 +33,7 @@ typedef struct fst_run_state {
     double window_start[FST_STATE_SIZE]; /* state at the first period mark, for the exponent */
     int in_window;
     int extremes_elsewhere; /* someone else looks for them */
+    int sparse_marks;       /* those that no conclusion needs are left out: the run is not interrupted */
     int exponent_elsewhere; /* someone else computes it, and asks for the conclusion once more */
     enum { FST_EXPONENT_UNASKED, FST_EXPONENT_WANTED, FST_EXPONENT_KNOWN } exponent_is;
     fst_exponent exponent;
@@ -50,11 +51,22 @@ typedef struct fst_run_state {
 /* Model, start state, flow and times of a run whose params and options are set. */
 fst_status fst_run_begin(fst_run_state *run, fst_error *error);
 
-/* Look at the flow's last step, whose integrals are taken in: has the bead left the plate (then 1), marks,
- * returns, extremes.  The quiet form is for a step of which it is known that it holds none of these; `activity`
- * is the greatest component of |d(state)/dt| at its end. */
-int fst_run_watch_step(fst_run_state *run);
+/* Look at the flow's last step, whose integrals are taken in: has the bead left the plate (then 1)? */
+int fst_run_watch_end(fst_run_state *run);
+
+/* If it has not: marks, returns, extremes.  The quiet form is for a step of which it is known that it holds
+ * none of these; `activity` is the greatest component of |d(state)/dt| at its end. */
+void fst_run_watch_step(fst_run_state *run);
 void fst_run_watch_quietly(fst_run_state *run, double activity);
+
+/* The whole drive periods that end in the flow's last step: marks, and the beginning of the window.  Where no
+ * integrals are needed, the flow's clock is all that is looked at. */
+void fst_run_mark_periods(fst_run_state *run);
+
+/* Whether the integrals are needed of a mark in the flow's last step: of a period that ends in it, of a return.
+ */
+int fst_run_period_needs_integrals(const fst_run_state *run);
+int fst_returns_need_integrals(const fst_run_state *run);
 
 /* The side of the section where the bead is, before a step of which more will be asked. */
 void fst_returns_begin(fst_run_state *run);
