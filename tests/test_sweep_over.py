@@ -21,14 +21,14 @@ RANGES = {
     "drive.frequency": ("600rpm:12Hz", 10, 12), "drive.omega": ("0.2:0.4", 0.2, 0.4),
     "friction.gamma": ("0.3 1/ms:330 1/s", 300, 330), "friction.mu": ("0.1:0.3", 0.1, 0.3),
     "model.kappa": ("1:2", 1, 2), "model.eps": ("0.1:0.12", 0.1, 0.12), "model.h": ("0.7:0.9", 0.7, 0.9),
-    "model.lambda": ("0.3:0.5", 0.3, 0.5), "plate.radius": ("2cm:230mm", 0.02, 0.23),
+    "model.lambda": ("0.3:0.5", 0.3, 0.5), "plate.radius": ("20cm:230mm", 0.2, 0.23),
     "plate.gravity": ("9.8 m/s2:10", 9.8, 10), "start.r": ("0.5:0.9", 0.5, 0.9),
     "start.phi": ("-90:0.25turn", -90, 90), "run.periods": ("2:3", 2, 3), "run.discard": ("0:1", 0, 1),
     "run.rtol": ("1e-6:1e-5", 1e-6, 1e-5),
 }
 NEEDS = {"bead.a": "bead.material=paramagnetic", "bead.b": "bead.material=mixed"}
-# What no row shows: the tesla scale, and masses where kappa is given.
-INVISIBLE = {"bead.moment", "magnet.b0", "bead.mass"}
+# What no row shows: the tesla scale, masses where kappa is given, and an edge that is not reached.
+INVISIBLE = {"bead.moment", "magnet.b0", "bead.mass", "plate.radius"}
 WHOLE = {"magnet.lines"}
 REFUSED = {"run.samples": "changes nothing in a row"}
 
