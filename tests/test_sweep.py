@@ -7,11 +7,13 @@ import csv
 import io
 import json
 import os
+import pty
+import re
 import sqlite3
 import subprocess
 import unittest
 
-from sweep_tools import SHORT, SMALL, Case, content_of, festoon
+from sweep_tools import FESTOON, SHORT, SMALL, Case, content_of, festoon
 
 
 class Rows(Case):
@@ -158,6 +160,35 @@ class Refusals(Case):
             self.assertEqual(json.loads(out)["added"], 1500 - kept)
         finally:
             subprocess.run(["umount", mount], check=True)
+
+
+class Progress(Case):
+    def test_a_sweep_that_goes_on_shows_what_is_there_and_its_own_speed(self):
+        words = ["sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:1000", "--threads", "1", "-o", self.path("a.db")]
+        self.good(*words)
+        base = sqlite3.connect(self.path("a.db"))
+        base.execute("DELETE FROM rows WHERE point >= 250")
+        base.commit()
+        base.close()
+        master, slave = pty.openpty()
+        process = subprocess.Popen([FESTOON, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=slave)
+        os.close(slave)
+        shown = b""
+        try:
+            while piece := os.read(master, 4096):
+                shown += piece
+        except OSError:  # the other side is closed
+            pass
+        os.close(master)
+        self.assertEqual(process.communicate()[0].count(b"750 of them new"), 1)
+        lines = re.findall(rb"([0-9.]+) %(?:  ([0-9]+) s left)?  ([0-9]+) of 1000 points, ([0-9.e+]+) a second", shown)
+        if not lines:
+            self.skipTest("this machine was faster than the line")
+        for percent, left, there, rate in lines:
+            self.assertGreaterEqual(int(there), 250)
+            self.assertAlmostEqual(float(percent), int(there) / 10, delta=0.06)
+            if left and float(rate) > 0:
+                self.assertAlmostEqual(int(left), (1000 - int(there)) / float(rate), delta=1 + 0.01 * int(left))
 
 
 class Exports(Case):

@@ -149,7 +149,9 @@ typedef struct fst_sweep_progress {
     int64_t points, there; /* of the grid; with a row */
     int64_t added, failed; /* rows added by this call; of these, runs that failed */
     double seconds;        /* since the call */
-    int rank, ranks;       /* of this process among those of an MPI job: only rank 0 counts; 0 of 1 without */
+    double processor_seconds,
+        journal_seconds; /* of this process; of these, of the thread that keeps the database */
+    int rank, ranks;     /* of this process among those of an MPI job: only rank 0 counts; 0 of 1 without */
 } fst_sweep_progress;
 
 typedef struct fst_sweep_options {

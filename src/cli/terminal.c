@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -63,7 +64,20 @@ void progress_begin(progress_line *line)
     line->shown = line->started;
 }
 
-fst_status progress_show(progress_line *line, double fraction, const char *what, fst_error *error)
+static void show_time_left(double seconds)
+{
+    if (seconds < 600.0)
+        (void)fprintf(stderr, "  %.0f s left", seconds);
+    else if (seconds < 36000.0)
+        (void)fprintf(stderr, "  %.0f min left", seconds / 60.0);
+    else if (seconds < 200000.0)
+        (void)fprintf(stderr, "  %.0f h left", seconds / 3600.0);
+    else
+        (void)fprintf(stderr, "  %.3g days left", seconds / 86400.0);
+}
+
+fst_status progress_show_left(progress_line *line, double fraction, double seconds_left, const char *what,
+                              fst_error *error)
 {
     if (interrupted())
         return fail(error, FST_INTERRUPTED, "", "interrupted after %.3g %% of the way", 100.0 * fraction);
@@ -73,14 +87,20 @@ fst_status progress_show(progress_line *line, double fraction, const char *what,
     if (time - line->shown < 0.2)
         return FST_OK;
     line->shown = time;
-    double passed = time - line->started;
     (void)fprintf(stderr, "\r\033[K%5.1f %%", 100.0 * fraction);
-    if (fraction > 0.0)
-        (void)fprintf(stderr, "  %.0f s left", passed * (1.0 - fraction) / fraction);
+    if (isfinite(seconds_left))
+        show_time_left(seconds_left);
     if (what)
-        (void)fprintf(stderr, "  %.50s", what);
+        (void)fprintf(stderr, "  %.60s", what);
     (void)fflush(stderr);
     return FST_OK;
+}
+
+fst_status progress_show(progress_line *line, double fraction, const char *what, fst_error *error)
+{
+    const double passed = now() - line->started;
+    return progress_show_left(line, fraction, fraction > 0.0 ? passed * (1.0 - fraction) / fraction : INFINITY,
+                              what, error);
 }
 
 void progress_end(progress_line *line)

@@ -24,6 +24,10 @@ void progress_begin(progress_line *line);
  * in, once a signal came; that is how a computation learns of it. */
 fst_status progress_show(progress_line *line, double fraction, const char *what, fst_error *error);
 
+/* The same where the time left does not follow from the fraction (INFINITY: nobody knows). */
+fst_status progress_show_left(progress_line *line, double fraction, double seconds_left, const char *what,
+                              fst_error *error);
+
 /* Wipe the line. */
 void progress_end(progress_line *line);
 

@@ -52,8 +52,11 @@ static fst_status read_value(const fst_params *base, const axis *a, const char *
 {
     fst_params trial = *base;
     const fst_status status = fst_params_set(&trial, a->info->key, text, error);
-    if (status != FST_OK)
+    if (status != FST_OK) {
+        if (error)
+            (void)snprintf(error->where, sizeof error->where, "--over");
         return status;
+    }
     if (a->info->kind == FST_KIND_REAL) {
         memcpy(value, (const char *)&trial + a->info->offset, sizeof *value);
     } else {
@@ -176,7 +179,10 @@ static fst_status read_axis(fst_grid *grid, const char *text, fst_error *error)
     a->param = fst_param_find(key);
     if (a->param < 0) {
         fst_params trial = grid->base;
-        return fst_params_set(&trial, key, "0", error); /* its sentence names the nearest key */
+        (void)fst_params_set(&trial, key, "0", error); /* its sentence names the nearest key */
+        if (error)
+            (void)snprintf(error->where, sizeof error->where, "--over");
+        return FST_BAD_INPUT;
     }
     a->info = fst_param_at(a->param);
     for (int i = 0; i + 1 < grid->axis_count; ++i) {
@@ -188,6 +194,32 @@ static fst_status read_axis(fst_grid *grid, const char *text, fst_error *error)
     const char *values = text + length + 1;
     return strchr(values, ':') ? read_spaced(&grid->base, a, values, error)
                                : read_list(&grid->base, a, values, error);
+}
+
+static const axis *axis_over(const fst_grid *grid, const char *key)
+{
+    for (int i = 0; i < grid->axis_count; ++i)
+        if (strcmp(grid->axes[i].info->key, key) == 0)
+            return &grid->axes[i];
+    return NULL;
+}
+
+/* Axes along which all rows would be alike are mistakes. */
+static fst_status check_effects(const fst_grid *grid, fst_error *error)
+{
+    const fst_material material = grid->base.bead_material;
+    const char *wanted = axis_over(grid, "bead.material")                              ? NULL
+                         : axis_over(grid, "bead.b") && material != FST_MATERIAL_MIXED ? "bead.b"
+                         : axis_over(grid, "bead.a") && material == FST_MATERIAL_HARD  ? "bead.a"
+                                                                                       : NULL;
+    if (axis_over(grid, "run.samples"))
+        return fst_fail(error, FST_BAD_INPUT, "--over",
+                        "run.samples concerns written trajectories only and changes nothing in a row");
+    if (wanted)
+        return fst_fail(error, FST_BAD_INPUT, "--over",
+                        "%s has no effect on a bead of this bead.material: choose %smixed", wanted,
+                        strcmp(wanted, "bead.a") == 0 ? "paramagnetic or " : "");
+    return FST_OK;
 }
 
 /* ------------------------------------------------------------------ the grid */
@@ -236,6 +268,8 @@ fst_status fst_grid_new(const fst_params *base, const char *const *axes, int cou
     fst_status status = FST_OK;
     for (int i = 0; i < count && status == FST_OK; ++i)
         status = read_axis(made, axes[i], error);
+    if (status == FST_OK)
+        status = check_effects(made, error);
     if (status == FST_OK)
         status = lay_out(made, error);
     if (status != FST_OK) {
