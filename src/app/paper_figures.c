@@ -329,5 +329,8 @@ fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to
             all.list[all.count++] = i;
     }
     fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = progress_of_gallery};
-    return fst_parallel(&work, error);
+    double began = fst_paper_clock();
+    fst_status status = fst_parallel(&work, error);
+    fst_paper_note_time(paper, "figures", began);
+    return status;
 }
