@@ -282,7 +282,8 @@ void fst_paper_figure_command(const fst_paper_state *paper, const fst_paper_figu
         (void)snprintf(text, size, "%s --set run.samples=128 -o %s.h5\nfestoon plot %s.h5 -o %s.svg%s", run,
                        figure->file, figure->file, figure->file, options);
     else
-        (void)snprintf(text, size, "%s\ngnuplot %s.gp", run, figure->file);
+        (void)snprintf(text, size, "festoon paper -o DIR%s\ngnuplot %s.gp   # in DIR",
+                       paper->options->reduced ? " --reduced" : "", figure->file);
 }
 
 static fst_status draw_one(fst_paper_state *paper, int index, fst_error *error)

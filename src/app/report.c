@@ -187,13 +187,13 @@ static void write_statements(FILE *out, const fst_paper_state *paper)
         fst_report_text(out, statement->section);
         fputs("</p><p>", out);
         fst_report_text(out, statement->text);
-        fputs("</p><table><tbody><tr><td>published</td><td class=\"n\">", out);
+        fputs("</p><table><tbody><tr><td>published</td><td colspan=\"2\">", out);
         if (statement->said)
             (void)snprintf(text, sizeof text, "%s", statement->said);
         else
             fst_statement_value(statement, statement->published, text, sizeof text);
         fst_report_text(out, text);
-        fputs("</td><td></td></tr>\n", out);
+        fputs("</td></tr>\n", out);
         write_values(out, statement, &finding);
         fputs("</tbody></table>", out);
         write_notes(out, &finding);
