@@ -11,6 +11,8 @@
  * orbit ends. */
 static const double BRANCH_FROM = 0.19, BRANCH_TO = 4.0;
 static const double LOCKED_AT = 0.02; /* the slowest drive of the runs */
+/* A small kappa, and a drive at which so weakly held a bead stays locked. */
+static const double WEAK = 0.015, WEAK_DRIVE = 0.001;
 
 static fst_params params_at(fst_dynamics dynamics, double omega)
 {
@@ -69,6 +71,27 @@ static fst_status count_minima(fst_dynamics dynamics, fst_paper_exact *exact, fs
     return FST_OK;
 }
 
+/* The damping ratio -Re/|lambda| of the least damped swing about a stable locked state at a small kappa. */
+static fst_status find_damping(fst_dynamics dynamics, fst_paper_exact *exact, fst_error *error)
+{
+    fst_params params = params_at(dynamics, WEAK_DRIVE);
+    params.model_kappa = WEAK;
+    fst_locked_list list;
+    fst_status status = fst_locked_find(&params, &list, error);
+    if (status != FST_OK)
+        return status;
+    for (size_t i = 0; i < list.count; i++) {
+        const fst_locked *state = &list.states[i];
+        for (int j = 0; j < FST_EIGENVALUE_COUNT && state->stable; j++) {
+            double re = state->eigenvalue_re[j], im = state->eigenvalue_im[j];
+            if (im > 0.0)
+                exact->damping = fmin(exact->damping, -re / hypot(re, im));
+        }
+    }
+    fst_locked_free(&list);
+    return FST_OK;
+}
+
 fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *error)
 {
     fst_dynamics dynamics = (fst_dynamics)index;
@@ -87,6 +110,8 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
     }
     if (status == FST_OK)
         status = count_minima(dynamics, exact, &why);
+    if (status == FST_OK)
+        status = find_damping(dynamics, exact, &why);
     /* Without LAPACK, or where the method fails, the rest of the paper stands, and this sentence instead. */
     if (status == FST_UNAVAILABLE || status == FST_NO_CONVERGENCE) {
         (void)snprintf(exact->missing, sizeof exact->missing, "%s", why.sentence);
@@ -99,7 +124,7 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
 
 void fst_paper_exact_begin(fst_paper_exact *exact)
 {
-    *exact = (fst_paper_exact){.halving = NAN, .fold = NAN, .locked_minima = NAN};
+    *exact = (fst_paper_exact){.halving = NAN, .fold = NAN, .locked_minima = NAN, .damping = NAN};
     for (int row = 0; row < FST_TABLE1_ROWS; row++)
         exact->closed[row].omega = NAN;
 }

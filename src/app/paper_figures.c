@@ -282,7 +282,8 @@ void fst_paper_figure_command(const fst_paper_state *paper, const fst_paper_figu
         (void)snprintf(text, size, "%s --set run.samples=128 -o %s.h5\nfestoon plot %s.h5 -o %s.svg%s", run,
                        figure->file, figure->file, figure->file, options);
     else
-        (void)snprintf(text, size, "%s\ngnuplot %s.gp", run, figure->file);
+        (void)snprintf(text, size, "festoon paper -o DIR%s\ngnuplot %s.gp   # in DIR",
+                       paper->options->reduced ? " --reduced" : "", figure->file);
 }
 
 static fst_status draw_one(fst_paper_state *paper, int index, fst_error *error)
@@ -329,5 +330,8 @@ fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to
             all.list[all.count++] = i;
     }
     fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = progress_of_gallery};
-    return fst_parallel(&work, error);
+    double began = fst_paper_clock();
+    fst_status status = fst_parallel(&work, error);
+    fst_paper_note_time(paper, "figures", began);
+    return status;
 }
