@@ -477,6 +477,7 @@ typedef struct fst_branch {
     fst_branch_end *ends; /* two a branch */
     size_t end_count;
     int branches;
+    int complete; /* 0: stopped by the caller before its end */
 } fst_branch;
 
 typedef struct fst_branch_options {
@@ -499,7 +500,8 @@ FST_API fst_branch_options fst_default_branch_options(void);
 
 /* Follow the counter-rotating family (the S2 branch both ways, the S1 branches that leave it, through r = 0 and
  * beyond), or every family of equilibria, or all of it, over a parameter; or the curves of special points over
- * two.  Free it with fst_branch_free(). */
+ * two.  Free it with fst_branch_free().  FST_INTERRUPTED (from `progress`): the branch holds what was found
+ * until then, and is to be freed too. */
 FST_API fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options,
                                      fst_branch *branch, fst_error *error);
 FST_API void fst_branch_free(fst_branch *branch);

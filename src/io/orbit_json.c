@@ -177,6 +177,7 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
         json_object_set_new(object, "second_from", fst_json_number(branch->second_from));
         json_object_set_new(object, "second_to", fst_json_number(branch->second_to));
     }
+    json_object_set_new(object, "complete", json_boolean(branch->complete));
     json_object_set_new(object, "specials", specials);
     json_object_set_new(object, "ends", ends);
     json_object_set_new(object, "points", points);

@@ -168,7 +168,7 @@ static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *he
     else if (here->seen.mean_r > LARGEST_RADIUS)
         (void)snprintf(curve->reason, sizeof curve->reason, "it has left the magnet's field: <r> = %.4g",
                        here->seen.mean_r);
-    else if (here->s.segments == 0 && fabs(here->s.y[0][FST_WZ]) > LARGEST_SPIN)
+    else if (here->s.segments == 0 && fabs(here->s.y[0][FST_WZ] - here->seen.omega) > LARGEST_SPIN)
         (void)snprintf(curve->reason, sizeof curve->reason,
                        "its spin grows without bound (W_z = %.4g) while n turns upright", here->s.y[0][FST_WZ]);
     else if (nodes >= MOST_NODES)
