@@ -367,6 +367,9 @@ FST_API fst_status fst_run(const fst_params *params, const fst_run_options *opti
 /* These need LAPACK; FST_UNAVAILABLE where this build or machine has none.  Methods and criteria:
  * docs/orbits.md. */
 
+/* Whether it can be called. */
+FST_API int fst_lapack_present(void);
+
 enum { FST_MULTIPLIER_COUNT = 8, FST_EIGENVALUE_COUNT = 9, FST_LYAPUNOV_TRACE = 64 };
 
 /* A periodic orbit of the turning frame. */
@@ -378,8 +381,12 @@ typedef struct fst_orbit {
     double multiplier_re[FST_MULTIPLIER_COUNT]; /* of the half map composed with S2 for S2, else of the full
                                                    map; */
     double multiplier_im[FST_MULTIPLIER_COUNT]; /* flow direction and |n| are split off */
-    double trivial_error;                       /* how exactly the flow direction was mapped onto itself */
-    double residual;                            /* greatest component of what Newton's equations leave */
+    double relaxation_time; /* in which a small disturbance falls by e, from the leading multiplier; NAN:
+                               unstable */
+    double swing_ratio;   /* the paper's p: of the two falls of r in a turn the larger over the other, minus 1;
+                           * NAN:   there are not two */
+    double trivial_error; /* how exactly the flow direction was mapped onto itself */
+    double residual;      /* greatest component of what Newton's equations leave */
     double state[FST_STATE_SIZE]; /* on Phi = pi/2, passed downward; a libration: where r is greatest */
 } fst_orbit;
 
@@ -435,6 +442,7 @@ typedef struct fst_branch_point {
     double value;  /* of the parameter */
     double second; /* of the second one, NAN where there is none */
     double omega, mean_r, mean_alpha_dot, mean_nz, festoons, period, min_r, phi_deg, slip;
+    double relaxation_time, swing_ratio; /* as of an orbit; of an equilibrium the former */
     fst_symmetry symmetry;
     int stable, turns, branch;
     int multipliers; /* 8 of an orbit, 9 eigenvalues of an equilibrium */
