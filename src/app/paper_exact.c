@@ -2,6 +2,7 @@
  * counter-rotation ends, on the branch of periodic orbits. */
 #include "app/paper.h"
 
+#include "base/bracket.h"
 #include "base/error.h"
 
 #include <stdio.h>
@@ -26,27 +27,19 @@ static fst_params params_at(fst_dynamics dynamics, double omega)
 static fst_status close_pattern(fst_dynamics dynamics, const fst_branch_point *a, const fst_branch_point *b,
                                 double target, fst_paper_pattern *pattern, fst_error *error)
 {
-    double low = a->value, high = b->value, f_low = a->festoons - target, f_high = b->festoons - target;
+    fst_bracket z = {a->value, b->value, a->festoons - target, b->festoons - target, 0};
     fst_orbit orbit;
-    for (int i = 0, side = 0; i < 60; i++) {
-        double omega = (low * f_high - high * f_low) / (f_high - f_low);
+    for (int i = 0; i < 60; i++) {
+        double omega = fst_bracket_next(&z);
         fst_params params = params_at(dynamics, omega);
         fst_status status = fst_orbit_find(&params, &orbit, error);
         if (status != FST_OK)
             return status;
         double f = orbit.means.festoons - target;
         *pattern = (fst_paper_pattern){omega, orbit.symmetry};
-        if (fabs(f) < 1e-11 * target || fabs(high - low) < 1e-12)
+        if (fabs(f) < 1e-11 * target || fabs(z.hi - z.lo) < 1e-12)
             break;
-        if ((f < 0.0) == (f_low < 0.0)) {
-            low = omega, f_low = f;
-            f_high *= side < 0 ? 0.5 : 1.0;
-            side = -1;
-        } else {
-            high = omega, f_high = f;
-            f_low *= side > 0 ? 0.5 : 1.0;
-            side = 1;
-        }
+        fst_bracket_take(&z, omega, f);
     }
     return FST_OK;
 }

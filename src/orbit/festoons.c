@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bracket.h"
 #include "base/error.h"
 
 #define TWO_PI 6.283185307179586476925287
@@ -34,11 +35,10 @@ static fst_status solution_at(const fst_family *family, const fst_branch_point *
 static fst_status locate(const fst_family *family, const fst_branch_point *a, const fst_branch_point *b,
                          double target, fst_solution *s, fst_error *error)
 {
-    double lo = a->value, hi = b->value, f_lo = a->festoons - target, f_hi = b->festoons - target;
+    fst_bracket z = {a->value, b->value, a->festoons - target, b->festoons - target, 0};
     fst_status status = solution_at(family, a, s, error);
-    int side = 0;
     for (int i = 0; i < 60 && status == FST_OK; ++i) {
-        double x = i % 6 == 5 ? 0.5 * (lo + hi) : (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
+        const double x = i % 6 == 5 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z);
         if (fabs(x - s->value) < 1e-13)
             break;
         /* Move from the last one in steps small enough for Newton's method. */
@@ -54,15 +54,7 @@ static fst_status locate(const fst_family *family, const fst_branch_point *a, co
         const double f = festoons_of(s) - target;
         if (status != FST_OK || fabs(f) < 1e-13 * target)
             break;
-        if ((f < 0) == (f_lo < 0)) {
-            lo = x, f_lo = f;
-            f_hi *= side < 0 ? 0.5 : 1.0;
-            side = -1;
-        } else {
-            hi = x, f_hi = f;
-            f_lo *= side > 0 ? 0.5 : 1.0;
-            side = 1;
-        }
+        fst_bracket_take(&z, x, f);
     }
     return status;
 }
