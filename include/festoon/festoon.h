@@ -424,9 +424,10 @@ typedef enum {
     FST_SPECIAL_PERIOD_DOUBLING,
     FST_SPECIAL_HOPF,
     FST_SPECIAL_NEIMARK_SACKER,
-    FST_SPECIAL_ORIGIN_CROSSING
+    FST_SPECIAL_ORIGIN_CROSSING,
+    FST_SPECIAL_TRANSCRITICAL /* two families pass through each other */
 } fst_special_type;
-/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing" */
+/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing", "transcritical" */
 FST_API const char *fst_special_name(fst_special_type type);
 
 /* A point of a branch. */
@@ -508,14 +509,20 @@ typedef struct fst_festoon_list {
     double *omegas; /* rising; each has a stable orbit with N festoons */
     fst_orbit *orbits;
     size_t count;
-    double least, greatest; /* the range of N on the stable branch */
-    double from, to;        /* and of omega */
+    double least[2],
+        greatest[2]; /* N on the stable S1 orbits, on the stable S2 orbits; inf, -inf: none is stable */
+    double from, to; /* the range of omega of both */
 } fst_festoon_list;
 
 /* Every omega at which a stable counter-rotating pattern has exactly N festoons.  FST_NO_CONVERGENCE: none; the
  * sentence tells how far the branch reaches. */
 FST_API fst_status fst_festoons_find(const fst_params *params, double festoons, fst_festoon_list *list,
                                      fst_error *error);
+
+/* The same on a branch of the kind FST_BRANCH_COUNTER over drive.omega that fst_branch_follow() made of the
+ * same parameters: for many N. */
+FST_API fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
+                                   fst_festoon_list *list, fst_error *error);
 FST_API void fst_festoons_free(fst_festoon_list *list);
 
 /* The spectrum of Lyapunov exponents. */
@@ -558,6 +565,10 @@ FST_API const char *fst_grid_key(const fst_grid *grid, int axis);
 FST_API const char *fst_grid_axis_text(const fst_grid *grid, int axis);
 FST_API int64_t fst_grid_axis_points(const fst_grid *grid, int axis);
 FST_API int64_t fst_grid_axis_stride(const fst_grid *grid, int axis);
+
+/* How the values of an axis lie. */
+typedef enum { FST_SPACING_LINEAR, FST_SPACING_LOG, FST_SPACING_LIST, FST_SPACING_RANDOM } fst_spacing;
+FST_API fst_spacing fst_grid_axis_spacing(const fst_grid *grid, int axis);
 
 /* The value of an axis at a point, in SI (of a choice: its index). */
 FST_API double fst_grid_value(const fst_grid *grid, int axis, int64_t point);

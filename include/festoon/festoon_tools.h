@@ -149,7 +149,9 @@ typedef struct fst_sweep_progress {
     int64_t points, there; /* of the grid; with a row */
     int64_t added, failed; /* rows added by this call; of these, runs that failed */
     double seconds;        /* since the call */
-    int rank, ranks;       /* of this process among those of an MPI job: only rank 0 counts; 0 of 1 without */
+    double processor_seconds,
+        journal_seconds; /* of this process; of these, of the thread that keeps the database */
+    int rank, ranks;     /* of this process among those of an MPI job: only rank 0 counts; 0 of 1 without */
 } fst_sweep_progress;
 
 typedef struct fst_sweep_options {
@@ -197,11 +199,19 @@ FST_API fst_status fst_sweep_read(const char *path, const char *const *keys, int
                                   fst_error *error);
 FST_API void fst_sweep_table_free(fst_sweep_table *table);
 
+/* The grid alone, which fst_grid_free() frees. */
+FST_API fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *error);
+
+/* The units that a sweep's figure has on its axes: those of the parameters that were varied (lengths in mm);
+ * those of the laboratory (Hz, mm, mm/s, 1/s, s); or scaled ones (drive omega, lengths in l). */
+typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED } fst_shown_units;
+
 /* Draw a sweep: over one axis curves of the keys, over two a map of the one key, of regimes where it is
  * `regime`.  With count = 0 the keys are chosen: mean r and its deviation, the mean angular velocity and the
- * regime over one axis, the regime over two.  FST_BAD_INPUT: more than two axes, more than one key on a map. */
-FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, const char *out,
-                                    fst_error *error);
+ * regime over one axis, the regime over two.  Logarithmic axes are drawn so.  FST_BAD_INPUT: more than two
+ * axes, more than one key on a map, units that a varied parameter changes. */
+FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, fst_shown_units units,
+                                    const char *out, fst_error *error);
 
 /* Whether a file begins like a sweep's database. */
 FST_API int fst_is_sweep(const char *path);
@@ -232,10 +242,12 @@ FST_API fst_status fst_film(const fst_table *table, const char *out, const fst_f
 
 typedef struct fst_paper_options {
     uint32_t cookie;
-    int reduced;    /* fewer points and shorter runs, for tests */
-    int starts;     /* of the search for a paramagnetic bead that counter-rotates; 0: as usual */
-    int films;      /* the supplement's two films as well, film_0215.mp4 and film_04.mp4 */
-    char **summary; /* if not NULL: set to Table 1 and a count of the verdicts as text; free() it */
+    int reduced;      /* fewer points and shorter runs, for tests */
+    int starts;       /* of the search for a paramagnetic bead that counter-rotates; 0: as usual */
+    int films;        /* the supplement's two films as well, film_0215.mp4 and film_04.mp4 */
+    const char *only; /* if not NULL: the one statement to compute, by its id in paper.json */
+    char **summary; /* if not NULL: set to Table 1 and a count of the verdicts as text, or to the one statement
+                       as JSON; free() it */
     void *user;
     fst_status (*progress)(void *user, double fraction, const char *what, fst_error *error);
 } fst_paper_options;
@@ -243,7 +255,8 @@ FST_API fst_paper_options fst_default_paper_options(void);
 
 /* Compute what the paper shows, by both dynamics, and write paper.json, the figures and report.html into
  * `directory` (made if missing).  After an interruption or a failure on the way they hold what was done until
- * then, and say "complete": false. */
+ * then, and say "complete": false.  With `only` no more is computed than that statement needs, nothing is
+ * written, and `directory` may be NULL. */
 FST_API fst_status fst_paper(const char *directory, const fst_paper_options *options, fst_error *error);
 
 /* The rules of the verdicts and the list of the paper's statements with their criteria, as Markdown; free() it,

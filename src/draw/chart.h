@@ -4,7 +4,14 @@
 
 #include "draw/style.h"
 
-typedef enum { FST_CURVE_LINE, FST_CURVE_DASHED, FST_CURVE_POINTS, FST_CURVE_OPEN_POINTS } fst_curve_style;
+typedef enum {
+    FST_CURVE_LINE,
+    FST_CURVE_DASHED,
+    FST_CURVE_POINTS,
+    FST_CURVE_OPEN_POINTS,
+    FST_CURVE_LINE_POINTS, /* few points, which the line only guides the eye between */
+    FST_CURVE_DASHED_POINTS
+} fst_curve_style;
 
 typedef struct fst_chart_curve {
     const char *title;   /* in the key; NULL: not there */
@@ -52,6 +59,7 @@ typedef struct fst_chart_mark {
 typedef struct fst_chart {
     const char *title, *x_label;
     double x_low, x_high;
+    int x_logarithmic;
     const char *x_tics;   /* gnuplot's tics, "('0' 0, 'π' 3.14159)"; NULL: automatic */
     const char *x2_label; /* a second abscissa on top, x2 = x2_factor x; NULL: none */
     double x2_factor;

@@ -38,8 +38,8 @@ typedef struct crew {
     } set_aside[FST_MOST_LANES]; /* and for what */
     int aside;
     int occupied;
-    lane parked[FST_MOST_LANES]; /* runs to their ends whose exponents are wanted */
-    int parked_count;
+    lane parked[2 * FST_MOST_LANES]; /* runs to their ends whose exponents are wanted: less than a batch, and */
+    int parked_count;                /* those of one step, in which all lanes may end */
     fst_row_job waiting[3 * FST_MOST_LANES]; /* jobs for lanes to come: as many as were in lanes or parked */
     int waiting_count;
     int misfit; /* one of them shares no batch with those at work */
@@ -215,15 +215,17 @@ static void finish(crew *c, int l, fst_status status, fst_error *error)
         occupy(c, l, 1);
 }
 
-/* The exponents of the runs that are parked, side by side too. */
+/* The exponents of runs that are parked, side by side too: the last ones, as many as there are lanes. */
 static fst_status conclude_parked(crew *c, fst_error *error)
 {
-    fst_exponent *asked[FST_MOST_LANES];
-    for (int i = 0; i < c->parked_count; ++i)
-        asked[i] = &c->parked[i].run->exponent;
-    const fst_status status = fst_largest_exponents(&c->engine->tangents, asked, c->parked_count, error);
-    for (int i = 0; status == FST_OK && i < c->parked_count; ++i) {
-        lane *at = &c->parked[i];
+    fst_exponent *asked[FST_MOST_LANES] = {NULL};
+    const int count = c->parked_count < c->engine->width ? c->parked_count : c->engine->width;
+    lane *last = c->parked + (c->parked_count - count);
+    for (int i = 0; i < count; ++i)
+        asked[i] = &last[i].run->exponent;
+    const fst_status status = fst_largest_exponents(&c->engine->tangents, asked, count, error);
+    for (int i = 0; status == FST_OK && i < count; ++i) {
+        lane *at = &last[i];
         fst_run_result result;
         fst_error own = {FST_OK, "", ""};
         fst_result_clear(&result);
@@ -233,7 +235,7 @@ static fst_status conclude_parked(crew *c, fst_error *error)
         if (hand_over(c, at, concluded, &result, &own))
             c->waiting[c->waiting_count++] = at->job;
     }
-    c->parked_count = status == FST_OK ? 0 : c->parked_count;
+    c->parked_count -= status == FST_OK ? count : 0;
     return status;
 }
 
@@ -483,7 +485,8 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine
     for (unsigned steps = 1; status == FST_OK && c->occupied > 0; ++steps) {
         step(c);
         occupy_idle(c);
-        if (c->parked_count == engine->width || (c->occupied == 0 && c->parked_count > 0)) {
+        while (status == FST_OK &&
+               (c->parked_count >= engine->width || (c->occupied == 0 && c->parked_count > 0))) {
             status = conclude_parked(c, error);
             occupy_idle(c);
         }
