@@ -2,16 +2,19 @@
 
 import html
 import json
+import math
 import os
 import re
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+from concurrent.futures import ThreadPoolExecutor
+from html.parser import HTMLParser
 from pathlib import Path
+
+import bead_by_hand as hand
 
 FESTOON = os.environ["FESTOON"]
 VERDICTS = {"reproduced", "close", "not reproduced"}
@@ -22,6 +25,48 @@ if shutil.which("gnuplot") is None:
 
 def run(*arguments):
     return subprocess.run([FESTOON, *arguments], capture_output=True, text=True, stdin=subprocess.DEVNULL)
+
+
+def repeat(command):
+    """The JSON that a command of the report prints."""
+    words = command.split()
+    assert words[0] == "festoon", command
+    done = run(*words[1:])
+    assert done.returncode == 0, (command, done.stderr)
+    return json.loads(done.stdout)
+
+
+def read_off(expression, printed):
+    """A number as paper.json tells to read it: an expression in the keys of what the command printed."""
+    return eval(expression, {"__builtins__": {}, "abs": abs}, printed)
+
+
+def curve(path, block):
+    """The points (x, y) of one curve of a figure's data."""
+    text = path.read_text()
+    found = re.search(rf"^# {block}\n((?:.*\n)*?)\n\n", text + "\n\n\n", re.MULTILINE)[1]
+    lines = [line.split() for line in found.splitlines() if line and not line.startswith("#")]
+    return {round(float(x), 6): float(y) for x, y in lines}
+
+
+class Tags(HTMLParser):
+    """Every tag is closed, in order; what the page loads from elsewhere."""
+    EMPTY = {"meta", "br", "img", "link", "hr", "input"}
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.faults, self.ids, self.loads = [], [], [], []
+
+    def handle_starttag(self, tag, attributes):
+        named = dict(attributes)
+        self.loads += [named[key] for key in ("src", "href", "action", "data") if key in named]
+        self.ids += [named["id"]] if "id" in named else []
+        if tag not in self.EMPTY:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.faults.append((tag, self.getpos()))
 
 
 class Paper(unittest.TestCase):
@@ -63,6 +108,97 @@ class Paper(unittest.TestCase):
                      "kinetic", "rolling-identity", "ball-mean", "sine-law", "least-energy", "modulation",
                      "friction-outside", "slow-pole", "slow-parallel"):
             self.assertEqual(self.statement(name)["verdict"], "reproduced", self.statement(name))
+
+    # ------------------------------------------------------------ numbers computed otherwise
+    def by_hand(self, command, steps=500):
+        """One return of the motion that the command ends with, integrated by tests/bead_by_hand.py."""
+        result = repeat(command)
+        motion = hand.one_return(result["final_state"], result["omega"], result["dynamics"] == "farago2020", steps)
+        self.assertLess(motion.open, 1e-6, command)
+        return motion
+
+    def close_to(self, value, expected, tolerance, where):
+        self.assertLess(abs(value - expected), tolerance * max(abs(expected), 1e-2), where)
+
+    def test_table1_by_hand(self):
+        """Each row of Table 1: another frame, another method, another way to the means."""
+        for row in self.paper["table1"]:
+            for dynamics in ("farago2020", "rigid"):
+                motion = self.by_hand(row[f"{dynamics}_command"])
+                near = (row["omega"], dynamics) == (0.2845, "farago2020")  # settles slowly: close to the halving
+                self.close_to(row[dynamics], motion.festoons, 2e-4 if near else 1e-6, (row, dynamics))
+                self.assertEqual(row[f"{dynamics}_symmetry"], "S2" if motion.s2 else "S1")
+
+    def test_statements_by_hand(self):
+        for prefix, dynamics in (("", "farago2020"), ("rigid_", "rigid")):
+            four = self.by_hand(self.statement("fold4-angle")[prefix + "command"])
+            many = self.by_hand(self.statement("fold15-angle")[prefix + "command"])
+            rolling = many.mean["r"] * many.alpha_dot
+            phi_dot = many.omega - many.alpha_dot
+            for name, value, tolerance in (
+                    ("fold4-festoons", four.festoons, 1e-6), ("fold4-angle", four.max_angle, 2e-4),
+                    ("fold4-nz", abs(four.mean["n_z"]), 1e-6),
+                    ("fold4-field", 100 * four.std_b / four.mean["b"], 1e-6),
+                    ("fold15-festoons", many.festoons, 1e-6), ("fold15-angle", many.max_angle, 2e-4),
+                    ("magint-least", many.min_r, 1e-5), ("steady-radius", many.std_r / many.mean["r"], 1e-6),
+                    ("shrinking", 100 * (1 - many.std_r / four.std_r), 1e-6),
+                    ("circling", abs(rolling) / (hand.EPS * many.omega), 1e-6),
+                    ("turning-rate", phi_dot / many.omega, 1e-6),
+                    ("friction", 100 * abs(many.mean["friction"] / many.mean["magnetic"]), 1e-5),
+                    ("magnetic-term", 100 * abs(many.mean["magnetic_printed"] / many.mean["magnetic"] - 1), 1e-5),
+                    ("rolling-mean", 100 * abs(many.mean["v_alpha"] / rolling), 1e-5),
+                    ("slip-formula", 100 * abs((many.mean["v_alpha"] - rolling - hand.EPS * phi_dot) / rolling), 1e-5)):
+                self.close_to(self.statement(name)[dynamics], value, tolerance, (name, dynamics))
+
+    def test_curves_by_hand(self):
+        """Points of the figures' curves, read from their data."""
+        command = self.statement("fold15-angle")["command"]
+        for omega in (0.25, 0.35, 1.0):
+            motion = self.by_hand(command.replace("0.4", str(omega)))
+            terms = curve(self.directory / "evolution-farago2020.dat", "panel1-curve1"), \
+                curve(self.directory / "evolution-farago2020.dat", "panel1-curve2"), \
+                curve(self.directory / "evolution-farago2020.dat", "panel1-curve3"), \
+                curve(self.directory / "evolution-farago2020.dat", "panel1-curve4")
+            for term, name in zip(terms, ("centrifugal", "magnetic", "magnetic_printed", "friction")):
+                self.close_to(term[omega], motion.mean[name] / hand.EPS**2, 1e-5, (omega, name))
+            self.close_to(curve(self.directory / "test.dat", "panel1-curve1")[omega], motion.alpha_dot, 1e-6, omega)
+            if omega < 0.5:
+                data = self.directory / "comparison.dat"
+                self.close_to(curve(data, "panel1-curve1")[omega], motion.mean["r"], 1e-6, omega)
+                self.close_to(curve(data, "panel1-curve3")[omega], motion.alpha_dot, 1e-6, omega)
+                self.close_to(curve(data, "inset1-curve1")[omega], motion.std_r, 1e-5, omega)
+
+    def test_the_field_by_hand(self):
+        """Statements about the field and the averages of section 5, from the ten charges."""
+        def strongest(length_mm):
+            heights = 18.7 / length_mm, 40 / (4 * length_mm)
+            charges = [(s, k * heights[1], s) for k in range(-2, 3) for s in (1, -1)]
+            low, high = 0.3, 2.0
+            for _ in range(50):
+                middle = 0.5 * (low + high)
+                b, g = hand.field(middle, 0.0, 0.0, heights[0], charges)
+                low, high = (middle, high) if sum(b[i] * g[i][0] for i in range(3)) > 0 else (low, middle)
+            return 2 * length_mm * low
+        self.close_to(self.statement("maxima")["rigid"], strongest(23.0), 1e-9, "maxima")
+        self.close_to(strongest(self.statement("length-fitted")["rigid"]), 41.0, 1e-9, "length")
+
+        def mean_pull(r, rate, chi):
+            total = 0.0
+            for i in range(360):
+                turn = math.radians(i)
+                c, s, moment = math.cos(turn), math.sin(turn), chi + rate * math.radians(i)
+                n = (-math.sin(moment) * s, math.sin(moment) * c, -math.cos(moment))
+                g = hand.field(r * c, r * s, 0.0)[1]
+                total += sum(n[k] * (g[k][0] * c + g[k][1] * s) for k in range(3)) / 360
+            return total
+        ratio = abs(mean_pull(1.05, 1, math.pi) / mean_pull(1.05, -1, math.pi))
+        self.close_to(self.statement("corotation-force")["farago2020"], ratio, 1e-9, "corotation-force")
+        r = repeat(self.statement("fold15-angle")["command"])["mean_r"]
+        size = {k: math.hypot(mean_pull(r, k, 0.0), mean_pull(r, k, math.pi / 2)) for k in (-3, -2, -1, 0, 2, 3)}
+        self.close_to(self.statement("resonance")["farago2020"],
+                      max(v for k, v in size.items() if k != -1) / size[-1], 1e-7, "resonance")
+        outwards = sum(mean_pull(0.9 + 0.01 * i, -1, math.pi) >= 0 for i in range(61))
+        self.assertEqual(self.statement("counter-force")["rigid"], outwards)
 
     def test_against_independent_computations(self):
         """Numbers of another program, in another language (numpy and a separate integrator), and by hand."""
@@ -121,11 +257,15 @@ class Paper(unittest.TestCase):
     # ------------------------------------------------------------ what is written
 
     def test_the_list_in_the_documentation(self):
-        """docs/paper.md has the list that the program makes."""
+        """docs/paper.md has the list that the program makes, line by line and nothing else."""
         done = run("paper", "--statements")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn(done.stdout.strip(), (Path(os.environ["SOURCE_DIR"]) / "docs" / "paper.md").read_text())
-        self.assertEqual(done.stdout.count("\n| ") - 3 - 9, len(self.paper["statements"]))
+        page = (Path(os.environ["SOURCE_DIR"]) / "docs" / "paper.md").read_text()
+        section = page[page.index("`festoon paper --statements` prints this list"):page.index("\n## How numbers are")]
+        self.assertEqual([line for line in section.splitlines() if line.startswith("|")],
+                         [line for line in done.stdout.splitlines() if line.startswith("|")])
+        rows = done.stdout.split("\n\n")[1].splitlines()[2:]
+        self.assertEqual([row.split(" | ")[1] for row in rows], [s["statement"] for s in self.paper["statements"]])
 
     def test_verdicts_follow_their_rules(self):
         """Each verdict, made again from value, published value and the limits of the criterion."""
@@ -144,32 +284,6 @@ class Paper(unittest.TestCase):
                 key = "verdict" if dynamics == "farago2020" else "rigid_verdict"
                 self.assertEqual(statement[key], expected, statement)
 
-    def test_interrupted(self):
-        """What was done until then stays, marked incomplete, with status 130."""
-        directory = Path(self.scratch.name) / "interrupted"
-        process = subprocess.Popen([FESTOON, "paper", "--reduced", "-o", str(directory)], stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        deadline = time.monotonic() + 600
-        while not (directory / "om04-rigid.svg").exists() and time.monotonic() < deadline:
-            time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
-        out, messages = process.communicate()
-        self.assertEqual(process.returncode, 130, messages)
-        self.assertEqual(out, "")
-        paper = json.loads((directory / "paper.json").read_text())
-        self.assertFalse(paper["complete"])
-        self.assertEqual(paper["table1"], [dict(row, farago2020_closes_at=None, farago2020_closes_with=None,
-                                                rigid_closes_at=None, rigid_closes_with=None)
-                                           for row in self.paper["table1"]])
-        whole = {statement["id"]: statement for statement in self.paper["statements"]}
-        self.assertTrue(0 < len(paper["statements"]) < len(whole))
-        for statement in paper["statements"]:
-            self.assertEqual(statement, whole[statement["id"]])
-        self.assertTrue(any(figure["name"] == "om04-rigid" for figure in paper["figures"]))
-        for figure in paper["figures"]:
-            self.assertTrue((directory / figure["file"]).is_file())
-        self.assertIn("Incomplete", (directory / "report.html").read_text())
-
     def test_without_lapack(self):
         """A sentence stands for what needs the orbits, and the rest of the paper is there."""
         program = Path(FESTOON)
@@ -187,6 +301,15 @@ class Paper(unittest.TestCase):
         self.assertIn("LAPACK", paper["orbits"]["rigid"]["missing"])
         halving = next(s for s in paper["statements"] if s["id"] == "halving")
         self.assertLess(abs(halving["rigid"] - self.statement("halving")["rigid"]), 2e-3)
+
+    def test_provenance(self):
+        provenance = self.paper["provenance"]
+        self.assertLessEqual({"version", "scene", "rtol", "periods", "discard", "machine", "parts", "seconds"},
+                             provenance.keys())
+        self.assertLessEqual({"runs", "figures", "periodic orbits", "paramagnetic beads"}, provenance["parts"].keys())
+        self.assertLessEqual(sum(provenance["parts"].values()), provenance["seconds"])
+        for text in (provenance["version"], html.escape(provenance["machine"]), "model.dynamics", "1e-10"):
+            self.assertIn(text, self.report)
 
     def test_keys(self):
         for statement in self.paper["statements"]:
@@ -210,38 +333,48 @@ class Paper(unittest.TestCase):
         self.assertEqual(endings, {".svg", ".gp", ".dat", ".json", ".html"})
 
     def test_the_report_needs_nothing_else(self):
+        """Well-formed, every name there once, nothing loaded from elsewhere."""
+        page = Tags()
+        page.feed(self.report)
+        self.assertEqual((page.open, page.faults), ([], []))
+        self.assertEqual(len(page.ids), len(set(page.ids)))
         self.assertEqual(self.report.count("<img "), len(self.paper["figures"]))
-        for source in re.findall(r'(?:src|href)="([^"]{0,40})', self.report):
-            self.assertTrue(source.startswith(("data:image/svg+xml;base64,", "#")), source)
-        self.assertNotIn("<script", self.report)
-        for target in re.findall(r'href="#([^"]+)"', self.report):
-            self.assertIn(f'id="{target}"', self.report)
+        for load in page.loads:
+            self.assertTrue(load.startswith(("data:image/svg+xml;base64,", "#")), load[:60])
+            if load.startswith("#"):
+                self.assertIn(load[1:], page.ids)
+        for outside in ("<script", "@import", "url("):
+            self.assertNotIn(outside, self.report)
+        for figure in self.paper["figures"]:
+            self.assertNotRegex((self.directory / figure["file"]).read_text(), r'(?:href|src)="(?!#)')
 
-    def test_commands_of_the_report_repeat_its_numbers(self):
-        commands = [html.unescape(text) for text in re.findall(r"<pre>(festoon [^<]*)</pre>", self.report)]
-        command = next(c for c in commands if "drive.omega=0.4 " in c and "\n" not in c)
-        done = run(*command.split()[1:], "--json")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        result = json.loads(done.stdout)
-        self.assertEqual(result["festoons"], self.statement("fold15-festoons")["farago2020"])
-        self.assertEqual(result["max_angle_deg"], self.statement("fold15-angle")["farago2020"])
+    SLOW = {"halving", "halving-root", "halving-time", "corotation", "paramagnet", "asymptotic", "two-poles", "damping",
+            "halving-branch", "rolling-below", "inversion", "onset", "bell", "bell-shape", "asymptotic-hz", "chaos",
+            "slowness"}  # test_paper_long.py has them all
 
-    def test_again_into_the_same_directory(self):
-        """An existing directory is accepted, and the numbers are the same to the last bit."""
-        self.assertEqual(run("paper", "--reduced", "-o", str(self.directory)).returncode, 0)
-        again = json.loads((self.directory / "paper.json").read_text())
-        for document in (again, self.paper):
-            document["provenance"].pop("seconds", None)
-        self.assertEqual(again, self.paper)
+    def test_commands_repeat_the_numbers(self):
+        """Each command of paper.json prints the number that stands beside it; the report shows the same."""
+        shown = [html.unescape(text) for text in re.findall(r"<pre>(festoon [^<]*)</pre>", self.report)]
+        cases = [(s, prefix, dynamics) for s in self.paper["statements"] if s["id"] not in self.SLOW
+                 for prefix, dynamics in (("", "farago2020"), ("rigid_", "rigid"))]
+        commands = sorted({s[prefix + "command"] for s, prefix, _ in cases})
+        with ThreadPoolExecutor(2) as pool:
+            printed = dict(zip(commands, pool.map(repeat, commands)))
+        for statement, prefix, dynamics in cases:
+            command, reads = statement[prefix + "command"], statement[prefix + "reads"]
+            value = read_off(reads, printed[command])
+            if isinstance(value, str) or value is None:
+                self.assertEqual(value, statement[dynamics], (command, reads))
+            else:
+                self.close_to(value, statement[dynamics], 1e-12, (command, reads))
+            if not prefix:
+                self.assertIn(f"{command}   # {reads}", shown)
 
-    def test_where_nothing_can_be_written(self):
-        blocked = Path(self.scratch.name) / "a file"
-        blocked.write_text("")
-        done = run("paper", "--reduced", "-o", str(blocked))
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("a file", done.stderr)
-        done = run("paper", "--reduced", "-o", str(blocked / "below"))
-        self.assertEqual(done.returncode, 1)
+    def test_no_such_statement(self):
+        done = run("paper", "--only", "maximum")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn('"maxima"', done.stderr)
+        self.assertEqual(run("paper", "--only", "maxima", "-o", "x").returncode, 2)
 
 
 if __name__ == "__main__":

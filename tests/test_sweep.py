@@ -38,6 +38,13 @@ class Rows(Case):
         for key in set(run) - {"scene", "groups", "version"}:
             self.assertEqual(run[key], row[key], key)
 
+    def test_many_exponents_wanted_in_one_step(self):
+        """Undecided neighbours end together: more of them than lanes then wait for their exponents."""
+        words = ["sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:300", "--portable"]
+        self.good(*words, "-o", self.path("many.db"))
+        self.good(*words, "--lanes", "1", "-o", self.path("one.db"))
+        self.assertEqual(self.rows("many.db"), self.rows("one.db"))
+
     def test_nothing_depends_on_threads_or_lanes(self):
         found = set()
         for i, words in enumerate((["--threads", "1"], ["--threads", "2"], ["--threads", "5"])):

@@ -41,7 +41,7 @@ extern "C" {
 
 /* Changes when the same parameters give other bits than before: a sweep begun by another version is not
  * continued. */
-#define FST_RESULTS_VERSION 2
+#define FST_RESULTS_VERSION 3
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
@@ -424,9 +424,10 @@ typedef enum {
     FST_SPECIAL_PERIOD_DOUBLING,
     FST_SPECIAL_HOPF,
     FST_SPECIAL_NEIMARK_SACKER,
-    FST_SPECIAL_ORIGIN_CROSSING
+    FST_SPECIAL_ORIGIN_CROSSING,
+    FST_SPECIAL_TRANSCRITICAL /* two families pass through each other */
 } fst_special_type;
-/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing" */
+/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing", "transcritical" */
 FST_API const char *fst_special_name(fst_special_type type);
 
 /* A point of a branch. */
@@ -508,14 +509,20 @@ typedef struct fst_festoon_list {
     double *omegas; /* rising; each has a stable orbit with N festoons */
     fst_orbit *orbits;
     size_t count;
-    double least, greatest; /* the range of N on the stable branch */
-    double from, to;        /* and of omega */
+    double least[2],
+        greatest[2]; /* N on the stable S1 orbits, on the stable S2 orbits; inf, -inf: none is stable */
+    double from, to; /* the range of omega of both */
 } fst_festoon_list;
 
 /* Every omega at which a stable counter-rotating pattern has exactly N festoons.  FST_NO_CONVERGENCE: none; the
  * sentence tells how far the branch reaches. */
 FST_API fst_status fst_festoons_find(const fst_params *params, double festoons, fst_festoon_list *list,
                                      fst_error *error);
+
+/* The same on a branch of the kind FST_BRANCH_COUNTER over drive.omega that fst_branch_follow() made of the
+ * same parameters: for many N. */
+FST_API fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
+                                   fst_festoon_list *list, fst_error *error);
 FST_API void fst_festoons_free(fst_festoon_list *list);
 
 /* The spectrum of Lyapunov exponents. */

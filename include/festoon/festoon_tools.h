@@ -242,10 +242,12 @@ FST_API fst_status fst_film(const fst_table *table, const char *out, const fst_f
 
 typedef struct fst_paper_options {
     uint32_t cookie;
-    int reduced;    /* fewer points and shorter runs, for tests */
-    int starts;     /* of the search for a paramagnetic bead that counter-rotates; 0: as usual */
-    int films;      /* the supplement's two films as well, film_0215.mp4 and film_04.mp4 */
-    char **summary; /* if not NULL: set to Table 1 and a count of the verdicts as text; free() it */
+    int reduced;      /* fewer points and shorter runs, for tests */
+    int starts;       /* of the search for a paramagnetic bead that counter-rotates; 0: as usual */
+    int films;        /* the supplement's two films as well, film_0215.mp4 and film_04.mp4 */
+    const char *only; /* if not NULL: the one statement to compute, by its id in paper.json */
+    char **summary; /* if not NULL: set to Table 1 and a count of the verdicts as text, or to the one statement
+                       as JSON; free() it */
     void *user;
     fst_status (*progress)(void *user, double fraction, const char *what, fst_error *error);
 } fst_paper_options;
@@ -253,7 +255,8 @@ FST_API fst_paper_options fst_default_paper_options(void);
 
 /* Compute what the paper shows, by both dynamics, and write paper.json, the figures and report.html into
  * `directory` (made if missing).  After an interruption or a failure on the way they hold what was done until
- * then, and say "complete": false. */
+ * then, and say "complete": false.  With `only` no more is computed than that statement needs, nothing is
+ * written, and `directory` may be NULL. */
 FST_API fst_status fst_paper(const char *directory, const fst_paper_options *options, fst_error *error);
 
 /* The rules of the verdicts and the list of the paper's statements with their criteria, as Markdown; free() it,

@@ -46,6 +46,28 @@ MEASURE(maxima_distance)
     return at_centre;
 }
 
+/* The length of the lines with which the maxima are 41 mm apart at the bead's height, all else in millimetres
+ * as it is. */
+MEASURE(fitted_length)
+{
+    fst_params params = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->params;
+    double low = 15e-3, high = 30e-3, at_length[2];
+    for (int at_plate = 0; at_plate < 2; at_plate++) {
+        double below = low, above = high;
+        for (int i = 0; i < 40; i++) {
+            double height = params.magnet_depth + (at_plate ? 0.0 : params.bead_radius);
+            params.magnet_half_length = 0.5 * (below + above);
+            params.model_h = height / params.magnet_half_length;
+            double apart = 2.0 * params.magnet_half_length * maximum_on_axis(&params);
+            *(apart < 41e-3 ? &below : &above) = params.magnet_half_length;
+        }
+        at_length[at_plate] = 1e3 * below;
+    }
+    (void)snprintf(note, size, "at the height of the bead's centre; for maxima on the plate's surface %.2f mm",
+                   at_length[1]);
+    return at_length[0];
+}
+
 /* ------------------------------------------------------------------ the two patterns */
 
 MEASURE(fold4_festoons)
@@ -80,7 +102,19 @@ MEASURE(fold4_field)
 
 MEASURE(fold15_festoons)
 {
-    NO_NOTE;
+    const fst_table *table = &fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory;
+    const double *r = fst_collected(table, "r"), *alpha = fst_collected(table, "alpha");
+    double first = NAN, last = NAN;
+    int count = -1;
+    for (size_t row = 1; row + 1 < table->rows; row++) {
+        if (!(r[row] > r[row - 1] && r[row] >= r[row + 1]))
+            continue;
+        first = count < 0 ? alpha[row] : first;
+        last = alpha[row];
+        count++;
+    }
+    (void)snprintf(note, size, "a(1 + ω/|⟨α′⟩|); counted on the path: %.3f turning points a revolution",
+                   2.0 * PI * count / fabs(last - first));
     return single(paper, FST_SCAN_FOLD15, dynamics)->festoons;
 }
 
@@ -221,6 +255,18 @@ MEASURE(two_poles)
     return exact->locked_minima;
 }
 
+MEASURE(damping)
+{
+    const fst_paper_exact *exact = &paper->exact[dynamics];
+    (void)snprintf(
+        note, size, "%s",
+        exact->missing[0]
+            ? exact->missing
+            : "−Re λ/|λ| of the least damped swing about a pole at κ = 0.015, drive 0.001; 1 would be "
+              "overdamped. A bead that rolls does not rub: the weaker the field, the less a swing slips");
+    return exact->damping;
+}
+
 MEASURE(onset)
 {
     for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; i++) {
@@ -289,6 +335,44 @@ MEASURE(bell)
     /* The slope of alpha' jumps at the period halving, close by: a parabola through three points would pretend
      * to more than they say. */
     return runs[best].result.frequency_hz;
+}
+
+/* Runs beside the top of the bell, on either side, where |alpha'| falls away from it. */
+MEASURE(bell_shape)
+{
+    const fst_paper_run *runs = paper->scans[FST_SCAN_COMPARISON][dynamics];
+    double before = NAN, top = -INFINITY, left = NAN;
+    int count = paper->counts[FST_SCAN_COMPARISON], wrong = 0, best = 0;
+    for (int i = 0; i < count; i++)
+        if (fst_paper_counter_rotates(&runs[i]) && runs[i].result.mean_alpha_dot > top) {
+            top = runs[i].result.mean_alpha_dot;
+            best = i;
+        }
+    for (int i = 0; i < count; i++) {
+        double now = fst_paper_counter_rotates(&runs[i]) ? runs[i].result.mean_alpha_dot : NAN;
+        wrong += i <= best ? now < before : now > before;
+        left = isnan(left) ? now : left;
+        before = now;
+    }
+    (void)snprintf(note, size, "⟨α′⟩ = %.4f at the left end, %.4f at the top, %.4f at the drive 0.5", left, top,
+                   before);
+    return wrong;
+}
+
+MEASURE(inversion)
+{
+    static const fst_scan both[] = {FST_SCAN_COMPARISON, FST_SCAN_SLOW};
+    int all = 0, others = 0;
+    for (int s = 0; s < 2; s++)
+        for (int i = 0; i < paper->counts[both[s]]; i++) {
+            const fst_paper_run *run = &paper->scans[both[s]][dynamics][i];
+            if (run->result.frequency_hz < 10.0)
+                continue;
+            all++;
+            others += !fst_paper_counter_rotates(run);
+        }
+    (void)snprintf(note, size, "of %d runs from 10 Hz on, from the rolling start and released at rest", all);
+    return others;
 }
 
 MEASURE(slowness)

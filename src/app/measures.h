@@ -28,11 +28,15 @@ FST_MEASURE(onset)               /* lowest frequency of counter-rotation, Hz */
 FST_MEASURE(corotation)          /* greatest frequency of corotation from rest, Hz */
 FST_MEASURE(irregular)           /* share of irregular runs between 7 and 10 Hz, % */
 FST_MEASURE(bell)                /* frequency of least |alpha'|, Hz */
-FST_MEASURE(slowness)            /* omega/|alpha'|, mean over the counter-rotating range */
-FST_MEASURE(rolling_alpha)       /* greatest deviation of <alpha'> from free rolling, omega from 0.5, % */
-FST_MEASURE(rolling_phi)         /* the same for <phi'> */
-FST_MEASURE(friction_share)      /* omega = 0.4: |<V_r>| over the magnetic term of Eq. (eq21), % */
-FST_MEASURE(energy)              /* |<drive power> - <f.V>| over the latter, greatest over Table 1 */
+FST_MEASURE(bell_shape)     /* runs at which |alpha'| does not fall to the bell's top, or not grow after it */
+FST_MEASURE(inversion)      /* runs from 10 Hz on that do not counter-rotate */
+FST_MEASURE(fitted_length)  /* half length of the lines with the maxima 41 mm apart, mm */
+FST_MEASURE(damping)        /* damping ratio of the least damped swing at a small kappa */
+FST_MEASURE(slowness)       /* omega/|alpha'|, mean over the counter-rotating range */
+FST_MEASURE(rolling_alpha)  /* greatest deviation of <alpha'> from free rolling, omega from 0.5, % */
+FST_MEASURE(rolling_phi)    /* the same for <phi'> */
+FST_MEASURE(friction_share) /* omega = 0.4: |<V_r>| over the magnetic term of Eq. (eq21), % */
+FST_MEASURE(energy)         /* |<drive power> - <f.V>| over the latter, greatest over Table 1 */
 
 /* measures_motion.c */
 FST_MEASURE(turning_points)         /* share of the loss next to the turning points, % */
@@ -49,6 +53,12 @@ FST_MEASURE(spin_share)             /* the spin's part of <V_r>, % */
 FST_MEASURE(dropped_part)           /* error of the printed magnetic term of Eq. (eq21), % */
 FST_MEASURE(asymptotic_rolling)     /* deviation from free rolling far beyond, % */
 FST_MEASURE(asymptotic_frequency)   /* Hz at which friction is a tenth */
+FST_MEASURE(trochoid)               /* share of the second circular motion in the path */
+FST_MEASURE(rare_moments)           /* share of the time with over half of the greatest angle, % */
+FST_MEASURE(turning_rate)           /* <phi'>/omega */
+FST_MEASURE(slip_formula)           /* <V_alpha> less r alpha' + eps phi', over r alpha', % */
+FST_MEASURE(third_balance)          /* error of Eq. (eq23), % */
+FST_MEASURE(rolling_below)          /* greatest deviation from free rolling in the experiment's range, % */
 FST_MEASURE(halving_nz)             /* exponents at the period halving */
 FST_MEASURE(halving_relaxation)
 
@@ -71,7 +81,12 @@ FST_MEASURE(friction_moment)
 FST_MEASURE(friction_on_centre)
 FST_MEASURE(friction_moment_sign)
 FST_MEASURE(rolling_identity)
-FST_MEASURE(remanence) /* kappa that a steel bead needs, % of the neodymium bead's */
+FST_MEASURE(counter_force)           /* radii at which the counter-rotating ansatz is not pulled inwards */
+FST_MEASURE(friction_on_centre_sign) /* motions in which friction drives the centre */
+FST_MEASURE(splitting)               /* <r' V_r + r alpha' V_alpha> over <alpha'> <r V_alpha> */
+FST_MEASURE(paramagnet_torque)
+FST_MEASURE(anisotropy) /* beads without remanence that do not counter-rotate */
+FST_MEASURE(remanence)  /* kappa that a steel bead needs, % of the neodymium bead's */
 
 /* measures_field.c */
 FST_MEASURE(ball_mean)        /* change of B by averaging over the ball */
@@ -84,6 +99,20 @@ FST_MEASURE(theta)            /* rms of n_r at omega = 0.4 */
 FST_MEASURE(steady_radius)    /* delta r/<r> at omega = 0.4 */
 FST_MEASURE(modulation)       /* squared correlation of r and the radial force */
 FST_MEASURE(friction_outside) /* friction's share of the forces near the maxima of r, % */
+
+FST_MEASURE(resonance)       /* mean radial force for phi at other rates than Phi's, over that of -1 */
+FST_MEASURE(line_of_dipoles) /* a line of dipoles against its two charges */
+FST_MEASURE(force_at_ends)   /* magnet's force at its ends over that at its middle, less 1, % */
+FST_MEASURE(pull_weakens)    /* by how much the pull inwards falls from the ends to the middle, % */
+
+/* measures_equations.c: what printed equations leave over along the computed motions, relative */
+FST_MEASURE(centre_equations)
+FST_MEASURE(turning_equations)
+FST_MEASURE(appendix_slip)
+FST_MEASURE(appendix_theta)
+FST_MEASURE(appendix_phi)
+FST_MEASURE(appendix_psi)
+FST_MEASURE(second_balance) /* Eq. (eq22), % */
 
 #undef FST_MEASURE
 

@@ -70,15 +70,16 @@ MEASURE(ball_mean)
     return good ? sqrt(off / (centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2])) : NAN;
 }
 
-/* The magnetic averages of Eqs. (eq21), (eq22) and (eq23) on a circle of radius r for phi = -Phi + chi, and the
- * mean of n.B. */
-static void averages(const fst_model *model, double r, double chi, double terms[4])
+/* The magnetic averages of Eqs. (eq21), (eq22) and (eq23) on a circle of radius r for phi = rate Phi + chi, and
+ * the mean of n.B. */
+static void averages_at(const fst_model *model, double r, double rate, double chi, double terms[4])
 {
     enum { ANGLES = 256 };
     for (int k = 0; k < 4; k++)
         terms[k] = 0.0;
     for (int i = 0; i < ANGLES; i++) {
-        double turn = 2.0 * PI * i / ANGLES, c = cos(turn), s = sin(turn), moment = chi - turn, b[3], g[3][3];
+        double turn = 2.0 * PI * i / ANGLES, c = cos(turn), s = sin(turn), moment = chi + rate * turn, b[3],
+               g[3][3];
         fst_field(model, r * c, r * s, b, g);
         const double n[3] = {-sin(moment) * s, sin(moment) * c, -cos(moment)};
         for (int k = 0; k < 3; k++) {
@@ -88,6 +89,41 @@ static void averages(const fst_model *model, double r, double chi, double terms[
         }
         terms[2] += ((b[1] * c - b[0] * s) * cos(moment) + b[2] * sin(moment)) / ANGLES;
     }
+}
+
+/* The paper's choice, phi = -Phi + chi. */
+static void averages(const fst_model *model, double r, double chi, double terms[4])
+{
+    averages_at(model, r, -1.0, chi, terms);
+}
+
+/* The mean radial force is A cos(chi) + B sin(chi); that of each other whole rate over that of -1. */
+MEASURE(resonance)
+{
+    fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
+    double size_of[7], greatest = 0.0, r = single(paper, FST_SCAN_FOLD15, dynamics)->mean_r;
+    int worst = 0;
+    if (!model)
+        return NAN;
+    for (int rate = -3; rate <= 3; rate++) {
+        double in_phase[4], quarter[4];
+        averages_at(model, r, rate, 0.0, in_phase);
+        averages_at(model, r, rate, 0.5 * PI, quarter);
+        size_of[rate + 3] = hypot(in_phase[0], quarter[0]);
+    }
+    for (int rate = -3; rate <= 3; rate++) {
+        if (rate == 1 || rate == -1 || size_of[rate + 3] <= greatest)
+            continue;
+        greatest = size_of[rate + 3];
+        worst = rate;
+    }
+    fst_model_free(model);
+    (void)snprintf(
+        note, size,
+        "φ = kΦ + χ on the circle r = %.3f, k from −3 to 3 save ±1; greatest for k = %d. Even and broken k "
+        "give nothing, by the magnet's symmetry",
+        r, worst);
+    return greatest / size_of[2];
 }
 
 MEASURE(sine_law)
@@ -122,6 +158,43 @@ MEASURE(least_energy)
     fst_model_free(model);
     /* The energy is -n.B: -1 says that it changes its sign, and is negative at pi if n.B is positive there. */
     return at_pi[3] > 0.0 ? at_pi[3] / at_zero[3] : NAN;
+}
+
+/* ------------------------------------------------------------------ the model's magnet */
+
+/* Dipoles along one line, integrated by Gauss's rule with five points on each of 40 pieces, beside the charges
+ * at its ends. */
+MEASURE(line_of_dipoles)
+{
+    static const double nodes[5] = {-0.906179845938664, -0.538469310105683, 0.0, 0.538469310105683,
+                                    0.906179845938664};
+    static const double weights[5] = {0.236926885056189, 0.478628670499366, 0.568888888888889,
+                                      0.478628670499366, 0.236926885056189};
+    enum { PIECES = 40 };
+    fst_params params = fst_paper_single(paper, FST_SCAN_FOLD4, dynamics)->params;
+    fst_model *model = NULL;
+    double worst = 0.0;
+    params.magnet_lines = 1;
+    NO_NOTE;
+    if (fst_model_new(&params, &model, NULL) != FST_OK)
+        return NAN;
+    double h = fst_model_groups(model).h;
+    for (int place = 0; place < 12; place++) {
+        double x = 0.15 * place, y = 0.1 * place - 0.4, b[3], grad[3][3], sum[3] = {0.0, 0.0, 0.0}, off = 0.0;
+        for (int i = 0; i < 5 * PIECES; i++) {
+            double at = -1.0 + (2 * (i / 5) + 1 + nodes[i % 5]) / PIECES, weight = weights[i % 5] / PIECES;
+            const double d[3] = {x - at, y, h};
+            double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], cube = square * sqrt(square);
+            for (int k = 0; k < 3; k++) /* the field of a dipole along the line */
+                sum[k] += weight * (3.0 * d[0] * d[k] / square - (k == 0)) / cube;
+        }
+        fst_field(model, x, y, b, grad);
+        for (int k = 0; k < 3; k++) /* one line has the strength of the five */
+            off += (5.0 * sum[k] - b[k]) * (5.0 * sum[k] - b[k]);
+        worst = fmax(worst, sqrt(off / (b[0] * b[0] + b[1] * b[1] + b[2] * b[2])));
+    }
+    fst_model_free(model);
+    return worst;
 }
 
 /* ------------------------------------------------------------------ corotation */
@@ -192,6 +265,56 @@ static void pull_at(const fst_model *model, const fst_table *table, size_t row, 
     fst_field(model, fst_collected(table, "X")[row], fst_collected(table, "Y")[row], b, g);
     for (int i = 0; i < 2; i++)
         pull[i] = groups.kappa * groups.eps * groups.eps * (n[0] * g[0][i] + n[1] * g[1][i] + n[2] * g[2][i]);
+}
+
+/* Mean size of the magnet's force where the bead is within pi/8 of an end of the magnet, and of its middle, and
+ * how it pulls inwards at both. */
+typedef struct pulls {
+    double force[2], inwards[2];
+    int count[2];
+} pulls;
+
+static pulls pulls_of(const fst_paper_state *paper, fst_dynamics dynamics)
+{
+    const fst_table *table = &fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory;
+    const double *x = fst_collected(table, "X"), *y = fst_collected(table, "Y"), *r = fst_collected(table, "r");
+    fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
+    pulls sum = {{0.0, 0.0}, {0.0, 0.0}, {0, 0}};
+    for (size_t row = 0; model && row < table->rows; row++) {
+        double pull[2], along = fabs(x[row]) / r[row];
+        int across = along < sin(PI / 8.0);
+        if (!across && along < cos(PI / 8.0))
+            continue;
+        pull_at(model, table, row, pull);
+        sum.force[across] += hypot(pull[0], pull[1]);
+        sum.inwards[across] -= (pull[0] * x[row] + pull[1] * y[row]) / r[row];
+        sum.count[across]++;
+    }
+    fst_model_free(model);
+    for (int i = 0; i < 2; i++) {
+        sum.force[i] /= sum.count[i];
+        sum.inwards[i] /= sum.count[i];
+    }
+    return sum;
+}
+
+MEASURE(force_at_ends)
+{
+    pulls mean = pulls_of(paper, dynamics);
+    (void)snprintf(note, size, "|F| = %.4f within π/8 of an end of the magnet, %.4f as near to its middle",
+                   mean.force[0], mean.force[1]);
+    return 100.0 * (mean.force[0] / mean.force[1] - 1.0);
+}
+
+MEASURE(pull_weakens)
+{
+    pulls mean = pulls_of(paper, dynamics);
+    (void)snprintf(
+        note, size,
+        "pull inwards %+.4f at the ends of the magnet, %+.4f at its middle: the other way round. The bead is "
+        "driven faster than it could swing by itself, so that r is greatest where the pull is",
+        mean.inwards[0], mean.inwards[1]);
+    return 100.0 * (mean.inwards[0] - mean.inwards[1]) / fmax(fabs(mean.inwards[0]), fabs(mean.inwards[1]));
 }
 
 MEASURE(modulation)

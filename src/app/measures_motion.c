@@ -150,6 +150,65 @@ MEASURE(strict_corotation)
     return slow->mean_alpha_dot / slow->omega;
 }
 
+/* ------------------------------------------------------------------ the shape of the path */
+
+/* The part of x + iy that turns at `rate`: its amplitude over `rows` samples. */
+static double turning_part(const double *x, const double *y, const double *t, size_t rows, double rate)
+{
+    double complex sum = 0.0;
+    for (size_t i = 0; i < rows; i++)
+        sum += (x[i] + I * y[i]) * cexp(-I * rate * (t[i] - t[0]));
+    return cabs(sum) / (double)rows;
+}
+
+/* In the laboratory the path is a sum of circular motions at alpha' + k (omega - alpha'). A hypotrochoid has
+ * two: the share of the strongest one that turns against the bead in all that is not the bead's own circling.
+ */
+static double trochoid_share(const fst_paper_run *run, int *best)
+{
+    const fst_table *table = &run->trajectory;
+    const double *x = fst_collected(table, "x"), *y = fst_collected(table, "y"), *t = fst_collected(table, "t");
+    double circling = run->result.mean_alpha_dot, meeting = run->result.omega - circling, all = 0.0, most = 0.0;
+    if (table->rows < 2)
+        return NAN;
+    /* Whole meetings of bead and magnet, two at a time for S1 and S2 alike. */
+    double turn = 2.0 * PI / meeting, last = turn * floor((t[table->rows - 1] - t[0]) / turn);
+    size_t rows = 0;
+    for (; rows < table->rows && t[rows] - t[0] < last; rows++)
+        all += x[rows] * x[rows] + y[rows] * y[rows];
+    double own = turning_part(x, y, t, rows, circling);
+    for (int k = 1; k <= 4; k++) {
+        double part = turning_part(x, y, t, rows, circling + k * meeting);
+        *best = part > most ? k : *best;
+        most = fmax(most, part);
+    }
+    return most * most / (all / (double)rows - own * own);
+}
+
+MEASURE(trochoid)
+{
+    int few = 0, many = 0;
+    double share = trochoid_share(fst_paper_single(paper, FST_SCAN_FOLD4, dynamics), &few);
+    double other = trochoid_share(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), &many);
+    (void)snprintf(
+        note, size,
+        "share of one circular motion against the bead's in what the path adds to its circling, drive "
+        "0.215; it turns at ⟨α′⟩ + k(ω − ⟨α′⟩), k = %d. At 0.4, k = %d, %.2f",
+        few, many, other);
+    return share;
+}
+
+MEASURE(rare_moments)
+{
+    NO_NOTE;
+    const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD4, dynamics);
+    const double *angle = fst_collected(&run->trajectory, "angle");
+    size_t high = 0;
+    for (size_t i = 0; i < run->trajectory.rows; i++)
+        high += angle[i] > 0.5 * run->result.max_angle_deg;
+    return 100.0 * (double)high / (double)run->trajectory.rows;
+}
+
 /* ------------------------------------------------------------------ phases */
 
 static double complex mean_phase(const fst_paper_state *paper, fst_dynamics dynamics)
@@ -177,6 +236,30 @@ MEASURE(frequency_lock)
     NO_NOTE;
     const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
     return (result->mean_phi_dot + result->mean_alpha_dot) / result->omega;
+}
+
+MEASURE(turning_rate)
+{
+    NO_NOTE;
+    const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
+    return result->mean_phi_dot / result->omega;
+}
+
+MEASURE(slip_formula)
+{
+    const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics);
+    const fst_run_result *result = &run->result;
+    double rolling = result->mean_r * result->mean_alpha_dot, turning = eps_of(run) * result->mean_phi_dot;
+    (void)snprintf(note, size, "⟨V_α⟩ = %+.2e, ⟨r⟩⟨α′⟩ + ε⟨φ′⟩ = %+.2e; their difference over ⟨r⟩|⟨α′⟩|",
+                   result->mean_v_alpha, rolling + turning);
+    return 100.0 * fabs((result->mean_v_alpha - rolling - turning) / rolling);
+}
+
+MEASURE(third_balance)
+{
+    const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
+    (void)snprintf(note, size, "magnetic %+.2e, ⟨V_α⟩ = %+.2e", result->eq23_magnetic, result->mean_v_alpha);
+    return 100.0 * fabs(result->eq23_magnetic / result->mean_v_alpha - 1.0);
 }
 
 MEASURE(rolling_on_average)
@@ -207,41 +290,69 @@ MEASURE(dropped_part)
 
 /* ------------------------------------------------------------------ far beyond */
 
+/* Of <alpha'> from free rolling, %; NAN where the bead does not counter-rotate. */
+static double off_rolling(const fst_paper_run *run)
+{
+    double rolling = -eps_of(run) * run->result.omega / (run->result.mean_r - eps_of(run));
+    return fst_paper_counter_rotates(run) ? 100.0 * fabs(run->result.mean_alpha_dot / rolling - 1.0) : NAN;
+}
+
 MEASURE(asymptotic_rolling)
 {
-    double worst = 0.0, where = 0.0, radius = 0.0;
-    for (int i = 0; i < paper->counts[FST_SCAN_ASYMPTOTIC]; i++) {
-        const fst_paper_run *run = &paper->scans[FST_SCAN_ASYMPTOTIC][dynamics][i];
-        double eps = eps_of(run), rolling = -eps * run->result.omega / (run->result.mean_r - eps);
-        double deviation = 100.0 * fabs(run->result.mean_alpha_dot / rolling - 1.0);
-        if (!fst_paper_counter_rotates(run) || deviation < worst)
-            continue;
-        worst = deviation;
-        where = run->result.frequency_hz;
-        radius = run->result.mean_r;
-    }
-    double gamma = fst_paper_single(paper, FST_SCAN_ASYMPTOTIC, dynamics)->params.friction_gamma;
+    const fst_paper_run *runs = paper->scans[FST_SCAN_ASYMPTOTIC][dynamics];
+    const fst_paper_run *last = &runs[paper->counts[FST_SCAN_ASYMPTOTIC] - 1];
     double fold = paper->exact[dynamics].fold;
     (void)snprintf(
         note, size,
-        "deviation of ⟨α′⟩ at %.0f Hz, where ⟨r⟩ = %.2f; there is no limit ω to infinity: the bead circles "
-        "ever further out, and at ω = %.4f (%.0f Hz) the orbit ends in a fold, beyond which the magnet "
-        "no longer holds it",
-        where, radius, fold, fold * gamma / (2.0 * PI));
-    return worst > 0.0 ? worst : NAN;
+        "deviation of ⟨α′⟩ at the drive %g%s; at %g it is %.1f %%, with ⟨r⟩ = %.2f. There is no limit: "
+        "the bead circles ever further out, and at ω = %.4f (%.0f Hz) its orbit ends in a fold",
+        last->result.omega, fst_paper_counter_rotates(last) ? "" : ", where no such motion exists",
+        runs[0].result.omega, off_rolling(&runs[0]), runs[0].result.mean_r, fold,
+        fold * last->params.friction_gamma / (2.0 * PI));
+    return off_rolling(last);
+}
+
+/* The share of friction in the radial balance; infinite where the bead does not counter-rotate. */
+static double friction_part(const fst_paper_run *run)
+{
+    return fst_paper_counter_rotates(run) ? fabs(run->result.eq21_friction / run->result.eq21_magnetic)
+                                          : INFINITY;
 }
 
 MEASURE(asymptotic_frequency)
 {
-    double crossing = NAN;
-    for (int i = 0; i < paper->counts[FST_SCAN_FAST]; i++) {
-        const fst_run_result *result = &paper->scans[FST_SCAN_FAST][dynamics][i].result;
-        if (!isfinite(crossing) && fabs(result->eq21_friction) < 0.1 * fabs(result->eq21_magnetic))
-            crossing = result->frequency_hz;
+    static const fst_scan beyond[2] = {FST_SCAN_ASYMPTOTIC, FST_SCAN_FAST};
+    double from = NAN, first = NAN;
+    int negligible = 1; /* from the drive that is looked at upwards */
+    for (int s = 0; s < 2; s++) {
+        for (int i = paper->counts[beyond[s]] - 1; i >= 0; i--) {
+            const fst_paper_run *run = &paper->scans[beyond[s]][dynamics][i];
+            int small = friction_part(run) < 0.1;
+            negligible = negligible && small;
+            from = negligible ? run->result.frequency_hz : from;
+            first = small ? run->result.frequency_hz : first;
+        }
     }
     (void)snprintf(note, size,
-                   "first drive of the fast scan at which friction is under a tenth of the magnetic term");
-    return crossing;
+                   "lowest drive from which friction stays under a tenth of the magnetic term, up to 149 Hz; "
+                   "first under a tenth, on its way through zero, at %.0f Hz",
+                   first);
+    return from;
+}
+
+MEASURE(rolling_below)
+{
+    double greatest = NAN, where = NAN;
+    for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; i++) {
+        const fst_paper_run *run = &paper->scans[FST_SCAN_COMPARISON][dynamics][i];
+        double off = off_rolling(run);
+        if (run->result.omega < 0.2 || run->result.omega > 0.41 || !(off > greatest || isnan(greatest)))
+            continue;
+        greatest = off;
+        where = run->result.omega;
+    }
+    (void)snprintf(note, size, "greatest deviation of ⟨α′⟩ for drives from 0.2 to 0.41, found at %.3g", where);
+    return greatest;
 }
 
 /* ------------------------------------------------------------------ the period halving */

@@ -143,6 +143,27 @@ MEASURE(corotation_beads)
     return 100.0 * staying / (FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS);
 }
 
+MEASURE(counter_force)
+{
+    fst_model *model = NULL;
+    if (fst_model_new(scene(paper, dynamics), &model, NULL) != FST_OK)
+        return NAN;
+    int outwards = 0, radii = 0;
+    double turns = NAN; /* the radius beyond which it points inwards */
+    for (double r = 0.9; r < 1.505; r += 0.01, radii++) {
+        int inwards = fst_ansatz_force(model, r, -1) < 0.0;
+        outwards += !inwards;
+        turns = inwards && isnan(turns) ? r : turns;
+    }
+    fst_model_free(model);
+    (void)snprintf(
+        note, size,
+        "of %d radii from 0.9 to 1.5; the field is greatest at 0.88, but this force points inwards from "
+        "%.2f on, and at the drive 0.4 the bead circles at 0.91: what holds it there is n_r",
+        radii, turns);
+    return outwards;
+}
+
 MEASURE(corotation_force)
 {
     fst_model *model = NULL;
@@ -184,8 +205,8 @@ static double worst_residual(const fst_paper_state *paper, fst_balance_kind kind
 {
     double residual = 0.0, boundary = 0.0;
     for (int i = 0; i < FST_BALANCE_CASES; i++) {
-        residual = fmax(residual, fst_balance_residual(&paper->balances[i][kind]));
-        boundary = fmax(boundary, fst_balance_boundary(&paper->balances[i][kind]));
+        residual = fmax(residual, fst_balance_residual(&paper->balances[i].of[kind]));
+        boundary = fmax(boundary, fst_balance_boundary(&paper->balances[i].of[kind]));
     }
     (void)snprintf(
         note, size,
@@ -219,12 +240,64 @@ MEASURE(friction_moment_sign)
     int wrong = 0;
     double least = INFINITY;
     for (int i = 0; i < FST_BALANCE_CASES; i++) {
-        double moment = paper->balances[i][FST_BALANCE_MOMENT].friction;
+        double moment = paper->balances[i].of[FST_BALANCE_MOMENT].friction;
         wrong += !(moment > 0.0);
         least = fmin(least, moment);
     }
     (void)snprintf(note, size, "of three motions, drives 0.1, 0.3 and 0.6; least ⟨rV_α⟩ = %.1e ℓ²γ²", least);
     return wrong;
+}
+
+MEASURE(friction_on_centre_sign)
+{
+    (void)dynamics;
+    int wrong = 0;
+    for (int i = 0; i < FST_BALANCE_CASES; i++)
+        wrong += !(paper->balances[i].of[FST_BALANCE_KINETIC].friction > 0.0);
+    (void)snprintf(note, size, "of three motions, drives 0.1, 0.3 and 0.6");
+    return wrong;
+}
+
+MEASURE(splitting)
+{
+    (void)dynamics;
+    const fst_balances *fastest = &paper->balances[FST_BALANCE_CASES - 1];
+    double product = fastest->mean_alpha_dot * fastest->of[FST_BALANCE_MOMENT].friction;
+    (void)snprintf(
+        note, size,
+        "at the drive 0.6, where ⟨α′⟩ = %+.4f: in a stationary motion the exact identities make it ω/⟨α′⟩, so "
+        "that the step holds for a locked bead only; what excludes counter-rotation is the identity carried "
+        "on",
+        fastest->mean_alpha_dot);
+    return fastest->of[FST_BALANCE_KINETIC].friction / product;
+}
+
+/* What the field adds to dW/dt, at places, speeds and turns of all kinds. */
+MEASURE(paramagnet_torque)
+{
+    NO_NOTE;
+    fst_params params = *scene(paper, dynamics);
+    fst_model *in_field = NULL, *alone = NULL;
+    double worst = 0.0;
+    params.bead_material = FST_MATERIAL_PARAMAGNETIC;
+    params.bead_a = 5e-3;
+    fst_status status = fst_model_new(&params, &in_field, NULL);
+    params.bead_a = 0.0;
+    if (status == FST_OK)
+        status = fst_model_new(&params, &alone, NULL);
+    for (int i = 0; i < 60 && status == FST_OK; i++) {
+        double r = 0.3 + 0.02 * i, turn = 0.7 * i, with[FST_STATE_SIZE], without[FST_STATE_SIZE];
+        const double y[FST_STATE_SIZE] = {
+            r * cos(turn), r * sin(turn), 0.1 * sin(3.0 * i), 0.1 * cos(5.0 * i), 0.6,
+            0.0,           0.8,           sin(2.0 * i),       cos(7.0 * i),       0.3 * sin(i)};
+        fst_rhs(in_field, y, with);
+        fst_rhs(alone, y, without);
+        for (int k = FST_WX; k <= FST_WZ; k++)
+            worst = fmax(worst, fabs(with[k] - without[k]));
+    }
+    fst_model_free(in_field);
+    fst_model_free(alone);
+    return status == FST_OK ? worst : NAN;
 }
 
 MEASURE(rolling_identity)
@@ -240,4 +313,19 @@ MEASURE(remanence)
                    "least κ of a magnetisable bead, a = %g, at the drive %g (rigid); a neodymium bead has 1.5",
                    fst_remanence_strengths[0], fst_remanence_drives[0]);
     return 100.0 * paper->remanence[0][0] / 1.5;
+}
+
+MEASURE(anisotropy)
+{
+    int others = 0;
+    double speeds[2] = {NAN, NAN};
+    for (int i = 0; i < paper->counts[FST_SCAN_ANISOTROPIC]; i++) {
+        const fst_paper_run *run = &paper->scans[FST_SCAN_ANISOTROPIC][dynamics][i];
+        others += !fst_paper_counter_rotates(run);
+        speeds[i] = run->result.mean_alpha_dot;
+    }
+    (void)snprintf(
+        note, size, "κ = 0, a = b = 1e-3, %g turns of the magnet, drives 0.3 and 0.4: ⟨α′⟩ = %.4f and %.4f",
+        fst_paper_single(paper, FST_SCAN_ANISOTROPIC, dynamics)->params.run_periods, speeds[0], speeds[1]);
+    return others;
 }

@@ -30,15 +30,17 @@ typedef enum {
 
 /* What the runs of one group have in common. */
 typedef enum {
-    FST_SCAN_COMPARISON, /* the range of the paper's Fig. comparison, from the rolling start */
-    FST_SCAN_FAST,       /* beyond the experiments, for the free-rolling formulas */
-    FST_SCAN_SLOW,       /* from rest, through the loss of corotation */
-    FST_SCAN_TABLE,      /* the rows of Table 1 */
-    FST_SCAN_FOLD4,      /* omega = 0.215, with its trajectory */
-    FST_SCAN_FOLD15,     /* omega = 0.4, with its trajectory */
-    FST_SCAN_CONJUGATE,  /* omega = 0.215 from the start with all poles exchanged */
-    FST_SCAN_ASYMPTOTIC, /* far beyond all experiments */
-    FST_SCAN_COUNT
+    FST_SCAN_COMPARISON,  /* the range of the paper's Fig. comparison, from the rolling start */
+    FST_SCAN_FAST,        /* beyond the experiments, for the free-rolling formulas */
+    FST_SCAN_SLOW,        /* from rest, through the loss of corotation */
+    FST_SCAN_TABLE,       /* the rows of Table 1 */
+    FST_SCAN_FOLD4,       /* omega = 0.215, with its trajectory */
+    FST_SCAN_FOLD15,      /* omega = 0.4, with its trajectory */
+    FST_SCAN_CONJUGATE,   /* omega = 0.215 from the start with all poles exchanged */
+    FST_SCAN_ASYMPTOTIC,  /* far beyond all experiments */
+    FST_SCAN_ANISOTROPIC, /* a bead that the field magnetises along an axis of its own, without remanence */
+    FST_SCAN_COUNT,
+    FST_SCAN_NONE = FST_SCAN_COUNT /* of statements that rest on no run */
 } fst_scan;
 
 typedef struct fst_paper_run {
@@ -71,8 +73,8 @@ const char *fst_verdict_name(fst_verdict verdict);
 enum {
     FST_TABLE1_ROWS = 5,
     FST_MOST_FIGURES = 64,
-    FST_HALVING_BELOW = 8, /* drives under the threshold, the nearest last */
-    FST_HALVING_ABOVE = 6, /* and over it, the nearest first */
+    FST_HALVING_BELOW = 10, /* drives under the threshold, the nearest last */
+    FST_HALVING_ABOVE = 6,  /* and over it, the nearest first */
     FST_HALVING_POINTS = FST_HALVING_BELOW + FST_HALVING_ABOVE,
     FST_HALVING_INSET = 5,   /* the drive whose r(t) the figure's inset shows, */
     FST_HALVING_SHOWN = 400, /* in so many values */
@@ -97,6 +99,7 @@ typedef struct fst_paper_exact {
     double fold;          /* where the counter-rotating orbit ends; NAN: beyond the range */
     double most_s1;       /* greatest N of stable S1 orbits */
     double locked_minima; /* stable locked states at the drive 0.02 */
+    double damping;       /* -Re/|lambda| of the least damped swing about a pole at kappa = 0.015 */
     char missing[768];    /* why there is none of this, else "" */
 } fst_paper_exact;
 
@@ -112,12 +115,20 @@ typedef struct fst_paper_ansatz {
 
 /* ------------------------------------------------------------------ the whole */
 
+/* How long a part of the work took. */
+enum { FST_MOST_PARTS = 16 };
+typedef struct fst_paper_part {
+    const char *what;
+    double seconds;
+} fst_paper_part;
+
 typedef struct fst_paper_state {
     int done[FST_STEP_COUNT]; /* which steps are */
     int complete;             /* all of them, and the figures */
     const fst_paper_options *options;
     const char *directory;
     int counts[FST_SCAN_COUNT];
+    int first_scan;              /* runs of the scans before this one are not made */
     int drawn[FST_MOST_FIGURES]; /* by the index of the figure */
     fst_paper_run *scans[FST_SCAN_COUNT][FST_PAPER_DYNAMICS];
     fst_paper_exact exact[FST_PAPER_DYNAMICS];
@@ -126,9 +137,11 @@ typedef struct fst_paper_state {
     fst_paper_ansatz ansatz[FST_PAPER_DYNAMICS][FST_ANSATZ_DRIVES][FST_ANSATZ_STARTS];
     fst_search_entry *search; /* the same for both dynamics: a paramagnetic bead has no magnetic axis to turn */
     int search_count;
-    fst_balance balances[FST_BALANCE_CASES][FST_BALANCE_COUNT];
+    fst_balances balances[FST_BALANCE_CASES];
     double remanence[FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS]; /* least kappa, dynamics rigid */
-    double seconds;                                                  /* the time that all took */
+    double seconds; /* the time that all took, and its parts in their order */
+    fst_paper_part parts[FST_MOST_PARTS];
+    int part_count;
 } fst_paper_state;
 
 /* A part of the work, done on all processors; its progress goes from `from` to `to`. */
@@ -140,6 +153,10 @@ typedef struct fst_paper_stage {
     fst_status (*piece)(fst_paper_state *paper, int index, fst_error *error);
 } fst_paper_stage;
 fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_stage *stage, fst_error *error);
+/* Seconds of a clock that only goes forward; and note that `what` took the time since `began` (again: added).
+ */
+double fst_paper_clock(void);
+void fst_paper_note_time(fst_paper_state *paper, const char *what, double began);
 
 /* Is the step done, and are the runs of `scan` and of the scans that are made before it? */
 int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan scan);
@@ -152,12 +169,13 @@ void fst_paper_exact_begin(fst_paper_exact *exact);
 /* Room for everything, with all parameters set and nothing done; then all runs, which the rest only reads. */
 fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error);
 fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error);
-/* The thresholds, by bisection (where the orbits do not give them). */
+/* What the periodic orbits tell; then the thresholds, by bisection (where the orbits do not give them). */
+fst_status fst_paper_find_orbits(fst_paper_state *paper, fst_error *error);
 fst_status fst_paper_find_thresholds(fst_paper_state *paper, fst_error *error);
 void fst_paper_free_runs(fst_paper_state *paper);
 
-/* Make the probes, for which the runs must be there (paper_stages.c). */
-fst_status fst_paper_make_probes(fst_paper_state *paper, fst_error *error);
+/* Make the probes (paper_stages.c), all or those of one step; the halving's needs the thresholds. */
+fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *only, fst_error *error);
 /* Drives and strengths of the probes. */
 extern const double fst_ansatz_drives[FST_ANSATZ_DRIVES], fst_remanence_drives[FST_REMANENCE_DRIVES],
     fst_remanence_strengths[FST_REMANENCE_STRENGTHS];
@@ -173,6 +191,10 @@ const fst_paper_run *fst_paper_single(const fst_paper_state *paper, fst_scan sca
  * drive where there are several. */
 void fst_paper_scan_command(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, char *text,
                             size_t size);
+
+/* That of one row of Table 1. */
+void fst_paper_table1_command(const fst_paper_state *paper, int row, fst_dynamics dynamics, char *text,
+                              size_t size);
 
 /* Does the bead circle against the magnet, regularly? */
 int fst_paper_counter_rotates(const fst_paper_run *run);
@@ -229,7 +251,7 @@ typedef struct fst_statement {
     double (*measure)(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size);
     fst_scan scan;
     fst_paper_step step;
-    const char *command;
+    const char *reads;
 } fst_statement;
 
 typedef struct fst_finding {
@@ -240,6 +262,11 @@ typedef struct fst_finding {
 
 int fst_statement_count(void);
 const fst_statement *fst_statement_at(int index);
+/* The command that gives the statement's number again, and how the number is read off the JSON that it prints:
+ * an expression in its keys. */
+void fst_statement_command(const fst_statement *statement, const fst_paper_state *paper, fst_dynamics dynamics,
+                           char *command, size_t size);
+const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dynamics);
 /* Is all there that the statement rests on? */
 int fst_statement_known(const fst_statement *statement, const fst_paper_state *paper);
 fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper);
@@ -306,10 +333,15 @@ fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error);
 
 /* ------------------------------------------------------------------ what is written */
 
+/* Arithmetic, compiler and machine in words. */
+void fst_paper_machine(char *text, size_t size);
+
 /* DIRECTORY/NAME; free() it, NULL: no memory. */
 char *fst_paper_path(const fst_paper_state *paper, const char *name, const char *ending);
 
 fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error);
+/* One statement as it stands in paper.json; free() it, NULL: no memory. */
+char *fst_paper_statement_json(const fst_paper_state *paper, const fst_statement *statement);
 fst_status fst_paper_write_report(const fst_paper_state *paper, fst_error *error);
 
 #endif

@@ -139,10 +139,10 @@ fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_pap
     const fst_chart_curve *both = add_both(&all, paper, comparison, omega_of, mean_r, of_r, blue, 0);
     (void)add_both(&all, paper, comparison, omega_of, mean_alpha_dot, of_alpha, red, 1);
     const fst_chart_curve *deviation = add_both(&all, paper, comparison, omega_of, std_r, NULL, green, 0);
-    const fst_chart_inset inset = {.left = 0.55,
-                                   .right = 0.97,
-                                   .bottom = 0.08,
-                                   .top = 0.36,
+    const fst_chart_inset inset = {.left = 0.53,
+                                   .right = 0.95,
+                                   .bottom = 0.09,
+                                   .top = 0.33,
                                    .x_low = 0.15,
                                    .x_high = 0.5,
                                    .low = 0.0,
@@ -199,6 +199,12 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
     static const char *const names[] = {"farago2020 (as printed)", "rigid (exact)"};
     static const fst_colour colours[] = {FST_COLOUR_BLUE, FST_COLOUR_VERMILION};
     curves all = {.status = FST_OK};
+    all.curve[all.count++] = (fst_chart_curve){.title = "⟨α′⟩ = ω",
+                                               .x = diagonal,
+                                               .y = diagonal,
+                                               .count = 2,
+                                               .colour = FST_COLOUR_GREY,
+                                               .style = FST_CURVE_LINE};
     const fst_chart_curve *counter =
         add_both(&all, paper, comparison, hertz_of, counter_hertz, names, colours, 0);
     for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
@@ -206,15 +212,6 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
                                   .colour = two_dynamics[d].colour,
                                   .style = d == 0 ? FST_CURVE_POINTS : FST_CURVE_OPEN_POINTS};
         add(&all, paper, slow, two_dynamics[d].dynamics, hertz_of, other_hertz, points);
-    }
-    if (all.status == FST_OK) {
-        all.memory[all.count] = NULL;
-        all.curve[all.count++] = (fst_chart_curve){.title = "⟨α′⟩ = ω",
-                                                   .x = diagonal,
-                                                   .y = diagonal,
-                                                   .count = 2,
-                                                   .colour = FST_COLOUR_GREY,
-                                                   .style = FST_CURVE_LINE};
     }
     const fst_chart_inset inset = {.left = 0.50,
                                    .right = 0.97,
@@ -252,7 +249,8 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
 
 /* ------------------------------------------------------------------ Fig. test */
 
-REGULAR(mean_phi_dot, run->result.mean_phi_dot)
+/* At the lowest drives the moment swings without turning over. */
+REGULAR(mean_phi_dot, fabs(run->result.mean_phi_dot) > 0.5 * run->result.omega ? run->result.mean_phi_dot : NAN)
 REGULAR(rolling_alpha_dot, -eps_of(run) * run->result.omega / (run->result.mean_r - eps_of(run)))
 REGULAR(rolling_phi_dot, run->result.mean_r * run->result.omega / (run->result.mean_r - eps_of(run)))
 

@@ -11,6 +11,8 @@
  * orbit ends. */
 static const double BRANCH_FROM = 0.19, BRANCH_TO = 4.0;
 static const double LOCKED_AT = 0.02; /* the slowest drive of the runs */
+/* A small kappa, and a drive at which so weakly held a bead stays locked. */
+static const double WEAK = 0.015, WEAK_DRIVE = 0.001;
 
 static fst_params params_at(fst_dynamics dynamics, double omega)
 {
@@ -21,52 +23,19 @@ static fst_params params_at(fst_dynamics dynamics, double omega)
     return params;
 }
 
-/* The drive between two stable neighbours on the branch at which N is `target`: the Illinois rule on orbits
- * that Newton's method makes exact. */
-static fst_status close_pattern(fst_dynamics dynamics, const fst_branch_point *a, const fst_branch_point *b,
-                                double target, fst_paper_pattern *pattern, fst_error *error)
-{
-    double low = a->value, high = b->value, f_low = a->festoons - target, f_high = b->festoons - target;
-    fst_orbit orbit;
-    for (int i = 0, side = 0; i < 60; i++) {
-        double omega = (low * f_high - high * f_low) / (f_high - f_low);
-        fst_params params = params_at(dynamics, omega);
-        fst_status status = fst_orbit_find(&params, &orbit, error);
-        if (status != FST_OK)
-            return status;
-        double f = orbit.means.festoons - target;
-        *pattern = (fst_paper_pattern){omega, orbit.symmetry};
-        if (fabs(f) < 1e-11 * target || fabs(high - low) < 1e-12)
-            break;
-        if ((f < 0.0) == (f_low < 0.0)) {
-            low = omega, f_low = f;
-            f_high *= side < 0 ? 0.5 : 1.0;
-            side = -1;
-        } else {
-            high = omega, f_high = f;
-            f_low *= side > 0 ? 0.5 : 1.0;
-            side = 1;
-        }
-    }
-    return FST_OK;
-}
-
-static int brackets(const fst_branch_point *a, const fst_branch_point *b, double target)
-{
-    return a->branch == b->branch && a->stable && b->stable && a->turns < 0 && b->turns < 0 &&
-           (a->festoons < target) != (b->festoons < target);
-}
-
 /* Each row of Table 1 whose pattern closes somewhere on the stable branch. */
-static fst_status close_patterns(fst_dynamics dynamics, const fst_branch *branch, fst_paper_exact *exact,
+static fst_status close_patterns(const fst_params *params, const fst_branch *branch, fst_paper_exact *exact,
                                  fst_error *error)
 {
     fst_status status = FST_OK;
-    for (int row = 0; row < FST_TABLE1_ROWS; row++)
-        for (size_t i = 0; i + 1 < branch->point_count && status == FST_OK; i++)
-            if (brackets(&branch->points[i], &branch->points[i + 1], fst_table1[row].count))
-                status = close_pattern(dynamics, &branch->points[i], &branch->points[i + 1],
-                                       fst_table1[row].count, &exact->closed[row], error);
+    for (int row = 0; row < FST_TABLE1_ROWS && status == FST_OK; row++) {
+        fst_festoon_list list;
+        status = fst_festoons_on(params, branch, fst_table1[row].count, &list, error);
+        if (status == FST_OK)
+            exact->closed[row] = (fst_paper_pattern){list.omegas[0], list.orbits[0].means.symmetry};
+        fst_festoons_free(&list);
+        status = status == FST_NO_CONVERGENCE ? FST_OK : status; /* it closes nowhere */
+    }
     return status;
 }
 
@@ -102,6 +71,27 @@ static fst_status count_minima(fst_dynamics dynamics, fst_paper_exact *exact, fs
     return FST_OK;
 }
 
+/* The damping ratio -Re/|lambda| of the least damped swing about a stable locked state at a small kappa. */
+static fst_status find_damping(fst_dynamics dynamics, fst_paper_exact *exact, fst_error *error)
+{
+    fst_params params = params_at(dynamics, WEAK_DRIVE);
+    params.model_kappa = WEAK;
+    fst_locked_list list;
+    fst_status status = fst_locked_find(&params, &list, error);
+    if (status != FST_OK)
+        return status;
+    for (size_t i = 0; i < list.count; i++) {
+        const fst_locked *state = &list.states[i];
+        for (int j = 0; j < FST_EIGENVALUE_COUNT && state->stable; j++) {
+            double re = state->eigenvalue_re[j], im = state->eigenvalue_im[j];
+            if (im > 0.0)
+                exact->damping = fmin(exact->damping, -re / hypot(re, im));
+        }
+    }
+    fst_locked_free(&list);
+    return FST_OK;
+}
+
 fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *error)
 {
     fst_dynamics dynamics = (fst_dynamics)index;
@@ -115,11 +105,13 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
     fst_status status = fst_branch_follow(&params, &options, &branch, &why);
     if (status == FST_OK) {
         read_branch(&branch, exact);
-        status = close_patterns(dynamics, &branch, exact, &why);
+        status = close_patterns(&params, &branch, exact, &why);
         fst_branch_free(&branch);
     }
     if (status == FST_OK)
         status = count_minima(dynamics, exact, &why);
+    if (status == FST_OK)
+        status = find_damping(dynamics, exact, &why);
     /* Without LAPACK, or where the method fails, the rest of the paper stands, and this sentence instead. */
     if (status == FST_UNAVAILABLE || status == FST_NO_CONVERGENCE) {
         (void)snprintf(exact->missing, sizeof exact->missing, "%s", why.sentence);
@@ -132,7 +124,7 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
 
 void fst_paper_exact_begin(fst_paper_exact *exact)
 {
-    *exact = (fst_paper_exact){.halving = NAN, .fold = NAN, .locked_minima = NAN};
+    *exact = (fst_paper_exact){.halving = NAN, .fold = NAN, .locked_minima = NAN, .damping = NAN};
     for (int row = 0; row < FST_TABLE1_ROWS; row++)
         exact->closed[row].omega = NAN;
 }

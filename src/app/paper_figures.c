@@ -35,8 +35,8 @@ static const fst_paper_figure figures[] = {
      .source = "Fig. 0",
      .title = "The setup to scale",
      .caption = "A bead (vermilion) on a plate, and below it a bar magnet that turns anticlockwise; blue: the "
-                "lines of "
-                "dipoles that model it.",
+                "lines of dipoles that model it. The moment n has the angle θ against e_r; φ is the angle in "
+                "the plane of e_α and e_z: n = cos θ e_r + sin θ (sin φ e_α − cos φ e_z).",
      .statements = "length|spacing|eps",
      .scan = FST_SCAN_FOLD4,
      .draw = fst_paper_draw_sketch},
@@ -75,7 +75,8 @@ static const fst_paper_figure figures[] = {
      .source = "section on the paramagnetic bead, carried on",
      .title = "How much remanence a steel bead needs",
      .caption = "Least magnetic strength κ with which a bead that the field magnetises isotropically still "
-                "counter-rotates 600 turns of the magnet after a free-rolling start (rigid).",
+                "counter-rotates 600 turns of the magnet after a free-rolling start (rigid). Points: computed; "
+                "the lines guide the eye.",
      .statements = "remanence",
      .scan = FST_SCAN_COMPARISON,
      .step = FST_STEP_REMANENCE,
@@ -180,7 +181,8 @@ static const fst_paper_figure figures[] = {
      .title = "Free rolling at high drives",
      .caption =
          "Solid: mean angular velocities of the bead about the axis and of its moment; dashed: the paper's "
-         "formulas for free rolling, with the mean radius of each run.",
+         "formulas for free rolling, with the mean radius of each run. Under the drive 0.185 the moment swings "
+         "without turning over, ⟨φ′⟩ = 0: left out.",
      .statements = "rolling-alpha|rolling-phi",
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_test},
@@ -280,7 +282,8 @@ void fst_paper_figure_command(const fst_paper_state *paper, const fst_paper_figu
         (void)snprintf(text, size, "%s --set run.samples=128 -o %s.h5\nfestoon plot %s.h5 -o %s.svg%s", run,
                        figure->file, figure->file, figure->file, options);
     else
-        (void)snprintf(text, size, "%s\ngnuplot %s.gp", run, figure->file);
+        (void)snprintf(text, size, "festoon paper -o DIR%s\ngnuplot %s.gp   # in DIR",
+                       paper->options->reduced ? " --reduced" : "", figure->file);
 }
 
 static fst_status draw_one(fst_paper_state *paper, int index, fst_error *error)
@@ -327,5 +330,8 @@ fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to
             all.list[all.count++] = i;
     }
     fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = progress_of_gallery};
-    return fst_parallel(&work, error);
+    double began = fst_paper_clock();
+    fst_status status = fst_parallel(&work, error);
+    fst_paper_note_time(paper, "figures", began);
+    return status;
 }

@@ -50,7 +50,10 @@ static json_t *table1_array(const fst_paper_state *paper)
         for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; d--) {
             const fst_run_result *result = &paper->scans[FST_SCAN_TABLE][d][row].result;
             const char *name = fst_symmetry_name(result->symmetry), *dynamics = dynamics_names[d];
-            char key[48];
+            char key[48], command[320];
+            fst_paper_table1_command(paper, row, (fst_dynamics)d, command, sizeof command);
+            (void)snprintf(key, sizeof key, "%s_command", dynamics);
+            json_object_set_new(object, key, json_string(command));
             json_object_set_new(object, dynamics, fst_json_number(result->festoons));
             (void)snprintf(key, sizeof key, "%s_symmetry", dynamics);
             json_object_set_new(object, key, name ? json_string(name) : json_null());
@@ -92,6 +95,9 @@ static json_t *figures_array(const fst_paper_state *paper)
         json_object_set_new(object, "file", json_string(file));
         json_object_set_new(object, "source", json_string(figure.source));
         json_object_set_new(object, "title", json_string(figure.title));
+        char command[512];
+        fst_paper_figure_command(paper, &figure, command, sizeof command);
+        json_object_set_new(object, "command", json_string(command));
         json_object_set_new(object, "dynamics",
                             figure.each ? json_string(dynamics_names[figure.dynamics]) : json_null());
         json_object_set_new(object, "verdict", figure_verdict(paper, &figure, figure.dynamics));
@@ -107,39 +113,70 @@ static json_t *statement_value(const fst_statement *statement, double value)
     return statement->rule == FST_RULE_SYMMETRY ? symmetry(value) : fst_json_number(value);
 }
 
+/* What was published are the printed equations: their verdict, command and the rest have the bare names. */
+static void add_dynamics(json_t *object, const fst_statement *statement, const fst_paper_state *paper,
+                         const fst_finding *finding, fst_dynamics dynamics)
+{
+    const char *name = dynamics_names[dynamics], *prefix = dynamics == FST_DYNAMICS_RIGID ? "rigid_" : "";
+    char key[48], command[320];
+    json_object_set_new(object, name, statement_value(statement, finding->value[dynamics]));
+    (void)snprintf(key, sizeof key, "%s_verdict", name);
+    json_object_set_new(object, key, json_string(fst_verdict_name(finding->verdict[dynamics])));
+    (void)snprintf(key, sizeof key, "%s_note", name);
+    json_object_set_new(object, key, json_string(finding->note[dynamics]));
+    fst_statement_command(statement, paper, dynamics, command, sizeof command);
+    (void)snprintf(key, sizeof key, "%scommand", prefix);
+    json_object_set_new(object, key, json_string(command));
+    (void)snprintf(key, sizeof key, "%sreads", prefix);
+    json_object_set_new(object, key, json_string(fst_statement_reads(statement, dynamics)));
+}
+
+static json_t *statement_object(const fst_statement *statement, const fst_paper_state *paper)
+{
+    fst_finding finding = fst_statement_check(statement, paper);
+    char criterion[320];
+    fst_statement_criterion(statement, criterion, sizeof criterion);
+    json_t *object = json_object();
+    json_object_set_new(object, "id", json_string(statement->id));
+    json_object_set_new(object, "section", json_string(statement->section));
+    json_object_set_new(object, "statement", json_string(statement->text));
+    json_object_set_new(object, "published", statement_value(statement, statement->published));
+    json_object_set_new(object, "published_words",
+                        statement->said ? json_string(statement->said) : json_null());
+    json_object_set_new(object, "unit", json_string(statement->unit));
+    json_object_set_new(object, "criterion", json_string(criterion));
+    json_object_set_new(object, "verdict",
+                        json_string(fst_verdict_name(finding.verdict[FST_DYNAMICS_FARAGO2020])));
+    add_dynamics(object, statement, paper, &finding, FST_DYNAMICS_FARAGO2020);
+    add_dynamics(object, statement, paper, &finding, FST_DYNAMICS_RIGID);
+    return object;
+}
+
 static json_t *statements_array(const fst_paper_state *paper)
 {
     json_t *array = json_array();
-    for (int i = 0; i < fst_statement_count(); i++) {
-        const fst_statement *statement = fst_statement_at(i);
-        if (!fst_statement_known(statement, paper))
-            continue;
-        fst_finding finding = fst_statement_check(statement, paper);
-        char criterion[320];
-        fst_statement_criterion(statement, criterion, sizeof criterion);
-        json_t *object = json_object();
-        json_object_set_new(object, "id", json_string(statement->id));
-        json_object_set_new(object, "section", json_string(statement->section));
-        json_object_set_new(object, "statement", json_string(statement->text));
-        json_object_set_new(object, "published", statement_value(statement, statement->published));
-        json_object_set_new(object, "published_words",
-                            statement->said ? json_string(statement->said) : json_null());
-        json_object_set_new(object, "unit", json_string(statement->unit));
-        json_object_set_new(object, "criterion", json_string(criterion));
-        /* What was published are the printed equations: their verdict is the verdict. */
-        json_object_set_new(object, "verdict",
-                            json_string(fst_verdict_name(finding.verdict[FST_DYNAMICS_FARAGO2020])));
-        for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; d--) {
-            char key[48];
-            json_object_set_new(object, dynamics_names[d], statement_value(statement, finding.value[d]));
-            (void)snprintf(key, sizeof key, "%s_verdict", dynamics_names[d]);
-            json_object_set_new(object, key, json_string(fst_verdict_name(finding.verdict[d])));
-            (void)snprintf(key, sizeof key, "%s_note", dynamics_names[d]);
-            json_object_set_new(object, key, json_string(finding.note[d]));
-        }
-        json_array_append_new(array, object);
-    }
+    for (int i = 0; i < fst_statement_count(); i++)
+        if (fst_statement_known(fst_statement_at(i), paper))
+            json_array_append_new(array, statement_object(fst_statement_at(i), paper));
     return array;
+}
+
+enum { JSON_STYLE = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };
+
+char *fst_paper_statement_json(const fst_paper_state *paper, const fst_statement *statement)
+{
+    char *text = NULL;
+    size_t size = 0;
+    json_t *object = statement_object(statement, paper);
+    FILE *out = open_memstream(&text, &size);
+    int failed = !out || !object || json_dumpf(object, out, JSON_STYLE) != 0 || fputc('\n', out) == EOF;
+    failed = (out && fclose(out) != 0) || failed;
+    json_decref(object);
+    if (failed) {
+        free(text);
+        text = NULL;
+    }
+    return text;
 }
 
 static json_t *provenance_object(const fst_paper_state *paper)
@@ -153,6 +190,13 @@ static json_t *provenance_object(const fst_paper_state *paper)
     json_object_set_new(object, "periods", json_real(params->run_periods));
     json_object_set_new(object, "discard", json_real(params->run_discard));
     json_object_set_new(object, "seconds", json_real(paper->seconds));
+    json_t *parts = json_object();
+    for (int i = 0; i < paper->part_count; i++)
+        json_object_set_new(parts, paper->parts[i].what, json_real(paper->parts[i].seconds));
+    json_object_set_new(object, "parts", parts);
+    char machine[512];
+    fst_paper_machine(machine, sizeof machine);
+    json_object_set_new(object, "machine", json_string(machine));
     json_object_set_new(object, "scene", scene ? json_string(scene) : json_null());
     free(scene);
     return object;
@@ -173,7 +217,7 @@ fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error)
     fst_status status = path && document ? fst_whole_file_open(&file, path, error)
                                          : fst_fail(error, FST_NO_MEMORY, "paper.json", "out of memory");
     if (status == FST_OK) {
-        int failed = json_dumpf(document, file.stream, JSON_INDENT(1) | JSON_REAL_PRECISION(17)) != 0;
+        int failed = json_dumpf(document, file.stream, JSON_STYLE) != 0;
         failed = fputc('\n', file.stream) == EOF || failed;
         if (failed) {
             fst_whole_file_discard(&file);

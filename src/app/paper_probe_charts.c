@@ -37,18 +37,19 @@ fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_f
     static radius_curves const empty = {.count = 0};
     radius_curves read[FST_PAPER_DYNAMICS] = {empty, empty};
     fst_chart_curve mean[FST_PAPER_DYNAMICS], deviation[FST_PAPER_DYNAMICS];
-    for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
-        read_radius(paper, (fst_dynamics)d, &read[d]);
-        fst_chart_curve curve = {.title = d == FST_DYNAMICS_RIGID ? "rigid (exact)" : "farago2020 (as printed)",
-                                 .x = read[d].hertz,
-                                 .y = read[d].mean,
-                                 .count = (size_t)read[d].count,
-                                 .colour = d == FST_DYNAMICS_RIGID ? FST_COLOUR_VERMILION : FST_COLOUR_BLUE,
-                                 .style = d == FST_DYNAMICS_RIGID ? FST_CURVE_DASHED : FST_CURVE_LINE};
-        mean[d] = curve;
-        curve.y = read[d].deviation;
+    for (int i = 0; i < FST_PAPER_DYNAMICS; i++) {
+        fst_dynamics dynamics = i ? FST_DYNAMICS_RIGID : FST_DYNAMICS_FARAGO2020;
+        read_radius(paper, dynamics, &read[i]);
+        fst_chart_curve curve = {.title = i ? "rigid (exact)" : "farago2020 (as printed)",
+                                 .x = read[i].hertz,
+                                 .y = read[i].mean,
+                                 .count = (size_t)read[i].count,
+                                 .colour = i ? FST_COLOUR_VERMILION : FST_COLOUR_BLUE,
+                                 .style = i ? FST_CURVE_DASHED : FST_CURVE_LINE};
+        mean[i] = curve;
+        curve.y = read[i].deviation;
         curve.title = NULL;
-        deviation[d] = curve;
+        deviation[i] = curve;
     }
     const fst_chart_panel panels[2] = {{.left_label = "mean radius (mm)",
                                         .low = 10.0,
@@ -137,7 +138,7 @@ static fst_status draw_halving(const fst_paper_halving *halving, const halving_c
                                const char *out, fst_error *error)
 {
     const fst_chart_curve curves[4] = {
-        halving_curve("p = Δ+/Δ− − 1", c->omega, c->p, FST_HALVING_POINTS, FST_COLOUR_BLUE, FST_CURVE_POINTS),
+        halving_curve("p", c->omega, c->p, FST_HALVING_POINTS, FST_COLOUR_BLUE, FST_CURVE_POINTS),
         halving_curve("|⟨n_z⟩|", c->omega, c->nz, FST_HALVING_POINTS, FST_COLOUR_VERMILION, FST_CURVE_POINTS),
         halving_curve("square root of the distance", c->line_x, c->line_y, LINE, FST_COLOUR_GREY,
                       FST_CURVE_LINE),
@@ -161,10 +162,9 @@ static fst_status draw_halving(const fst_paper_halving *halving, const halving_c
                                    .curve_count = 3,
                                    .labels = c->labels,
                                    .label_count = 2};
-    const fst_chart_panel panels[3] = {{.left_label = "p",
+    const fst_chart_panel panels[3] = {{.left_label = "p = Δ+/Δ− − 1",
                                         .low = 0.0,
                                         .high = 6.5,
-                                        .key = "top left",
                                         .curves = curves,
                                         .curve_count = 1,
                                         .inset = &inset},
@@ -174,10 +174,9 @@ static fst_status draw_halving(const fst_paper_halving *halving, const halving_c
                                         .key = "top right",
                                         .curves = curves + 1,
                                         .curve_count = 2},
-                                       {.left_label = "τ (1000/γ)",
+                                       {.left_label = "relaxation time (1000/γ)",
                                         .low = NAN,
                                         .high = NAN,
-                                        .key = "top left",
                                         .curves = curves + 3,
                                         .curve_count = 1}};
     const fst_chart_mark marks[] = {{c->threshold, "threshold"}};
@@ -231,7 +230,7 @@ fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_pape
                                       .y = share[d],
                                       .count = FST_REMANENCE_STRENGTHS,
                                       .colour = d ? FST_COLOUR_VERMILION : FST_COLOUR_BLUE,
-                                      .style = d ? FST_CURVE_DASHED : FST_CURVE_LINE};
+                                      .style = d ? FST_CURVE_DASHED_POINTS : FST_CURVE_LINE_POINTS};
     }
     const fst_chart_panel panel = {.left_label = "least κ, % of a neodymium bead's",
                                    .low = 0.0,

@@ -43,7 +43,7 @@ static void probe_end(probe *p)
 /* ------------------------------------------------------------------ the period halving */
 
 enum {
-    MOST_RETURNS = 4096,
+    MOST_RETURNS = 16384,
     LOOKED_AT = 24 /* drive periods at the end in which p and <n_z> are taken */
 };
 

@@ -17,13 +17,14 @@ static const struct {
     const char *samples; /* run.samples, where the trajectory is kept */
 } scans[FST_SCAN_COUNT] = {
     [FST_SCAN_COMPARISON] = {0.15, 0.50, 71, 8, "rolling", NULL},
-    [FST_SCAN_FAST] = {0.5, 2.0, 16, 4, "rolling", NULL},
+    [FST_SCAN_FAST] = {0.5, 2.0, 31, 4, "rolling", NULL},
     [FST_SCAN_SLOW] = {0.02, 0.24, 12, 5, "rest", NULL},
     [FST_SCAN_TABLE] = {0.0, 0.0, FST_TABLE1_ROWS, FST_TABLE1_ROWS, "rolling", NULL},
     [FST_SCAN_FOLD4] = {0.215, 0.215, 1, 1, "rolling", "128"},
     [FST_SCAN_FOLD15] = {0.4, 0.4, 1, 1, "rolling", "128"},
     [FST_SCAN_CONJUGATE] = {0.215, 0.215, 1, 1, "rolling", NULL},
-    [FST_SCAN_ASYMPTOTIC] = {2.2, 2.3, 2, 2, "rolling", NULL},
+    [FST_SCAN_ASYMPTOTIC] = {2.2, 3.0, 3, 3, "rolling", NULL},
+    [FST_SCAN_ANISOTROPIC] = {0.3, 0.4, 2, 2, "rolling", NULL},
 };
 
 /* Where a change of the motion is looked for: in which scan, and how many halvings refine it. */
@@ -39,6 +40,11 @@ static const struct {
 
 /* |<n_z>| above which a motion is taken to lack the symmetry S2: far above what is left of a transient. */
 #define ASYMMETRIC 1e-3
+
+/* The bead of FST_SCAN_ANISOTROPIC: as magnetisable along its axis as across, and no remanence. */
+static const struct {
+    const char *key, *value;
+} anisotropic[] = {{"bead.material", "mixed"}, {"model.kappa", "0"}, {"bead.a", "0.001"}, {"bead.b", "0.001"}};
 
 /* A reduced paper's runs are shorter; the fingerprints of the motion are there all the same. */
 static const char *const reduced_periods = "160", *const reduced_discard = "100";
@@ -72,6 +78,8 @@ static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_d
     status = set(params, "start.spin", scans[scan].spin, status, error);
     if (scan == FST_SCAN_CONJUGATE) /* the image of the usual start, 3 deg, under S2 */
         status = set(params, "start.phi", "183", status, error);
+    for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; i++)
+        status = set(params, anisotropic[i].key, anisotropic[i].value, status, error);
     if (scans[scan].samples)
         status = set(params, "run.samples", scans[scan].samples, status, error);
     if (paper->options->reduced) {
@@ -91,26 +99,44 @@ static fst_status make_run(fst_scan scan, fst_paper_run *run, fst_error *error)
     return status;
 }
 
+/* The command for one run of a scan, its drive given as text. */
+static void write_command(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, const char *omega,
+                          char *text, size_t size)
+{
+    size_t used = (size_t)snprintf(text, size, "festoon run --set drive.omega=%s --set model.dynamics=%s%s%s",
+                                   omega, dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020",
+                                   strcmp(scans[scan].spin, "rest") == 0 ? " --set start.spin=rest" : "",
+                                   scan == FST_SCAN_CONJUGATE ? " --set start.phi=183" : "");
+    for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; i++)
+        if (used < size)
+            used += (size_t)snprintf(text + used, size - used, " --set %s=%s", anisotropic[i].key,
+                                     anisotropic[i].value);
+    if (paper->options->reduced && used < size)
+        (void)snprintf(text + used, size - used, " --set run.discard=%s --set run.periods=%s", reduced_discard,
+                       reduced_periods);
+}
+
 void fst_paper_scan_command(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, char *text,
                             size_t size)
 {
     char omega[32] = "OMEGA";
     if (paper->counts[scan] == 1)
         (void)snprintf(omega, sizeof omega, "%g", scans[scan].low);
-    char lengths[64] = "";
-    if (paper->options->reduced)
-        (void)snprintf(lengths, sizeof lengths, " --set run.discard=%s --set run.periods=%s", reduced_discard,
-                       reduced_periods);
-    char values[64] = "";
+    write_command(paper, scan, dynamics, omega, text, size);
+    size_t used = strlen(text);
     if (paper->counts[scan] > 1 && scan != FST_SCAN_TABLE)
-        (void)snprintf(values, sizeof values, "   # OMEGA: %d values from %g to %g", paper->counts[scan],
+        (void)snprintf(text + used, size - used, "   # OMEGA: %d values from %g to %g", paper->counts[scan],
                        scans[scan].low, scans[scan].high);
-    (void)snprintf(text, size, "festoon run --set drive.omega=%s --set model.dynamics=%s%s%s%s", omega,
-                   dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020",
-                   strcmp(scans[scan].spin, "rest") == 0 ? " --set start.spin=rest"
-                   : scan == FST_SCAN_CONJUGATE          ? " --set start.phi=183"
-                                                         : "",
-                   lengths, values);
+}
+
+void fst_paper_table1_command(const fst_paper_state *paper, int row, fst_dynamics dynamics, char *text,
+                              size_t size)
+{
+    char omega[32];
+    (void)snprintf(omega, sizeof omega, "%g", fst_table1[row].omega);
+    write_command(paper, FST_SCAN_TABLE, dynamics, omega, text, size);
+    size_t used = strlen(text);
+    (void)snprintf(text + used, size - used, " --json");
 }
 
 /* ------------------------------------------------------------------ all scans */
@@ -118,7 +144,7 @@ void fst_paper_scan_command(const fst_paper_state *paper, fst_scan scan, fst_dyn
 static int piece_count(const fst_paper_state *paper)
 {
     int count = 0;
-    for (int scan = 0; scan < FST_SCAN_COUNT; scan++)
+    for (int scan = paper->first_scan; scan < FST_SCAN_COUNT; scan++)
         count += FST_PAPER_DYNAMICS * paper->counts[scan];
     return count;
 }
@@ -232,14 +258,18 @@ fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error)
     return fst_paper_do(paper, &runs, error);
 }
 
-fst_status fst_paper_find_thresholds(fst_paper_state *paper, fst_error *error)
+fst_status fst_paper_find_orbits(fst_paper_state *paper, fst_error *error)
 {
     fst_paper_stage exact = {"periodic orbits",   0.5, 0.6, FST_PAPER_DYNAMICS, FST_STEP_EXACT,
                              fst_paper_find_exact};
+    return fst_paper_do(paper, &exact, error);
+}
+
+fst_status fst_paper_find_thresholds(fst_paper_state *paper, fst_error *error)
+{
     fst_paper_stage changes_stage = {
         "thresholds", 0.6, 0.65, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, FST_STEP_THRESHOLDS, find_change};
-    fst_status status = fst_paper_do(paper, &exact, error);
-    return status == FST_OK ? fst_paper_do(paper, &changes_stage, error) : status;
+    return fst_paper_do(paper, &changes_stage, error);
 }
 
 int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan scan)

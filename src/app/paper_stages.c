@@ -11,9 +11,11 @@ const double fst_remanence_drives[FST_REMANENCE_DRIVES] = {0.3, 0.4};
 const double fst_remanence_strengths[FST_REMANENCE_STRENGTHS] = {1e-3, 1.4e-3, 1.8e-3, 2.2e-3, 2.6e-3, 3e-3};
 
 /* Distances of the drive from the threshold. */
-static const double halving_offsets[FST_HALVING_POINTS] = {-0.010,  -0.008,  -0.006,  -0.0045, -0.0035,
-                                                           -0.0025, -0.0018, -0.0012, 0.0015,  0.0022,
+static const double halving_offsets[FST_HALVING_POINTS] = {-0.010,  -0.008,  -0.006,  -0.0045, -0.0035, -0.0025,
+                                                           -0.0018, -0.0012, -0.0006, -0.0003, 0.0015,  0.0022,
                                                            0.003,   0.0045,  0.0065,  0.010};
+/* The relaxation time goes as the inverse distance: nearer than this the motion is followed for longer. */
+static const double NEAR_THRESHOLD = 0.0012;
 
 enum { SEARCH = 240, REDUCED_SEARCH = 24 };
 
@@ -41,8 +43,10 @@ static fst_status halving_piece(fst_paper_state *paper, int index, fst_error *er
     /* A reduced paper knows the threshold less well and follows the motion for less long: it keeps further off.
      */
     double wider = paper->options->reduced ? 4.0 : 1.0;
-    fst_params params = probe_params(dynamics, centre + wider * halving_offsets[point]);
+    double offset = wider * halving_offsets[point];
+    fst_params params = probe_params(dynamics, centre + offset);
     double periods = paper->options->reduced ? 700.0 : 1000.0;
+    periods *= fmax(1.0, NEAR_THRESHOLD / fabs(offset));
     int shown = point == FST_HALVING_INSET;
     return fst_probe_halving(&params, periods, &halving->points[point], shown ? halving->r : NULL,
                              shown ? FST_HALVING_SHOWN : 0, error);
@@ -56,10 +60,12 @@ double fst_paper_halving_drive(const fst_paper_state *paper, fst_dynamics dynami
 
 double fst_paper_halving_line(const fst_paper_state *paper, fst_dynamics dynamics)
 {
-    enum { NEAREST = 5 };
+    /* Without the orbits the threshold is only bracketed, and the two nearest drives may lie beyond it. */
+    enum { NEAREST = 5, LEFT_OUT = 2 };
     double omega[NEAREST], square[NEAREST];
     for (int i = 0; i < NEAREST; i++) {
-        const fst_halving_point *point = &paper->halving[dynamics].points[FST_HALVING_BELOW - NEAREST + i];
+        const fst_halving_point *point =
+            &paper->halving[dynamics].points[FST_HALVING_BELOW - LEFT_OUT - NEAREST + i];
         omega[i] = point->omega;
         square[i] = point->mean_nz * point->mean_nz;
     }
@@ -93,7 +99,7 @@ static fst_status balance_piece(fst_paper_state *paper, int index, fst_error *er
     fst_params params = probe_params(FST_DYNAMICS_RIGID, cases[index][1]);
     params.bead_material = FST_MATERIAL_PARAMAGNETIC;
     params.bead_a = cases[index][0];
-    return fst_paramagnet_balances(&params, 50.0, 100.0, paper->balances[index], error);
+    return fst_paramagnet_balances(&params, 50.0, 100.0, &paper->balances[index], error);
 }
 
 static fst_status remanence_piece(fst_paper_state *paper, int index, fst_error *error)
@@ -107,7 +113,7 @@ static fst_status remanence_piece(fst_paper_state *paper, int index, fst_error *
                            paper->options->reduced ? 100.0 : 600.0, &paper->remanence[drive][strength], error);
 }
 
-fst_status fst_paper_make_probes(fst_paper_state *paper, fst_error *error)
+fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *only, fst_error *error)
 {
     paper->search_count = paper->options->starts > 0 ? paper->options->starts
                           : paper->options->reduced  ? REDUCED_SEARCH
@@ -127,6 +133,7 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, fst_error *error)
     };
     fst_status status = FST_OK;
     for (size_t i = 0; i < sizeof stages / sizeof stages[0] && status == FST_OK; i++)
-        status = fst_paper_do(paper, &stages[i], error);
+        if (!only || *only == stages[i].step)
+            status = fst_paper_do(paper, &stages[i], error);
     return status;
 }

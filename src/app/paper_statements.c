@@ -5,15 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define HALVING_COMMAND                                                                                        \
-    "festoon branch --kind counter --set model.dynamics=farago2020 --over drive.omega=0.19:4"
-#define PROBE_COMMAND "festoon paper -o DIR"
-#define REMANENCE_COMMAND                                                                                      \
-    "festoon run --set bead.material=mixed --set bead.a=0.001 --set model.kappa=KAPPA --set drive.omega=0.3 "  \
-    "--set run.periods=600"
-
 static const fst_statement statements[] = {
-#define STATEMENT(id, section, text, said, published, scale, unit, digits, rule, measure, scan, step, command) \
+#define STATEMENT(id, section, text, said, published, scale, unit, digits, rule, measure, scan, step, reads)   \
     {id,                                                                                                       \
      section,                                                                                                  \
      text,                                                                                                     \
@@ -26,7 +19,7 @@ static const fst_statement statements[] = {
      fst_measure_##measure,                                                                                    \
      FST_SCAN_##scan,                                                                                          \
      FST_STEP_##step,                                                                                          \
-     command},
+     reads},
 #include "app/paper_statements.def"
 #undef STATEMENT
 };
@@ -44,6 +37,26 @@ const fst_statement *fst_statement_at(int index)
 int fst_statement_known(const fst_statement *statement, const fst_paper_state *paper)
 {
     return fst_paper_has(paper, statement->step, statement->scan);
+}
+
+/* ------------------------------------------------------------------ how to have the number again */
+
+void fst_statement_command(const fst_statement *statement, const fst_paper_state *paper, fst_dynamics dynamics,
+                           char *command, size_t size)
+{
+    char run[256];
+    if (!statement->reads) {
+        (void)snprintf(command, size, "festoon paper --only %s%s", statement->id,
+                       paper->options->reduced ? " --reduced" : "");
+        return;
+    }
+    fst_paper_scan_command(paper, statement->scan, dynamics, run, sizeof run);
+    (void)snprintf(command, size, "%s --json", run);
+}
+
+const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dynamics)
+{
+    return statement->reads ? statement->reads : dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020";
 }
 
 /* ------------------------------------------------------------------ the list */

@@ -41,8 +41,9 @@ const char *fst_verdict_name(fst_verdict verdict)
 /* Half a unit of the last digit, or ten, for `verdict` reproduced or close. */
 static double room(const fst_statement *statement, fst_verdict verdict)
 {
-    double units = UNITS[verdict] * statement->scale;
-    return verdict == FST_VERDICT_REPRODUCED ? units : fmin(units, FARTHEST * fabs(statement->published));
+    double half = UNITS[FST_VERDICT_REPRODUCED] * statement->scale, ten = UNITS[verdict] * statement->scale;
+    return verdict == FST_VERDICT_REPRODUCED ? half
+                                             : fmax(half, fmin(ten, FARTHEST * fabs(statement->published)));
 }
 
 /* Does the value earn `verdict` (reproduced or close)?  A NAN passes nothing. */

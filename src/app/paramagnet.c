@@ -131,7 +131,7 @@ fst_status fst_search_one(int index, fst_search_entry *entry, fst_error *error)
 /* What is averaged, and what only its change counts of. */
 typedef struct moment_in_time {
     double slip2, field_moment, friction_moment, friction_on_centre, crossed;
-    double energy, angular_momentum, kinetic_less_field, rolling_momentum;
+    double energy, angular_momentum, kinetic_less_field, rolling_momentum, alpha;
 } moment_in_time;
 
 static void look(const followed *bead, moment_in_time *now)
@@ -147,6 +147,7 @@ static void look(const followed *bead, moment_in_time *now)
     double slip_x = s[FST_VX] - eps * s[FST_WY], slip_y = s[FST_VY] + eps * s[FST_WX];
     double v2 = s[FST_VX] * s[FST_VX] + s[FST_VY] * s[FST_VY];
     double w2 = s[FST_WX] * s[FST_WX] + s[FST_WY] * s[FST_WY] + s[FST_WZ] * s[FST_WZ];
+    now->alpha = info.alpha;
     now->slip2 = slip_x * slip_x + slip_y * slip_y;
     now->field_moment = a * along;
     now->friction_moment = x * slip_y - y * slip_x;
@@ -201,7 +202,7 @@ static fst_status average(followed *bead, double t0, int panels, double panel, m
 }
 
 fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
-                                   fst_balance balances[FST_BALANCE_COUNT], fst_error *error)
+                                   fst_balances *balances, fst_error *error)
 {
     enum { PANELS = 60 }; /* per drive period */
     followed bead;
@@ -216,13 +217,14 @@ fst_status fst_paramagnet_balances(const fst_params *params, double discard, dou
     if (status == FST_OK)
         status = look_at(&bead, t0 + time, &last, error);
     double omega = bead.groups.omega, field = mean.field_moment;
-    balances[FST_BALANCE_ENERGY] =
+    *balances = (fst_balances){.mean_alpha_dot = (last.alpha - first.alpha) / time};
+    balances->of[FST_BALANCE_ENERGY] =
         (fst_balance){mean.slip2, omega * field, (last.energy - first.energy) / time};
-    balances[FST_BALANCE_MOMENT] =
+    balances->of[FST_BALANCE_MOMENT] =
         (fst_balance){mean.friction_moment, field, (last.angular_momentum - first.angular_momentum) / time};
-    balances[FST_BALANCE_KINETIC] = (fst_balance){mean.friction_on_centre, omega * field,
-                                                  (last.kinetic_less_field - first.kinetic_less_field) / time};
-    balances[FST_BALANCE_ROLLING] =
+    balances->of[FST_BALANCE_KINETIC] = (fst_balance){
+        mean.friction_on_centre, omega * field, (last.kinetic_less_field - first.kinetic_less_field) / time};
+    balances->of[FST_BALANCE_ROLLING] =
         (fst_balance){mean.crossed, field, (last.rolling_momentum - first.rolling_momentum) / time};
     end(&bead);
     return status;

@@ -51,8 +51,12 @@ typedef enum {
 typedef struct fst_balance {
     double friction, field, boundary; /* friction + boundary = field; boundary: change of state over the time */
 } fst_balance;
+typedef struct fst_balances {
+    fst_balance of[FST_BALANCE_COUNT];
+    double mean_alpha_dot;
+} fst_balances;
 fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
-                                   fst_balance balances[FST_BALANCE_COUNT], fst_error *error);
+                                   fst_balances *balances, fst_error *error);
 
 /* |friction + boundary - field| and |boundary|, over the larger of friction and field. */
 double fst_balance_residual(const fst_balance *balance);

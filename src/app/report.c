@@ -187,13 +187,13 @@ static void write_statements(FILE *out, const fst_paper_state *paper)
         fst_report_text(out, statement->section);
         fputs("</p><p>", out);
         fst_report_text(out, statement->text);
-        fputs("</p><table><tbody><tr><td>published</td><td class=\"n\">", out);
+        fputs("</p><table><tbody><tr><td>published</td><td colspan=\"2\">", out);
         if (statement->said)
             (void)snprintf(text, sizeof text, "%s", statement->said);
         else
             fst_statement_value(statement, statement->published, text, sizeof text);
         fst_report_text(out, text);
-        fputs("</td><td></td></tr>\n", out);
+        fputs("</td></tr>\n", out);
         write_values(out, statement, &finding);
         fputs("</tbody></table>", out);
         write_notes(out, &finding);
@@ -201,8 +201,11 @@ static void write_statements(FILE *out, const fst_paper_state *paper)
         fputs("<p class=\"fine\">Criterion: ", out);
         fst_report_text(out, text);
         fputs(".</p>", out);
-        fst_paper_scan_command(paper, statement->scan, FST_DYNAMICS_FARAGO2020, text, sizeof text);
-        fst_report_code(out, statement->command ? statement->command : text);
+        char command[320], repeat[448];
+        fst_statement_command(statement, paper, FST_DYNAMICS_FARAGO2020, command, sizeof command);
+        (void)snprintf(repeat, sizeof repeat, "%s   # %s", command,
+                       fst_statement_reads(statement, FST_DYNAMICS_FARAGO2020));
+        fst_report_code(out, repeat);
         fputs("</section>\n", out);
     }
 }
@@ -213,7 +216,7 @@ static fst_status write_figure(FILE *out, const fst_paper_state *paper, int inde
 {
     fst_paper_figure figure = fst_paper_figure_at(index);
     fst_verdict verdict;
-    fprintf(out, "<figure id=\"%s\"><h3>", figure.file);
+    fprintf(out, "<figure id=\"figure-%s\"><h3>", figure.file);
     fst_report_text(out, figure.title);
     if (figure.each)
         fprintf(out, " <small>%s</small>", figure.dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
@@ -265,19 +268,34 @@ static void write_regimes(FILE *out, const fst_paper_state *paper)
     fputs("</tbody></table></div>\n", out);
 }
 
+static void write_times(FILE *out, const fst_paper_state *paper)
+{
+    fputs("<table><thead><tr><th>part</th><th>seconds</th></tr></thead><tbody>\n", out);
+    for (int i = 0; i < paper->part_count; i++)
+        fprintf(out, "<tr><td>%s</td><td class=\"n\">%.1f</td></tr>\n", paper->parts[i].what,
+                paper->parts[i].seconds);
+    fprintf(out, "<tr><td>all, without films</td><td class=\"n\">%.1f</td></tr>\n</tbody></table>\n",
+            paper->seconds);
+}
+
 static void write_provenance(FILE *out, const fst_paper_state *paper)
 {
     const fst_params *params = &fst_paper_single(paper, FST_SCAN_FOLD15, FST_DYNAMICS_RIGID)->params;
-    char *scene = fst_scene_text(params, 0);
+    char *scene = fst_scene_text(params, 0), machine[512];
+    fst_paper_machine(machine, sizeof machine);
     fprintf(out,
             "<h2 id=\"provenance\">Where the numbers come from</h2>\n"
             "<p>festoon %s%s. Method: Dormand and Prince, order 8(5,3), relative and absolute tolerance %g. "
-            "Each run lasts %g turns of the magnet, the means are taken after the first %g. All of it took "
-            "%.0f seconds. The same commands give the same numbers again. Beside this page: "
-            "paper.json, and for each figure its SVG, the gnuplot script and the data.</p>\n"
-            "<details><summary>The scene (here with the drive 0.4)</summary><pre>",
+            "Each run lasts %g turns of the magnet, the means are taken after the first %g. Arithmetic: ",
             fst_version(), paper->options->reduced ? ", reduced: fewer points and shorter runs" : "",
-            params->run_rtol, params->run_periods, params->run_discard, paper->seconds);
+            params->run_rtol, params->run_periods, params->run_discard);
+    fst_report_text(out, machine);
+    fputs(". The same commands give the same numbers again. Beside this page: paper.json, and for each figure "
+          "its "
+          "SVG, the gnuplot script and the data.</p>\n",
+          out);
+    write_times(out, paper);
+    fputs("<details><summary>The scene (here with the drive 0.4)</summary><pre>", out);
     fst_report_text(out, scene ? scene : "");
     fputs("</pre></details>\n", out);
     free(scene);

@@ -10,6 +10,7 @@ static const option options[] = {
     {"films", '\0', NULL, "make the supplement's two films as well (takes a minute more)"},
     {"statements", '\0', NULL,
      "compute nothing: print the paper's statements and what decides each verdict (Markdown)"},
+    {"only", '\0', "ID", "compute one statement alone and print it as JSON; paper.json has the names"},
     {"starts", '\0', "N", "starts of the search for a paramagnetic bead that counter-rotates (240)"},
     {NULL, '\0', NULL, NULL},
 };
@@ -33,8 +34,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     if (option_value(given, "statements"))
         return list_statements(out, error);
-    const char *directory = option_value(given, "output");
-    if (!directory)
+    const char *directory = option_value(given, "output"), *only = option_value(given, "only");
+    if (only && (directory || option_value(given, "films")))
+        return fail(error, FST_BAD_INPUT, "--only", "it writes no files: leave -o and --films away");
+    if (!directory && !only)
         return fail(error, FST_BAD_INPUT, "", "tell where the results go: -o DIR");
     progress_line line;
     fst_paper_options paper = fst_default_paper_options();
@@ -51,6 +54,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     }
     paper.starts = (int)count;
     progress_begin(&line);
+    paper.only = only;
     paper.user = &line;
     paper.progress = show;
     char *summary = NULL;
@@ -60,16 +64,16 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status == FST_OK && summary)
         (void)fputs(summary, out);
     free(summary);
-    if (status == FST_OK)
+    if (status == FST_OK && directory)
         (void)fprintf(stderr, "wrote %s/report.html\n", directory);
-    else if (status == FST_INTERRUPTED)
+    else if (status == FST_INTERRUPTED && directory)
         (void)fprintf(stderr, "%s/report.html has what was done until then, marked incomplete\n", directory);
     return status;
 }
 
 const command paper_command = {
     .name = "paper",
-    .synopsis = "-o DIR [--reduced] [--films] [--starts N] | --statements",
+    .synopsis = "-o DIR [--reduced] [--films] [--starts N] | --only ID | --statements",
     .summary = "Compute what the paper shows, and report it beside the published numbers",
     .details = "",
     .options = options,

@@ -108,7 +108,9 @@ static void write_curves(fst_figure_file *figure, const char *name, int number, 
     static const char *const styles[] = {[FST_CURVE_LINE] = "lines lw 2",
                                          [FST_CURVE_DASHED] = "lines dt (6,5) lw 2",
                                          [FST_CURVE_POINTS] = "points pt 7 ps 0.6",
-                                         [FST_CURVE_OPEN_POINTS] = "points pt 6 ps 0.7 lw 1.2"};
+                                         [FST_CURVE_OPEN_POINTS] = "points pt 6 ps 0.7 lw 1.2",
+                                         [FST_CURVE_LINE_POINTS] = "linespoints pt 7 ps 0.6 lw 2",
+                                         [FST_CURVE_DASHED_POINTS] = "linespoints dt (6,5) pt 6 ps 0.7 lw 2"};
     for (int c = 0; c < count; c++) {
         const fst_chart_curve *curve = &curves[c];
         (void)fprintf(figure->script, "%sdata index '%s%d-curve%d' using 1:2 axes %s with %s lc rgb '%s' ",

@@ -4,7 +4,14 @@
 
 #include "draw/style.h"
 
-typedef enum { FST_CURVE_LINE, FST_CURVE_DASHED, FST_CURVE_POINTS, FST_CURVE_OPEN_POINTS } fst_curve_style;
+typedef enum {
+    FST_CURVE_LINE,
+    FST_CURVE_DASHED,
+    FST_CURVE_POINTS,
+    FST_CURVE_OPEN_POINTS,
+    FST_CURVE_LINE_POINTS, /* few points, which the line only guides the eye between */
+    FST_CURVE_DASHED_POINTS
+} fst_curve_style;
 
 typedef struct fst_chart_curve {
     const char *title;   /* in the key; NULL: not there */

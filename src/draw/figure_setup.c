@@ -11,6 +11,7 @@
 enum { CAMERA_SECONDS = 2, CAMERA_WIDTH = 690, CAMERA_HEIGHT = 640, SKETCH_WIDTH = 760, SKETCH_HEIGHT = 430 };
 
 static const double degree = 0.017453292519943295;
+static const double MOMENT_ANGLE = 110.0; /* of the sketched moment against e_r */
 
 /* ------------------------------------------------------------------ the sketch */
 
@@ -21,12 +22,14 @@ static void write_circle(fst_figure_file *figure, const char *name, double x, do
         (void)fprintf(figure->data, "%.6g %.6g\n", x + radius * cos(i * degree), y + radius * sin(i * degree));
 }
 
-static void write_arc(fst_figure_file *figure, const char *name, double radius, double from, double to)
+/* From the angle `from` to `to`, in degrees, about (x, y). */
+static void write_arc(fst_figure_file *figure, const char *name, double x, double y, double radius, double from,
+                      double to)
 {
     fst_figure_block(figure, name, "x/mm y/mm");
     for (int i = 0; i <= 20; i++) {
         double angle = (from + (to - from) * i / 20.0) * degree;
-        (void)fprintf(figure->data, "%.6g %.6g\n", radius * cos(angle), radius * sin(angle));
+        (void)fprintf(figure->data, "%.6g %.6g\n", x + radius * cos(angle), y + radius * sin(angle));
     }
 }
 
@@ -60,10 +63,11 @@ static void write_sketch_data(fst_figure_file *figure, const fst_params *p)
     const double above[4] = {0.0, 0.0, l, 0.5 * width}, beside[4] = {0.0, -depth, l, 0.5 * MAGNET_THICKNESS};
     write_box(figure, "magnet-above", above, 25.0);
     write_circle(figure, "bead-above", r * cos(60 * degree), r * sin(60 * degree), radius);
-    write_arc(figure, "angle", 12.0, 25.0, 60.0);
+    write_arc(figure, "angle", 0.0, 0.0, 12.0, 25.0, 60.0);
     write_turning(figure);
     write_box(figure, "magnet-beside", beside, 0.0);
     write_circle(figure, "bead-beside", r, radius, radius);
+    write_arc(figure, "theta", r, radius, 6.0, 0.0, MOMENT_ANGLE);
     fst_figure_block(figure, "lines", "x/mm y/mm dx dy: the model's lines of dipoles");
     for (int k = 0; k < p->magnet_lines; k++) {
         double across = p->magnet_lines > 1 ? width * (k / (p->magnet_lines - 1.0) - 0.5) : 0.0;
@@ -117,19 +121,27 @@ fst_status fst_figure_sketch(const fst_params *params, const char *out, fst_erro
     (void)fputs(sketch_plots, figure.script);
     double depth = 1e3 * params->magnet_depth, radius = 1e3 * params->bead_radius;
     double r = 0.9e3 * params->magnet_half_length;
-    (void)fprintf(
-        figure.script,
-        "set arrow 2 from -28,0 to -28,%.5g heads size screen 0.006,20 lc rgb '#666666'\n"
-        "set label 2 '%.4g mm' at -27,%.5g font ',11'\n"
-        "set arrow 3 from %.5g,%.5g to %.5g,%.5g front lc rgb '#222222' lw 2\n"
-        "set label 3 'n' at %.5g,%.5g center front\n"
-        "set arrow 4 from 0,-36 to 0,28 nohead dt 4 lc rgb '#888888'\n"
-        "set label 4 'e_z' at 2,27 textcolor rgb '#666666'\n"
+    double along = 10.0 * cos(MOMENT_ANGLE * degree), up = 10.0 * sin(MOMENT_ANGLE * degree);
+    (void)fprintf(figure.script,
+                  "set arrow 2 from -28,0 to -28,%.5g heads size screen 0.006,20 lc rgb '#666666'\n"
+                  "set label 2 '%.4g mm' at -27,%.5g font ',11'\n"
+                  "set arrow 3 from %.5g,%.5g to %.5g,%.5g front lc rgb '#222222' lw 2\n"
+                  "set label 3 'n' at %.5g,%.5g center front\n"
+                  "set arrow 4 from 0,-36 to 0,28 nohead dt 4 lc rgb '#888888'\n"
+                  "set label 4 'e_z' at 2,27 textcolor rgb '#666666'\n"
+                  "set arrow 5 from %.5g,%.5g rto 11,0 front lc rgb '#009e73' lw 2\n"
+                  "set label 5 'e_r' at %.5g,%.5g center front textcolor rgb '#009e73'\n"
+                  "set label 6 'θ' at %.5g,%.5g center front\n"
+                  "set label 7 'magnet' at 0,%.5g center front font ',11'\n",
+                  -depth, depth, -0.45 * depth, r, radius, r + along, radius + up, r + 1.35 * along,
+                  radius + 1.3 * up, r, radius, r + 12.5, radius + 3.5, r + 5.5, radius + 7.5, -depth);
+    (void)fputs(
         "plot data index 'magnet-beside' using 1:2 with filledcurves closed fc rgb '#eeeeee' notitle, \\\n"
         "     data index 'magnet-beside' using 1:2 with lines lc rgb '#888888' notitle, \\\n"
+        "     data index 'theta' using 1:2 with lines lc rgb '#222222' lw 1.2 notitle, \\\n"
         "     data index 'bead-beside' using 1:2 with filledcurves closed fc rgb '#d55e00' notitle\n"
         "unset multiplot\n",
-        -depth, depth, -0.45 * depth, r, radius, r - 3.4, radius + 9.4, r - 5.0, radius + 12.0);
+        figure.script);
     return fst_figure_finish(&figure, error);
 }
 

@@ -257,7 +257,7 @@ static void read_point(const json_t *object, fst_branch_point *p)
 
 static fst_special_type type_named(const char *name)
 {
-    for (int i = FST_SPECIAL_FOLD; name && i <= FST_SPECIAL_ORIGIN_CROSSING; i++)
+    for (int i = FST_SPECIAL_FOLD; name && i <= FST_SPECIAL_TRANSCRITICAL; i++)
         if (strcmp(name, fst_special_name((fst_special_type)i)) == 0)
             return (fst_special_type)i;
     return FST_SPECIAL_FOLD;

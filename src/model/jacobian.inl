@@ -13,8 +13,14 @@ typedef struct FN(field_derivatives) {
 
 static inline void FN(add_charge)(FN(field_derivatives) * out, REAL s, const REAL d[3])
 {
-    const REAL inverse2 = R(1.0) / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    const REAL distance2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+#ifdef REAL_FAST_RECIPROCAL_SQRT
+    const REAL inverse = REAL_FAST_RECIPROCAL_SQRT(distance2), inverse2 = inverse * inverse;
+    const REAL inverse3 = s * inverse2 * inverse;
+#else
+    const REAL inverse2 = R(1.0) / distance2;
     const REAL inverse3 = s * inverse2 * REAL_SQRT(inverse2);
+#endif
     const REAL inverse5 = inverse3 * inverse2, inverse7 = inverse5 * inverse2;
     for (int i = 0; i < 3; ++i) {
         out->b[i] = out->b[i] + inverse3 * d[i];
@@ -45,7 +51,7 @@ static inline void FN(field_with_derivatives)(const FN(coefficients) * c, REAL x
             out->g[i][j] = out->t[i][j][0] = out->t[i][j][1] = zero;
     }
     for (int line = 0; line < c->lines; ++line) {
-        const REAL dy = y - R(0.5) * (REAL)(2 * line - c->lines + 1) * c->spacing;
+        const REAL dy = y - R(0.5) * REAL_OF(2 * line - c->lines + 1) * c->spacing;
         const REAL to_plus[3] = {x - R(1.0), dy, c->height}, to_minus[3] = {x + R(1.0), dy, c->height};
         FN(add_charge)(out, c->line_strength, to_plus);
         FN(add_charge)(out, -c->line_strength, to_minus);

@@ -26,6 +26,11 @@ double fst_flow_function_at(fst_flow *flow, double x, fst_state_function functio
     if (x == 1.0)
         return function(flow, flow->step.end, &flow->step.context.pull[12]);
     double state[FST_STATE_SIZE];
+    if (function == fst_section_function) { /* all that it looks at; n need not be normalised for that */
+        fst_flow_make_dense(flow);
+        fst_bead_evaluate_dense_double(1, &flow->step.dense[0][FST_X], FST_STATE_SIZE, x, &state[FST_X]);
+        return function(flow, state, NULL);
+    }
     fst_flow_at(flow, x, state);
     fst_pull_double p;
     fst_magnetic_pull_double(&flow->step.context.coefficients, state[FST_X], state[FST_Y], state + FST_NX, &p);

@@ -11,8 +11,8 @@
 
 const char *fst_special_name(fst_special_type type)
 {
-    static const char *const names[] = {"fold", "pitchfork",      "period-doubling",
-                                        "hopf", "neimark-sacker", "origin-crossing"};
+    static const char *const names[] = {"fold",           "pitchfork",       "period-doubling", "hopf",
+                                        "neimark-sacker", "origin-crossing", "transcritical"};
     return (unsigned)type < sizeof names / sizeof *names ? names[type] : "unknown";
 }
 
@@ -348,9 +348,11 @@ static void climb_to_symmetric(const fst_tracer *t, fst_node *start)
     }
 }
 
-/* A counter-rotating orbit to begin with: a symmetric one where there is one, for from it the others are born.
+/* Counter-rotating orbits to begin with: a symmetric one where there is one, for from it the others are born,
+ * and before it the first that was met, in case it lies on none of the branches that are followed from the
+ * other.
  */
-static fst_status first_orbit(fst_tracer *t, fst_node *start, fst_error *error)
+static fst_status first_orbits(fst_tracer *t, fst_node start[2], int *count, fst_error *error)
 {
     enum { TRIALS = 8 };
     static const double part[TRIALS] = {0.5, 0.25, 0.1, 0.75, 0.35, 0.05, 0.9, 0.02};
@@ -358,29 +360,39 @@ static fst_status first_orbit(fst_tracer *t, fst_node *start, fst_error *error)
     const double given = fst_family_value(&t->family);
     fst_error why;
     memset(&why, 0, sizeof why);
-    for (int i = -1; i < TRIALS; ++i) {
+    *count = 0;
+    for (int i = -1; i < TRIALS && *count < 2; ++i) {
         const double value = i < 0 ? given : lo + (hi - lo) * part[i];
-        if (!(value >= lo && value <= hi) || !search_at(t, value, start, &why))
+        if (!(value >= lo && value <= hi) || !search_at(t, value, &start[*count], &why))
             continue;
-        if (!start->s.symmetric)
-            climb_to_symmetric(t, start);
+        if (start[*count].s.symmetric || *count == 0)
+            *count += 1;
+        if (start[*count - 1].s.symmetric)
+            return FST_OK;
+    }
+    if (*count > 0) {
+        climb_to_symmetric(t, start);
         return FST_OK;
     }
     return fst_fail(
         error, FST_NO_CONVERGENCE, "branch",
         "no counter-rotating orbit was found between %.10g and %.10g from the scene's start (the last try: "
-        "%.240s); try another range or start.r",
+        "%.480s); try another range or start.r",
         lo, hi, why.sentence);
 }
 
 static fst_status follow_counter(fst_tracer *t, fst_error *error)
 {
-    fst_node start;
-    fst_status status = first_orbit(t, &start, error);
-    if (status == FST_OK)
-        status = fst_tracer_add(t, &start, error);
-    if (status == FST_OK)
-        status = fst_tracer_run(t, error);
+    fst_node start[2];
+    int count;
+    fst_status status = first_orbits(t, start, &count, error);
+    for (int i = count - 1; i >= 0 && status == FST_OK; --i) {
+        if (orbit_branch(t->out, &start[i].seen) >= 0)
+            continue;
+        status = fst_tracer_add(t, &start[i], error);
+        if (status == FST_OK)
+            status = fst_tracer_run(t, error);
+    }
     return status;
 }
 
@@ -393,8 +405,8 @@ static fst_status check(const fst_branch_options *o, fst_error *error)
     if (!isfinite(o->from) || !isfinite(o->to) || o->from == o->to)
         return fst_fail(error, FST_BAD_INPUT, where,
                         "a branch needs a range with two different ends, not %g to %g", o->from, o->to);
-    if (!(o->tolerance >= 1e-15 && o->tolerance <= 1e-6))
-        return fst_fail(error, FST_BAD_INPUT, where, "tolerance = %g is out of range: 1e-15 to 1e-6",
+    if (!(o->tolerance >= 1e-14 && o->tolerance <= 1e-6))
+        return fst_fail(error, FST_BAD_INPUT, where, "tolerance = %g is out of range: 1e-14 to 1e-6",
                         o->tolerance);
     if (o->second_key &&
         (!isfinite(o->second_from) || !isfinite(o->second_to) || o->second_from == o->second_to))
@@ -473,7 +485,7 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     }
     status = fst_family_begin(&t->family, params, options->key, error);
     t->family.scale = fst_branch_scale(options->key, options->from, options->to);
-    t->family.tolerance = options->tolerance;
+    fst_family_tighten(&t->family, options->tolerance);
     if (status == FST_OK)
         status = options->kind == FST_BRANCH_COUNTER ? follow_counter(t, error) : fst_follow_locked(t, error);
     if (status == FST_OK && options->second_key)

@@ -87,7 +87,7 @@ fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, i
         fst_mark mark;
         fst_quadrature_begin(&run->q, run->flow);
         fst_marks_begin(&run->section_marks);
-        fst_mark_take(&mark, &run->q, run->flow, 1.0);
+        fst_mark_take(&mark, &run->q, run->flow, 1.0, 1);
         fst_marks_offer(&run->section_marks, &mark);
         while (status == FST_OK && fst_twofold_difference(end, run->flow->t) > 0) {
             status = fst_flow_step(run->flow, end.high, error);
@@ -101,7 +101,7 @@ fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, i
             look_at_step(run->flow, out);
         }
         if (status == FST_OK) {
-            fst_mark_take(&mark, &run->q, run->flow, 1.0);
+            fst_mark_take(&mark, &run->q, run->flow, 1.0, 1);
             fst_marks_offer(&run->section_marks, &mark);
             conclude(run, s, out);
             out->least_load = run->q.extreme[FST_TRACK_LOAD].least;

@@ -409,7 +409,8 @@ static fst_status begin_surface(walk *w, const fst_params *params, fst_error *er
     w->surface.first.params = w->surface.second.params; /* the other forms of both are cleared */
     w->surface.first.scale = fst_branch_scale(o->key, o->from, o->to);
     w->surface.second.scale = fst_branch_scale(o->second_key, o->second_from, o->second_to);
-    w->surface.first.tolerance = w->surface.second.tolerance = o->tolerance;
+    fst_family_tighten(&w->surface.first, o->tolerance);
+    fst_family_tighten(&w->surface.second, o->tolerance);
     return FST_OK;
 }
 

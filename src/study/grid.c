@@ -207,7 +207,7 @@ static const axis *axis_over(const fst_grid *grid, const char *key)
 /* Axes along which all rows would be alike are mistakes. */
 static fst_status check_effects(const fst_grid *grid, fst_error *error)
 {
-    const fst_material material = grid->base.bead_material;
+    const fst_material material = (fst_material)grid->base.bead_material;
     const char *wanted = axis_over(grid, "bead.material")                              ? NULL
                          : axis_over(grid, "bead.b") && material != FST_MATERIAL_MIXED ? "bead.b"
                          : axis_over(grid, "bead.a") && material == FST_MATERIAL_HARD  ? "bead.a"

@@ -1,0 +1,156 @@
+"""`festoon paper` cut short, watched on a terminal, and pointed at places where it cannot write."""
+
+import json
+import os
+import pty
+import re
+import select
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+FESTOON = os.environ["FESTOON"]
+
+if shutil.which("gnuplot") is None:
+    sys.exit(77)
+
+
+def start(directory, **more):
+    return subprocess.Popen([FESTOON, "paper", "--reduced", "-o", str(directory)], stdin=subprocess.DEVNULL,
+                            **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True, **more})
+
+
+class Interrupted(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.scratch.name)
+        cls.directory = cls.folder / "paper"
+        done = start(cls.directory)
+        _, messages = done.communicate()
+        assert done.returncode == 0, messages
+        cls.whole = json.loads((cls.directory / "paper.json").read_text())
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def check_what_is_there(self, directory, fewest):
+        """Valid JSON that says so, a whole page, every figure named is there, and every number is the whole's."""
+        paper = json.loads((directory / "paper.json").read_text())
+        self.assertFalse(paper["complete"])
+        page = (directory / "report.html").read_text()
+        self.assertIn("Incomplete", page)
+        self.assertTrue(page.rstrip().endswith("</html>"))
+        whole = {statement["id"]: statement for statement in self.whole["statements"]}
+        self.assertTrue(fewest <= len(paper["statements"]) < len(whole), len(paper["statements"]))
+        for statement in paper["statements"]:
+            self.assertEqual(statement, whole[statement["id"]])
+        for figure in paper["figures"]:
+            self.assertTrue((directory / figure["file"]).read_text().rstrip().endswith("</svg>"))
+        self.assertFalse([path for path in directory.iterdir() if path.suffix not in
+                          (".svg", ".gp", ".dat", ".json", ".html")])
+        return paper
+
+    def cut_short(self, name, moment):
+        directory = self.folder / name
+        process = start(directory)
+        deadline = time.monotonic() + 600
+        while not moment(directory) and process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        out, messages = process.communicate()
+        self.assertEqual((process.returncode, out), (130, ""), messages)
+        self.assertIn("marked incomplete", messages)
+        return directory
+
+    def test_at_once(self):
+        directory = self.cut_short("at-once", Path.is_dir)
+        self.check_what_is_there(directory, 0)
+
+    def test_among_the_figures(self):
+        directory = self.cut_short("figures", lambda d: (d / "sketch.svg").exists())
+        self.check_what_is_there(directory, 20)
+
+    def test_after_the_first_figures(self):
+        directory = self.cut_short("after", lambda d: (d / "om04-rigid.svg").exists() and (d / "test.svg").exists())
+        paper = self.check_what_is_there(directory, 40)
+        self.assertTrue(any(figure["name"] == "om04-rigid" for figure in paper["figures"]))
+        # The same command makes the whole of it, over what is there.
+        again = start(directory)
+        _, messages = again.communicate()
+        self.assertEqual(again.returncode, 0, messages)
+        paper = json.loads((directory / "paper.json").read_text())
+        self.assertTrue(paper["complete"])
+        for document in (paper, self.whole):
+            document["provenance"].pop("seconds", None)
+            document["provenance"].pop("parts", None)
+        self.assertEqual(paper, self.whole)  # to the last bit
+        self.assertNotIn("Incomplete", (directory / "report.html").read_text())
+        self.assertEqual(sorted(p.name for p in directory.iterdir()), sorted(p.name for p in self.directory.iterdir()))
+
+    def test_progress_and_ctrl_c_on_a_terminal(self):
+        """A line with the share done and the time left; Ctrl-C reaches gnuplot as well, and is an interruption."""
+        for name, until in (("runs", r"s left +runs"), ("drawing", r"s left +figures")):
+            directory = self.folder / f"terminal-{name}"
+            pid, terminal = pty.fork()
+            if pid == 0:
+                os.execv(FESTOON, [FESTOON, "paper", "--reduced", "-o", str(directory)])
+            shown, sent, deadline = "", False, time.monotonic() + 600
+            while time.monotonic() < deadline:
+                if select.select([terminal], [], [], 1.0)[0]:
+                    try:
+                        shown += os.read(terminal, 4096).decode(errors="replace")
+                    except OSError:  # the other end is closed
+                        break
+                if not sent and re.search(until, shown):
+                    os.write(terminal, b"\x03")
+                    sent = True
+            os.close(terminal)
+            status = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
+            self.assertTrue(sent, shown)
+            self.assertEqual(status, 130, shown)
+            self.assertRegex(shown, r"\d+\.\d %  \d+ s left  runs")
+            self.check_what_is_there(directory, 0)
+
+
+class Directories(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = Path(self.scratch.name)
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def fails(self, directory, status, words):
+        process = start(directory)
+        out, messages = process.communicate()
+        self.assertEqual((process.returncode, out), (status, ""), messages)
+        self.assertIn(words, messages)
+
+    def test_a_file(self):
+        """A file is no directory, nor has it one; it stays as it is."""
+        path = self.folder / "a file"
+        path.write_text("kept")
+        self.fails(path, 2, "a file")
+        self.fails(path / "below", 1, "below")
+        self.assertEqual(path.read_text(), "kept")
+
+    def test_missing_parents(self):
+        self.fails(self.folder / "no" / "such", 1, "such")
+
+    def test_not_writable(self):
+        """Told in a sentence before anything is computed, and nothing is left there."""
+        path = Path("/proc/self") if os.geteuid() == 0 else self.folder / "closed"
+        if os.geteuid() != 0:
+            path.mkdir(mode=0o555)
+        self.fails(path, 1, "paper.json")
+
+
+if __name__ == "__main__":
+    unittest.main()
