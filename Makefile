@@ -26,7 +26,7 @@ test: ## build and run the tests, but the long ones
 	@ctest --preset release -j $(JOBS)
 
 test-long: ## run the long tests
-	@$(PACKAGES) test
+	@$(PACKAGES) test-long
 	@cmake --preset release --log-level=WARNING -DFESTOON_TESTS=ON
 	@cmake --build build -j $(JOBS)
 	@ctest --preset release-long -j $(JOBS)

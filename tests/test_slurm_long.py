@@ -1,7 +1,7 @@
 """examples/sweep-slurm.sbatch under a Slurm of its own on this machine: controller, node and authentication.
 
-Needs root and Debian's slurm-wlm and munge; skipped otherwise.  Environment: FESTOON is the program, SOURCE_DIR the
-source tree.
+Needs root and Debian's slurmctld, slurmd, slurm-client and munge, but no systemd; skipped otherwise.  Environment:
+FESTOON is the program, SOURCE_DIR the source tree.
 """
 
 import os
@@ -129,6 +129,7 @@ class Slurm(Case):
 if __name__ == "__main__":
     missing = [name for name in NEEDED if not shutil.which(name)]
     if os.getuid() != 0 or missing or "mpi yes" not in festoon("--version")[1]:
-        print(f"skipped: needs root and MPI, and misses {', '.join(missing) or 'no program'} (slurm-wlm, munge)")
+        print(f"skipped: needs root and MPI, and misses {', '.join(missing) or 'no program'} "
+              "(slurmctld, slurmd, slurm-client, munge)")
         sys.exit(77)
     unittest.main()

@@ -6,6 +6,7 @@ Environment: FESTOON is the program, SOURCE_DIR the source tree.
 import csv
 import io
 import json
+import math
 import os
 import pty
 import re
@@ -13,6 +14,7 @@ import sqlite3
 import subprocess
 import unittest
 
+from hdf5_reader import Hdf5
 from sweep_tools import FESTOON, SHORT, SMALL, Case, content_of, festoon
 
 
@@ -207,6 +209,40 @@ class Exports(Case):
         self.assertTrue(status == 0 or "HDF5" in err, err)
         self.refused("export", self.path("a.db"), "--hdf5")
         self.refused("export", self.path("a.db"), "--csv", "--json")
+
+    def test_hdf5_holds_what_csv_says(self):
+        """Read by HDF5's own library through ctypes."""
+        self.good("sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:6", "--over", "model.dynamics=rigid,farago2020",
+                  "-o", self.path("a.db"))
+        base = sqlite3.connect(self.path("a.db"))  # an incomplete sweep, with a run that failed
+        base.execute("DELETE FROM rows WHERE point = 7")
+        base.execute("UPDATE rows SET status = 'bad input', regime = NULL, mean_r = NULL WHERE point = 3")
+        base.commit()
+        base.close()
+        status, _, err = festoon("export", self.path("a.db"), "--hdf5", "-o", self.path("a.h5"))
+        if status == 1 and "HDF5" in err:
+            self.skipTest("built without HDF5")
+        self.assertEqual(status, 0, err)
+        rows = list(csv.DictReader(io.StringIO(self.rows("a.db"))))
+        self.assertEqual(len(rows), 11)
+        file = Hdf5(self.path("a.h5"))
+        self.addCleanup(file.close)
+        names = set(file.names())
+        self.assertEqual(set(rows[0]) - names, {"reason"})  # free text has no number
+        for name in names:
+            codes = file.attribute(name, "description").split("|")
+            column = file.column(name)
+            self.assertEqual(len(column), len(rows), name)
+            for row, value in zip(rows, column):
+                text = row[name]
+                if text == "" or (name == "status" and text != "done"):
+                    self.assertTrue(math.isnan(value), name)
+                elif name in ("status", "regime", "symmetry", "dynamics", "model.dynamics"):
+                    self.assertEqual(codes[int(value)], text)
+                else:
+                    self.assertEqual(value, float(text), name)
+        self.assertEqual(file.attribute("mean_r", "unit"), "l")
+        self.assertEqual(file.attribute("drive.frequency", "unit"), "Hz")
 
     def test_figures(self):
         self.good("sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:12", "-o", self.path("line.db"))

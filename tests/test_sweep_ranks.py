@@ -123,7 +123,14 @@ class Deaths(RankCase):
             time.sleep(0.05)
         process.send_signal(signal.SIGINT)  # of mpirun, which has a status of its own
         self.assertNotEqual(self.finish(process)[0], 0)
-        self.assertTrue(first < self.committed("a.db") < 800)
+        second = self.committed("a.db")
+        self.assertTrue(first < second < 800)
+        base = sqlite3.connect(self.path("a.db"))
+        self.assertEqual(base.execute("PRAGMA integrity_check").fetchall(), [("ok",)])
+        base.close()
+        out = self.sweep(2, "a.db", *long, "--json")  # the same command goes on
+        self.assertIn(f'"added": {800 - second},', out)
+        self.assertEqual(self.committed("a.db"), 800)
 
 
 class Refusals(RankCase):

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Install the Debian packages that a make target needs and the machine lacks.
 #
-#   tools/install-packages.sh SET        SET: build demo test bench docs format ci
+#   tools/install-packages.sh SET        SET: build demo test test-long bench docs format ci
 #
 # With nothing missing it costs a look into dpkg's database.  Otherwise it says what is missing and installs it,
 # as root or by a sudo that asks nothing; failing both, it prints the command to run and ends with status 1.
@@ -11,21 +11,24 @@ build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansso
     liblapacke-dev libcairo2-dev libopenmpi-dev"
 demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
 test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
+# A Slurm of its own for the sweep under Slurm: the daemons run as root without systemd, in a container too.
+long_packages="$test_packages slurmctld slurmd slurm-client munge"
 bench_packages="$build_packages g++ gnuplot-nox libgsl-dev libboost-dev python3-scipy auto-07p"
 docs_packages="$build_packages doxygen"
 format_packages="clang-format"
-ci_packages="$test_packages clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev libboost-dev librsvg2-bin"
+ci_packages="$long_packages clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev libboost-dev librsvg2-bin"
 
 case "${1-}" in
 build) wanted=$build_packages ;;
 demo) wanted=$demo_packages ;;
 test) wanted=$test_packages ;;
+test-long) wanted=$long_packages ;;
 bench) wanted=$bench_packages ;;
 docs) wanted=$docs_packages ;;
 format) wanted=$format_packages ;;
 ci) wanted=$ci_packages ;;
 *)
-    echo "usage: $0 build|demo|test|bench|docs|format|ci" >&2
+    echo "usage: $0 build|demo|test|test-long|bench|docs|format|ci" >&2
     exit 2
     ;;
 esac

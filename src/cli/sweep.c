@@ -8,7 +8,7 @@ static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
     {"over", '\0', "KEY=VALUES",
-     "vary KEY: LO:HI:COUNT, LO:HI:COUNT:log, A,B,C or LO:HI:random:COUNT (again for more)"},
+     "vary KEY: LO:HI:COUNT, LO:HI:COUNT:log, A,B,C or LO:HI:random:COUNT (again, for up to 8)"},
     {"output", 'o', "FILE.db", "the database; the same command again goes on with it"},
     {"carry", '\0', "up|down",
      "start each point from the end of its neighbour along the first --over (hysteresis)"},
@@ -150,8 +150,14 @@ const command sweep_command = {
     .summary = "Run every point of a grid into a database, and go on where it stopped",
     .details =
         "Both ends of LO:HI are included, and values may carry units: --over drive.frequency=1Hz:120Hz:240.  "
-        "Each\n"
-        "point gets one row with the keys of festoon run.  Killed at any moment, the same command goes on.\n",
+        "Several\n"
+        "--over multiply, the last one running fastest; random ones are drawn together.  Each point gets one "
+        "row with\n"
+        "the keys of festoon run; runs that fail have rows too.  Killed or interrupted (Ctrl-C, status 130) at "
+        "any\n"
+        "moment, the same command goes on.  Under mpirun -n N or srun --mpi=pmix the points are shared "
+        "between\n"
+        "processes; interrupted, mpirun has a status of its own, and what was committed stays all the same.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,
