@@ -128,6 +128,7 @@ typedef struct fst_paper_state {
     const fst_paper_options *options;
     const char *directory;
     int counts[FST_SCAN_COUNT];
+    int films;                   /* that are made */
     int first_scan;              /* runs of the scans before this one are not made */
     int drawn[FST_MOST_FIGURES]; /* by the index of the figure */
     fst_paper_run *scans[FST_SCAN_COUNT][FST_PAPER_DYNAMICS];
@@ -328,7 +329,9 @@ fst_status fst_paper_draw_sketch(const fst_paper_state *paper, const fst_paper_f
 fst_status fst_paper_draw_camera(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
                                  fst_error *error);
 
-/* The supplement's two films, beside the figures. */
+/* The supplement's two films, beside the figures; paper->films counts those that are made, in this order. */
+enum { FST_FILM_COUNT = 2 };
+extern const char *const fst_film_names[FST_FILM_COUNT];
 fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error);
 
 /* ------------------------------------------------------------------ what is written */

@@ -212,6 +212,10 @@ fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error)
     json_object_set_new(document, "orbits", orbits_object(paper));
     json_object_set_new(document, "statements", statements_array(paper));
     json_object_set_new(document, "figures", figures_array(paper));
+    json_t *films = json_array();
+    for (int i = 0; i < paper->films; i++)
+        json_array_append_new(films, json_sprintf("%s.mp4", fst_film_names[i]));
+    json_object_set_new(document, "films", films);
     json_object_set_new(document, "provenance", provenance_object(paper));
     fst_whole_file file;
     fst_status status = path && document ? fst_whole_file_open(&file, path, error)
