@@ -269,21 +269,37 @@ class Paper(unittest.TestCase):
         self.assertEqual([row.split(" | ")[1] for row in rows], [s["statement"] for s in self.paper["statements"]])
 
     def test_verdicts_follow_their_rules(self):
-        """Each verdict, made again from value, published value and the limits of the criterion."""
+        """Each verdict, made again by the rules of docs/paper.md from value, published value and scale alone."""
+        def rule(name, value, published, scale):
+            if name in ("never", "symmetry"):
+                return "reproduced" if value == published else "not reproduced"
+            if value is None:
+                return "not reproduced"
+            if name in ("notable", "mostly"):
+                least = {"notable": (0.1, 0.03), "mostly": (0.5, 0.25)}[name]
+                passed = [value >= share * scale for share in least]
+            elif name == "magnitude":
+                passed = [abs(math.log10(value / published)) <= orders for orders in (0.5, 1.0)]
+            elif name in ("number", "limit"):
+                off = value - published if name == "limit" else abs(value - published)
+                passed = [off <= 0.5 * scale, off <= max(0.5 * scale, min(10 * scale, 0.2 * abs(published)))]
+            else:
+                shares = {"small": (0.1, 0.3), "law": (1e-6, 1e-3)}[name]
+                passed = [abs(value - published) <= share * scale for share in shares]
+            return "reproduced" if passed[0] else "close" if passed[1] else "not reproduced"
+        met = set()
         for statement in self.paper["statements"]:
-            limits = re.match(r"(number|limit); reproduced: (.*); close: (.*)", statement["criterion"])
-            if not limits:
-                continue
-            for dynamics in ("farago2020", "rigid"):
-                expected = "not reproduced"
-                for verdict, text in (("close", limits[3]), ("reproduced", limits[2])):
-                    ends = [float(x) for x in re.findall(r"-?\d[\d.e+-]*", text)]
-                    if limits[1] == "limit":
-                        ends.insert(0, float("-inf"))
-                    if ends[0] <= statement[dynamics] <= ends[1]:
-                        expected = verdict
-                key = "verdict" if dynamics == "farago2020" else "rigid_verdict"
+            name = re.match(r"\w+", statement["criterion"])[0]
+            for dynamics, key in (("farago2020", "verdict"), ("rigid", "rigid_verdict")):
+                expected = rule(name, statement[dynamics], statement["published"], statement["scale"])
                 self.assertEqual(statement[key], expected, statement)
+                met.add((name, expected))
+        self.assertGreater(len(met), 15)
+        # The natural scale is no matter of choice: one unit of the last digit, or what the unit says.
+        for statement in self.paper["statements"]:
+            if re.match("small|notable|mostly", statement["criterion"]):
+                usual = {"%": 100, "deg": 90}.get(statement["unit"], max(abs(statement["published"] or 0), 0.5) or 1)
+                self.assertIn(statement["scale"], (usual, 1), statement)
 
     def test_without_lapack(self):
         """A sentence stands for what needs the orbits, and the rest of the paper is there."""

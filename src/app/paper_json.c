@@ -144,6 +144,7 @@ static json_t *statement_object(const fst_statement *statement, const fst_paper_
     json_object_set_new(object, "published_words",
                         statement->said ? json_string(statement->said) : json_null());
     json_object_set_new(object, "unit", json_string(statement->unit));
+    json_object_set_new(object, "scale", json_real(statement->scale));
     json_object_set_new(object, "criterion", json_string(criterion));
     json_object_set_new(object, "verdict",
                         json_string(fst_verdict_name(finding.verdict[FST_DYNAMICS_FARAGO2020])));
