@@ -1,26 +1,5 @@
 /* measures_field.c - statements about the field, and about the forces along a path. */
-#include "app/measures.h"
-
-#include "app/collect.h"
-
-#include <stdio.h>
-
-#define PI 3.14159265358979323846
-#define MEASURE(name)                                                                                          \
-    double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)
-#define NO_NOTE ((void)note, (void)size)
-
-static const fst_run_result *single(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
-{
-    return &fst_paper_single(paper, scan, dynamics)->result;
-}
-
-static fst_model *model_of(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
-{
-    fst_model *model = NULL;
-    return fst_model_new(&fst_paper_single(paper, scan, dynamics)->params, &model, NULL) == FST_OK ? model
-                                                                                                   : NULL;
-}
+#include "app/measures_parts.h"
 
 /* ------------------------------------------------------------------ the field */
 

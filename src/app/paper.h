@@ -308,6 +308,8 @@ void fst_paper_figure_command(const fst_paper_state *paper, const fst_paper_figu
 /* Draw every figure that can be drawn and was not; the progress goes from `from` to `to`. */
 fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to, fst_error *error);
 /* Figures of curves over the drive (paper_charts.c); see fst_paper_figure.draw. */
+fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                 fst_error *error);
 fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_paper_figure *figure,
                                      const char *out, fst_error *error);
 fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
@@ -317,9 +319,7 @@ fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_fig
 fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_paper_figure *figure,
                                     const char *out, fst_error *error);
 
-/* Figures of the experiment and of the probes (paper_probe_charts.c). */
-fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
-                                 fst_error *error);
+/* Figures of the probes, the sketch and the camera's (paper_probe_charts.c). */
 fst_status fst_paper_draw_supercritical(const fst_paper_state *paper, const fst_paper_figure *figure,
                                         const char *out, fst_error *error);
 fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_paper_figure *figure,
