@@ -105,6 +105,27 @@ MEASURE(resonance)
     return greatest / size_of[2];
 }
 
+/* How much of the field on the circle r = 0.9 has the appendix's structure: the mean of B.(sin(Phi) e_alpha +
+ * cos(Phi) e_z) over the root mean square of B, with either sign of the magnet. */
+MEASURE(field_structure)
+{
+    enum { ANGLES = 360 };
+    fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
+    double along = 0.0, square = 0.0, r = 0.9;
+    if (!model)
+        return NAN;
+    for (int i = 0; i < ANGLES; i++) {
+        double turn = 2.0 * PI * i / ANGLES, c = cos(turn), s = sin(turn), b[3], g[3][3];
+        fst_field(model, r * c, r * s, b, g);
+        along += ((b[1] * c - b[0] * s) * s + b[2] * c) / ANGLES;
+        square += (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]) / ANGLES;
+    }
+    fst_model_free(model);
+    (void)snprintf(note, size,
+                   "on the circle r = 0.9: mean of the field along that direction over its root mean square");
+    return fabs(along) / sqrt(square);
+}
+
 MEASURE(sine_law)
 {
     fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
