@@ -207,10 +207,9 @@ fst_status fst_follow_locked(fst_tracer *t, fst_error *error)
         t->share[0] = slice ? whole * (first + (1.0 - first) * (slice - 1) / (SLICES - 1)) : 0.0;
         t->share[1] = whole * (first + (1.0 - first) * slice / (SLICES - 1));
         status = fst_tracer_progress(t, error);
-        if (status == FST_OK)
-            status = find_all(&t->family, lo + (hi - lo) * (part * part), FEWER_STARTS, &f, error);
         if (status != FST_OK)
             break;
+        status = find_all(&t->family, lo + (hi - lo) * (part * part), FEWER_STARTS, &f, error);
         for (int i = 0; i < f.count && status == FST_OK; ++i) {
             fst_node node;
             fst_solution s = f.found[i].s;
