@@ -300,6 +300,21 @@ static void between_samples_the_path_is_smooth(void **unused)
     assert_true(error[0] / error[1] > 14.0 && error[0] / error[1] < 18.0);
 }
 
+static void units_have_their_symbols(void **unused)
+{
+    (void)unused;
+    static const char *const pairs[][2] = {
+        {"l^2 gamma^3", "ℓ²γ³"}, {"1/gamma", "1/γ"}, {"B0", "B₀"}, {"deg", "°"}, {"rad", "rad"}, {"", ""}};
+    char text[32];
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
+        fst_unit_symbols(pairs[i][0], text, sizeof text);
+        assert_string_equal(text, pairs[i][1]);
+    }
+    char tight[4]; /* never beyond its end */
+    fst_unit_symbols("1/gamma", tight, sizeof tight);
+    assert_true(strlen(tight) < sizeof tight);
+}
+
 int main(void)
 {
     if (system("gnuplot --version >/dev/null 2>&1") != 0)
@@ -310,6 +325,7 @@ int main(void)
         return 1;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(between_samples_the_path_is_smooth),
+        cmocka_unit_test(units_have_their_symbols),
         cmocka_unit_test_teardown(every_kind_in_every_format, clear_directory),
         cmocka_unit_test_teardown(the_script_draws_the_figure_again, clear_directory),
         cmocka_unit_test_teardown(bad_requests_say_what_is_wrong, clear_directory),

@@ -367,6 +367,9 @@ FST_API fst_status fst_run(const fst_params *params, const fst_run_options *opti
 /* These need LAPACK; FST_UNAVAILABLE where this build or machine has none.  Methods and criteria:
  * docs/orbits.md. */
 
+/* Whether it can be called. */
+FST_API int fst_lapack_present(void);
+
 enum { FST_MULTIPLIER_COUNT = 8, FST_EIGENVALUE_COUNT = 9, FST_LYAPUNOV_TRACE = 64 };
 
 /* A periodic orbit of the turning frame. */
@@ -378,8 +381,12 @@ typedef struct fst_orbit {
     double multiplier_re[FST_MULTIPLIER_COUNT]; /* of the half map composed with S2 for S2, else of the full
                                                    map; */
     double multiplier_im[FST_MULTIPLIER_COUNT]; /* flow direction and |n| are split off */
-    double trivial_error;                       /* how exactly the flow direction was mapped onto itself */
-    double residual;                            /* greatest component of what Newton's equations leave */
+    double relaxation_time; /* in which a small disturbance falls by e, from the leading multiplier; NAN:
+                               unstable */
+    double swing_ratio;   /* the paper's p: of the two falls of r in a turn the larger over the other, minus 1;
+                           * NAN:   there are not two */
+    double trivial_error; /* how exactly the flow direction was mapped onto itself */
+    double residual;      /* greatest component of what Newton's equations leave */
     double state[FST_STATE_SIZE]; /* on Phi = pi/2, passed downward; a libration: where r is greatest */
 } fst_orbit;
 
@@ -435,6 +442,7 @@ typedef struct fst_branch_point {
     double value;  /* of the parameter */
     double second; /* of the second one, NAN where there is none */
     double omega, mean_r, mean_alpha_dot, mean_nz, festoons, period, min_r, phi_deg, slip;
+    double relaxation_time, swing_ratio; /* as of an orbit; of an equilibrium the former */
     fst_symmetry symmetry;
     int stable, turns, branch;
     int multipliers; /* 8 of an orbit, 9 eigenvalues of an equilibrium */
@@ -477,6 +485,7 @@ typedef struct fst_branch {
     fst_branch_end *ends; /* two a branch */
     size_t end_count;
     int branches;
+    int complete; /* 0: stopped by the caller before its end */
 } fst_branch;
 
 typedef struct fst_branch_options {
@@ -499,7 +508,8 @@ FST_API fst_branch_options fst_default_branch_options(void);
 
 /* Follow the counter-rotating family (the S2 branch both ways, the S1 branches that leave it, through r = 0 and
  * beyond), or every family of equilibria, or all of it, over a parameter; or the curves of special points over
- * two.  Free it with fst_branch_free(). */
+ * two.  Free it with fst_branch_free().  FST_INTERRUPTED (from `progress`): the branch holds what was found
+ * until then, and is to be freed too. */
 FST_API fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options,
                                      fst_branch *branch, fst_error *error);
 FST_API void fst_branch_free(fst_branch *branch);

@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "base/whole_file.h"
 #include "draw/ffmpeg.h"
+#include "draw/style.h"
 #include "io/module.h"
 
 #include <errno.h>
@@ -95,7 +96,9 @@ static void set_stage(film *f, const fst_table *table)
     (void)snprintf(f->title, sizeof f->title, "%.3g Hz (ω = %.4g), %s", hertz, omega,
                    p->model_dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
     f->slower = hertz * f->options->seconds_per_turn;
-    (void)snprintf(f->label, sizeof f->label, "%s (%s)", m->colour_info->name, m->colour_info->unit);
+    char unit[32];
+    fst_unit_symbols(m->colour_info->unit, unit, sizeof unit);
+    (void)snprintf(f->label, sizeof f->label, "%s (%s)", m->colour_info->name, unit);
     f->stage = (fst_film_stage){
         .width = f->options->width,
         .height = f->options->height,

@@ -1,20 +1,6 @@
-#include "app/measures.h"
-
-#include "app/collect.h"
+#include "app/measures_parts.h"
 
 #include <complex.h>
-#include <stdio.h>
-
-#define PI 3.14159265358979323846
-#define DEGREES (180.0 / PI)
-#define MEASURE(name)                                                                                          \
-    double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)
-#define NO_NOTE ((void)note, (void)size)
-
-static const fst_run_result *single(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
-{
-    return &fst_paper_single(paper, scan, dynamics)->result;
-}
 
 /* ------------------------------------------------------------------ the field */
 

@@ -101,6 +101,7 @@ FST_MEASURE(modulation)       /* squared correlation of r and the radial force *
 FST_MEASURE(friction_outside) /* friction's share of the forces near the maxima of r, % */
 
 FST_MEASURE(resonance)       /* mean radial force for phi at other rates than Phi's, over that of -1 */
+FST_MEASURE(field_structure) /* share of the appendix's orthoradial field in the whole one */
 FST_MEASURE(line_of_dipoles) /* a line of dipoles against its two charges */
 FST_MEASURE(force_at_ends)   /* magnet's force at its ends over that at its middle, less 1, % */
 FST_MEASURE(pull_weakens)    /* by how much the pull inwards falls from the ends to the middle, % */

@@ -1,13 +1,5 @@
 /* measures_equations.c - the paper's printed equations of motion, put to the motions that were computed. */
-#include "app/measures.h"
-
-#include "app/collect.h"
-
-#include <stdio.h>
-
-#define MEASURE(name)                                                                                          \
-    double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)
-#define NO_NOTE ((void)note, (void)size)
+#include "app/measures_parts.h"
 
 enum { STRIDE = 16 }; /* every so many samples of a trajectory */
 
@@ -207,8 +199,8 @@ static double appendix(const fst_paper_state *paper, fst_dynamics dynamics, equa
     static const double POLE = 0.95; /* |n_r| beyond which the angles lose their meaning */
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD4, dynamics);
     leftover sums[EQUATION_COUNT] = {{0.0, 0.0}};
-    fst_model *model = NULL;
-    if (fst_model_new(&run->params, &model, NULL) != FST_OK)
+    fst_model *model = model_of(paper, FST_SCAN_FOLD4, dynamics);
+    if (!model)
         return NAN;
     const fst_groups g = fst_model_groups(model);
     for (size_t row = 0; row < run->trajectory.rows; row += STRIDE) {
@@ -260,8 +252,8 @@ MEASURE(second_balance)
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics);
     const fst_table *table = &run->trajectory;
     double sum = 0.0;
-    fst_model *model = NULL;
-    if (fst_model_new(&run->params, &model, NULL) != FST_OK)
+    fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
+    if (!model)
         return NAN;
     const fst_groups g = fst_model_groups(model);
     for (size_t row = 0; row < table->rows; row++) {

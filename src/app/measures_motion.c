@@ -1,27 +1,8 @@
 /* measures_motion.c - what the paper says about the motion, read off trajectories and probes. */
-#include "app/measures.h"
-
-#include "app/collect.h"
+#include "app/measures_parts.h"
 
 #include <complex.h>
-#include <stdio.h>
 #include <stdlib.h>
-
-#define PI 3.14159265358979323846
-#define DEGREES (180.0 / PI)
-#define MEASURE(name)                                                                                          \
-    double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)
-#define NO_NOTE ((void)note, (void)size)
-
-static const fst_run_result *single(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
-{
-    return &fst_paper_single(paper, scan, dynamics)->result;
-}
-
-static double eps_of(const fst_paper_run *run)
-{
-    return run->params.bead_radius / run->params.magnet_half_length;
-}
 
 /* ------------------------------------------------------------------ where friction acts */
 

@@ -1,13 +1,6 @@
 /* measures_theory.c - the paper's estimates, its Appendix on corotation, and beads that the field magnetises.
  */
-#include "app/measures.h"
-
-#include <stdio.h>
-
-#define PI 3.14159265358979323846
-#define MEASURE(name)                                                                                          \
-    double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)
-#define NO_NOTE ((void)note, (void)size)
+#include "app/measures_parts.h"
 
 static const fst_params *scene(const fst_paper_state *paper, fst_dynamics dynamics)
 {
@@ -38,9 +31,9 @@ MEASURE(bead_radius)
 
 MEASURE(orthoradial)
 {
-    fst_model *model = NULL;
+    fst_model *model = model_of(paper, FST_SCAN_FOLD4, dynamics);
     double along = 0.0, all = 0.0;
-    if (fst_model_new(scene(paper, dynamics), &model, NULL) != FST_OK)
+    if (!model)
         return NAN;
     for (int i = 0; i < 360; i++) {
         double phi = PI * i / 180.0, c = cos(phi), s = sin(phi), b[3], gradient[3][3];
@@ -145,8 +138,8 @@ MEASURE(corotation_beads)
 
 MEASURE(counter_force)
 {
-    fst_model *model = NULL;
-    if (fst_model_new(scene(paper, dynamics), &model, NULL) != FST_OK)
+    fst_model *model = model_of(paper, FST_SCAN_FOLD4, dynamics);
+    if (!model)
         return NAN;
     int outwards = 0, radii = 0;
     double turns = NAN; /* the radius beyond which it points inwards */
@@ -166,8 +159,8 @@ MEASURE(counter_force)
 
 MEASURE(corotation_force)
 {
-    fst_model *model = NULL;
-    if (fst_model_new(scene(paper, dynamics), &model, NULL) != FST_OK)
+    fst_model *model = model_of(paper, FST_SCAN_FOLD4, dynamics);
+    if (!model)
         return NAN;
     double with = fst_ansatz_force(model, 1.05, 1), against = fst_ansatz_force(model, 1.05, -1);
     fst_model_free(model);

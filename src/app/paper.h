@@ -128,6 +128,7 @@ typedef struct fst_paper_state {
     const fst_paper_options *options;
     const char *directory;
     int counts[FST_SCAN_COUNT];
+    int films;                   /* that are made */
     int first_scan;              /* runs of the scans before this one are not made */
     int drawn[FST_MOST_FIGURES]; /* by the index of the figure */
     fst_paper_run *scans[FST_SCAN_COUNT][FST_PAPER_DYNAMICS];
@@ -307,6 +308,8 @@ void fst_paper_figure_command(const fst_paper_state *paper, const fst_paper_figu
 /* Draw every figure that can be drawn and was not; the progress goes from `from` to `to`. */
 fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to, fst_error *error);
 /* Figures of curves over the drive (paper_charts.c); see fst_paper_figure.draw. */
+fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                 fst_error *error);
 fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_paper_figure *figure,
                                      const char *out, fst_error *error);
 fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
@@ -316,9 +319,7 @@ fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_fig
 fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_paper_figure *figure,
                                     const char *out, fst_error *error);
 
-/* Figures of the experiment and of the probes (paper_probe_charts.c). */
-fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
-                                 fst_error *error);
+/* Figures of the probes, the sketch and the camera's (paper_probe_charts.c). */
 fst_status fst_paper_draw_supercritical(const fst_paper_state *paper, const fst_paper_figure *figure,
                                         const char *out, fst_error *error);
 fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_paper_figure *figure,
@@ -328,7 +329,9 @@ fst_status fst_paper_draw_sketch(const fst_paper_state *paper, const fst_paper_f
 fst_status fst_paper_draw_camera(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
                                  fst_error *error);
 
-/* The supplement's two films, beside the figures. */
+/* The supplement's two films, beside the figures; paper->films counts those that are made, in this order. */
+enum { FST_FILM_COUNT = 2 };
+extern const char *const fst_film_names[FST_FILM_COUNT];
 fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error);
 
 /* ------------------------------------------------------------------ what is written */

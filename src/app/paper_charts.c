@@ -103,13 +103,13 @@ static const fst_scan whole_range[2] = {FST_SCAN_COMPARISON, FST_SCAN_FAST};
 
 static const struct {
     fst_dynamics dynamics;
-    fst_colour colour;
     fst_curve_style style;
-    const char *name;
-} two_dynamics[FST_PAPER_DYNAMICS] = {
-    {FST_DYNAMICS_FARAGO2020, FST_COLOUR_BLUE, FST_CURVE_LINE, "farago2020 (as printed)"},
-    {FST_DYNAMICS_RIGID, FST_COLOUR_VERMILION, FST_CURVE_DASHED, "rigid (exact)"},
-};
+} two_dynamics[FST_PAPER_DYNAMICS] = {{FST_DYNAMICS_FARAGO2020, FST_CURVE_LINE},
+                                      {FST_DYNAMICS_RIGID, FST_CURVE_DASHED}};
+
+/* Their names and colours, for add_both(). */
+static const char *const both_names[FST_PAPER_DYNAMICS] = {"farago2020 (as printed)", "rigid (exact)"};
+static const fst_colour both_colours[FST_PAPER_DYNAMICS] = {FST_COLOUR_BLUE, FST_COLOUR_VERMILION};
 
 /* The curve of each dynamics through the runs of `through`, in the order of two_dynamics[]. */
 static const fst_chart_curve *add_both(curves *all, const fst_paper_state *paper, const fst_scan through[2],
@@ -181,6 +181,43 @@ fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_pap
     return draw_and_free(&all, out, &chart, error);
 }
 
+/* ------------------------------------------------------------------ Fig. radius */
+
+static double millimetres_of(const fst_paper_run *run)
+{
+    return 1e3 * run->params.magnet_half_length;
+}
+
+REGULAR(mean_r_mm, millimetres_of(run) * run->result.mean_r)
+REGULAR(std_r_mm, millimetres_of(run) * run->result.std_r)
+
+fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                 fst_error *error)
+{
+    curves all = {.status = FST_OK};
+    const fst_chart_panel panels[2] = {
+        {.left_label = "mean radius (mm)",
+         .low = 10.0,
+         .high = 25.0,
+         .key = "bottom right",
+         .curves = add_both(&all, paper, comparison, hertz_of, mean_r_mm, both_names, both_colours, 0),
+         .curve_count = FST_PAPER_DYNAMICS},
+        {.left_label = "its standard deviation (mm)",
+         .low = 0.0,
+         .high = 7.0,
+         .curves = add_both(&all, paper, comparison, hertz_of, std_r_mm, NULL, both_colours, 0),
+         .curve_count = FST_PAPER_DYNAMICS}};
+    fst_chart chart = {.title = figure->title,
+                       .x_label = "drive (Hz)",
+                       .x_low = 7.0,
+                       .x_high = 25.0,
+                       .x2_label = "drive ω (γ)",
+                       .x2_factor = 2.0 * PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma,
+                       .panels = panels,
+                       .panel_count = 2};
+    return draw_and_free(&all, out, &chart, error);
+}
+
 /* ------------------------------------------------------------------ Fig. dotal */
 
 static double bead_hertz(const fst_paper_run *run)
@@ -196,8 +233,6 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
 {
     static const fst_scan slow[2] = {FST_SCAN_SLOW, FST_SCAN_COUNT};
     static const double diagonal[] = {0.0, 10.0};
-    static const char *const names[] = {"farago2020 (as printed)", "rigid (exact)"};
-    static const fst_colour colours[] = {FST_COLOUR_BLUE, FST_COLOUR_VERMILION};
     curves all = {.status = FST_OK};
     all.curve[all.count++] = (fst_chart_curve){.title = "⟨α′⟩ = ω",
                                                .x = diagonal,
@@ -206,10 +241,10 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
                                                .colour = FST_COLOUR_GREY,
                                                .style = FST_CURVE_LINE};
     const fst_chart_curve *counter =
-        add_both(&all, paper, comparison, hertz_of, counter_hertz, names, colours, 0);
+        add_both(&all, paper, comparison, hertz_of, counter_hertz, both_names, both_colours, 0);
     for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
         fst_chart_curve points = {.title = d == 0 ? "released at rest, farago2020" : "the same, rigid",
-                                  .colour = two_dynamics[d].colour,
+                                  .colour = both_colours[d],
                                   .style = d == 0 ? FST_CURVE_POINTS : FST_CURVE_OPEN_POINTS};
         add(&all, paper, slow, two_dynamics[d].dynamics, hertz_of, other_hertz, points);
     }
@@ -268,11 +303,10 @@ fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_fig
     for (int p = 0; p < 2; p++) {
         int first = all.count;
         for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
-            fst_chart_curve line = {.title = p == 0 ? two_dynamics[d].name : NULL,
-                                    .colour = two_dynamics[d].colour};
+            fst_chart_curve line = {.title = p == 0 ? both_names[d] : NULL, .colour = both_colours[d]};
             add(&all, paper, whole_range, two_dynamics[d].dynamics, omega_of, measured[p], line);
             fst_chart_curve dashes = {
-                .title = p == 0 ? names[d] : NULL, .colour = two_dynamics[d].colour, .style = FST_CURVE_DASHED};
+                .title = p == 0 ? names[d] : NULL, .colour = both_colours[d], .style = FST_CURVE_DASHED};
             add(&all, paper, whole_range, two_dynamics[d].dynamics, omega_of, formula[p], dashes);
         }
         panels[p].curves = all.curve + first;

@@ -106,8 +106,8 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
     if (status == FST_OK) {
         read_branch(&branch, exact);
         status = close_patterns(&params, &branch, exact, &why);
-        fst_branch_free(&branch);
     }
+    fst_branch_free(&branch);
     if (status == FST_OK)
         status = count_minima(dynamics, exact, &why);
     if (status == FST_OK)

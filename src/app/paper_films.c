@@ -5,13 +5,12 @@
 
 #include <stdlib.h>
 
+const char *const fst_film_names[FST_FILM_COUNT] = {"film_0215", "film_04"};
+
 static const struct {
     fst_scan scan;
-    const char *name;
     double periods;
-} films[] = {{FST_SCAN_FOLD4, "film_0215", 24.0}, {FST_SCAN_FOLD15, "film_04", 16.0}};
-
-enum { FILM_COUNT = sizeof films / sizeof films[0] };
+} films[FST_FILM_COUNT] = {{FST_SCAN_FOLD4, 24.0}, {FST_SCAN_FOLD15, 16.0}};
 
 typedef struct reel {
     const fst_paper_state *paper;
@@ -23,15 +22,16 @@ static fst_status progress(void *user, double fraction, fst_error *error)
     const reel *shown = user;
     const fst_paper_options *options = shown->paper->options;
     return options->progress
-               ? options->progress(options->user, (shown->index + fraction) / FILM_COUNT, "films", error)
+               ? options->progress(options->user, (shown->index + fraction) / FST_FILM_COUNT, "films", error)
                : FST_OK;
 }
 
 /* As the paper has them: by the printed equations. */
 fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error)
 {
+    double began = fst_paper_clock();
     fst_status status = FST_OK;
-    for (int i = 0; i < FILM_COUNT && status == FST_OK; i++) {
+    for (int i = 0; i < FST_FILM_COUNT && status == FST_OK; i++) {
         const fst_paper_run *run = fst_paper_single(paper, films[i].scan, FST_DYNAMICS_FARAGO2020);
         reel shown = {paper, i};
         fst_film_options options = fst_default_film_options();
@@ -40,10 +40,12 @@ fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error)
         options.colour = "slip";
         options.user = &shown;
         options.progress = progress;
-        char *path = fst_paper_path(paper, films[i].name, "mp4");
+        char *path = fst_paper_path(paper, fst_film_names[i], "mp4");
         status = path ? fst_film(&run->trajectory, path, &options, error)
-                      : fst_fail(error, FST_NO_MEMORY, films[i].name, "no memory for a file name");
+                      : fst_fail(error, FST_NO_MEMORY, fst_film_names[i], "no memory for a file name");
         free(path);
+        paper->films += status == FST_OK;
     }
+    fst_paper_note_time(paper, "films", began);
     return status;
 }

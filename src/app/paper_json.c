@@ -144,6 +144,7 @@ static json_t *statement_object(const fst_statement *statement, const fst_paper_
     json_object_set_new(object, "published_words",
                         statement->said ? json_string(statement->said) : json_null());
     json_object_set_new(object, "unit", json_string(statement->unit));
+    json_object_set_new(object, "scale", json_real(statement->scale));
     json_object_set_new(object, "criterion", json_string(criterion));
     json_object_set_new(object, "verdict",
                         json_string(fst_verdict_name(finding.verdict[FST_DYNAMICS_FARAGO2020])));
@@ -212,6 +213,10 @@ fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error)
     json_object_set_new(document, "orbits", orbits_object(paper));
     json_object_set_new(document, "statements", statements_array(paper));
     json_object_set_new(document, "figures", figures_array(paper));
+    json_t *films = json_array();
+    for (int i = 0; i < paper->films; i++)
+        json_array_append_new(films, json_sprintf("%s.mp4", fst_film_names[i]));
+    json_object_set_new(document, "films", films);
     json_object_set_new(document, "provenance", provenance_object(paper));
     fst_whole_file file;
     fst_status status = path && document ? fst_whole_file_open(&file, path, error)

@@ -18,15 +18,19 @@ const fst_rule_words fst_rules[FST_RULE_COUNT] = {
                           "by no more than ten units of its last digit, and 20 %"},
     [FST_RULE_MAGNITUDE] = {"magnitude", "an order of magnitude", "within half an order (a factor of 3.2)",
                             "within one order"},
-    [FST_RULE_SMALL] = {"small", "“almost”, “negligible”, “convincing”, “locks to”, “about” without a number",
-                        "off by at most 10 % of the natural scale", "by at most 30 %"},
-    [FST_RULE_NOTABLE] = {"notable", "“not negligible”, “a part”, “not zero”, “quite a lot”",
+    [FST_RULE_SMALL] =
+        {"small", "“almost”, “negligible”, “small”, “rare”, “convincing”, “locks to”, “about” without a number",
+         "off by at most 10 % of the natural scale", "by at most 30 %"},
+    [FST_RULE_NOTABLE] = {"notable",
+                          "“not negligible”, “not zero”, “not correct”, “a part”, “quite a lot”, “high”, "
+                          "“shrinks”, “weakens”",
                           "at least 10 % of the natural scale", "at least 3 %"},
-    [FST_RULE_MOSTLY] = {"mostly", "“mainly”, “localized”, “tightly correlated”", "at least 50 %",
+    [FST_RULE_MOSTLY] = {"mostly", "“mainly”, “localized”, “tightly correlated”, “similar”", "at least 50 %",
                          "at least 25 %"},
-    [FST_RULE_EXACT] = {"law", "a law, a proportionality, a symmetry", "met within 1e-6 of the natural scale",
-                        "within 1e-3"},
-    [FST_RULE_NEVER] = {"never", "“never”, “positive”", "no exception was met", ""},
+    [FST_RULE_EXACT] = {"law", "a law, an equation, a proportionality, a symmetry",
+                        "met within 1e-6 of the natural scale", "within 1e-3"},
+    [FST_RULE_NEVER] = {"never", "what one exception breaks: “never”, “positive”, a sense, a shape",
+                        "no exception was met", ""},
     [FST_RULE_SYMMETRY] = {"symmetry", "the symmetry of a closed path", "closed, with this symmetry", ""},
 };
 

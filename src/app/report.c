@@ -312,6 +312,11 @@ static fst_status write_all(FILE *out, const fst_paper_state *paper, fst_error *
         if (paper->drawn[i])
             status = write_figure(out, paper, i, error);
     fputs("</div>\n", out);
+    for (int i = 0; i < paper->films; i++)
+        fprintf(
+            out,
+            "<p class=\"fine\">Film of the supplement, beside this page: %s.mp4 (festoon paper --films).</p>\n",
+            fst_film_names[i]);
     write_statements(out, paper);
     write_regimes(out, paper);
     write_provenance(out, paper);

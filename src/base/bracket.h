@@ -1,35 +1,33 @@
-/* bracket.h - an interval in which a function changes its sign, narrowed by the Illinois rule: regula falsi
- * that halves the value at an end which stays, and bisects now and then.
- *
- *     while (...) { x = fst_bracket_next(&b); ... f(x) ...; fst_bracket_narrow(&b, x, f); }
- */
+/* bracket.h - the zero of a function between two places, by false position with Illinois' rule: a place that
+ * stays for a second time counts half, so that both close in. */
 #ifndef FST_BASE_BRACKET_H
 #define FST_BASE_BRACKET_H
 
 typedef struct fst_bracket {
-    double low, high, f_low, f_high; /* the values differ in sign */
-    int side, tries;                 /* 0 at the beginning */
+    double lo, hi;     /* places, in any order ... */
+    double f_lo, f_hi; /* ... with values of opposite signs, those that count half halved */
+    int side;          /* which place moved last: -1 lo, 1 hi, 0 none yet */
 } fst_bracket;
 
-/* Where to look next: within the bracket. */
-static inline double fst_bracket_next(fst_bracket *b)
+/* Where to look next; the middle where rounding leaves no place between. */
+static inline double fst_bracket_next(const fst_bracket *b)
 {
-    const double middle = 0.5 * (b->low + b->high);
-    const double x = (b->low * b->f_high - b->high * b->f_low) / (b->f_high - b->f_low);
-    const int inside = b->low < b->high ? x > b->low && x < b->high : x > b->high && x < b->low;
-    return ++b->tries % 6 == 0 || !inside ? middle : x;
+    const double x = (b->lo * b->f_hi - b->hi * b->f_lo) / (b->f_hi - b->f_lo);
+    return (x - b->lo) * (b->hi - x) > 0 ? x : 0.5 * (b->lo + b->hi);
 }
 
-/* The function has the value f at x. */
-static inline void fst_bracket_narrow(fst_bracket *b, double x, double f)
+/* The value there. */
+static inline void fst_bracket_take(fst_bracket *b, double x, double f)
 {
-    if ((f < 0) == (b->f_low < 0)) {
-        b->low = x, b->f_low = f;
-        b->f_high *= b->side < 0 ? 0.5 : 1.0;
+    if ((f < 0) == (b->f_lo < 0)) {
+        b->lo = x;
+        b->f_lo = f;
+        b->f_hi *= b->side < 0 ? 0.5 : 1.0;
         b->side = -1;
     } else {
-        b->high = x, b->f_high = f;
-        b->f_low *= b->side > 0 ? 0.5 : 1.0;
+        b->hi = x;
+        b->f_hi = f;
+        b->f_lo *= b->side > 0 ? 0.5 : 1.0;
         b->side = 1;
     }
 }

@@ -28,6 +28,8 @@ static const struct observable {
     {"period", "period γ", offsetof(fst_branch_point, period)},
     {"phi_deg", "Φ / degrees", offsetof(fst_branch_point, phi_deg)},
     {"slip", "slip / (l γ)", offsetof(fst_branch_point, slip)},
+    {"relaxation_time", "relaxation time γ", offsetof(fst_branch_point, relaxation_time)},
+    {"swing_ratio", "p, ratio of swings - 1", offsetof(fst_branch_point, swing_ratio)},
 };
 
 static const struct observable *find_observable(const char *name)

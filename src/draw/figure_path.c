@@ -143,7 +143,9 @@ static void write_colour(fst_figure_file *figure, const fst_view *view, const pa
             return;
         }
     }
-    (void)fprintf(figure->script, "set cblabel '%s (%s)' noenhanced\n", name, columns->colour_info->unit);
+    char unit[32];
+    fst_unit_symbols(columns->colour_info->unit, unit, sizeof unit);
+    (void)fprintf(figure->script, "set cblabel '%s (%s)' noenhanced\n", name, unit);
 }
 
 /* ------------------------------------------------------------------ data */

@@ -1,6 +1,8 @@
 #include "draw/style.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 const char *fst_colour_code(fst_colour colour)
 {
@@ -9,6 +11,24 @@ const char *fst_colour_code(fst_colour colour)
         [FST_COLOUR_GREEN] = "#009e73", [FST_COLOUR_PURPLE] = "#cc79a7", [FST_COLOUR_GREY] = "#888888",
         [FST_COLOUR_SKY] = "#56b4e9",   [FST_COLOUR_ORANGE] = "#e69f00"};
     return codes[colour];
+}
+
+void fst_unit_symbols(const char *unit, char *text, size_t size)
+{
+    static const struct {
+        const char *word, *symbol;
+    } symbols[] = {{"gamma", "γ"}, {"deg", "°"}, {"B0", "B₀"}, {"l", "ℓ"}, {"^2", "²"}, {"^3", "³"}, {" ", ""}};
+    enum { COUNT = sizeof symbols / sizeof symbols[0] };
+    size_t used = 0;
+    text[0] = '\0';
+    while (*unit && used + 1 < size) {
+        int i = 0;
+        while (i < COUNT && strncmp(unit, symbols[i].word, strlen(symbols[i].word)) != 0)
+            i++;
+        used += (size_t)(i < COUNT ? snprintf(text + used, size - used, "%s", symbols[i].symbol)
+                                   : snprintf(text + used, size - used, "%c", *unit));
+        unit += i < COUNT ? strlen(symbols[i].word) : 1;
+    }
 }
 
 void fst_figure_palette(fst_figure_file *figure, fst_palette palette)

@@ -19,6 +19,9 @@ typedef enum {
 /* "#0072b2" */
 const char *fst_colour_code(fst_colour colour);
 
+/* A unit as figures print it: "ℓ²γ²" for "l^2 gamma^2". */
+void fst_unit_symbols(const char *unit, char *text, size_t size);
+
 /* Define the palette for a quantity of both signs (blue, grey, vermilion), or of one sign: `line` runs from a
  * light green to dark violet, for lines on white where much should be dark; `map` from nearly white to blue,
  * for areas with dark lines on them. */

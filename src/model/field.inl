@@ -60,6 +60,28 @@ static inline void FN(add_line)(FN(moments) m[2], const FN(line) * line)
     }
 }
 
+/* The moments of five lines, the first the farthest along y: with Y = y + k lambda for k = 2, 1, 0, -1, -2, by
+ * the moments lambda^m t_m in k and by y, which takes a fifth fewer operations than to add up each. */
+static inline FN(moments) FN(moments_of_five)(const FN(line) lines[5], int end, REAL spacing)
+{
+    REAL inverse5[5];
+    for (int i = 0; i < 5; ++i)
+        inverse5[i] = REAL_INVERSE_FIFTH(lines[i].distance2[end], lines[i].estimate[end]);
+    const REAL y = lines[2].dy, spacing2 = spacing * spacing;
+    const REAL outer = inverse5[0] + inverse5[4], outer_odd = inverse5[0] - inverse5[4];
+    const REAL inner = inverse5[1] + inverse5[3], inner_odd = inverse5[1] - inverse5[3];
+    const REAL t0 = (outer + inner) + inverse5[2], t1 = spacing * REAL_MULADD(R(2.0), outer_odd, inner_odd);
+    const REAL t2 = spacing2 * REAL_MULADD(R(4.0), outer, inner);
+    const REAL t3 = (spacing2 * spacing) * REAL_MULADD(R(8.0), outer_odd, inner_odd);
+    const REAL y1 = REAL_MULADD(y, t1, t2), y2 = REAL_MULADD(y, t2, t3);
+    FN(moments) sum;
+    sum.s0 = t0;
+    sum.s1 = REAL_MULADD(y, t0, t1);
+    sum.s2 = REAL_MULADD(y, sum.s1, y1);
+    sum.s3 = REAL_MULADD(y, sum.s2, REAL_MULADD(y, y1, y2));
+    return sum;
+}
+
 /* B and the gradient at (x, y), at the height of the bead's centre. */
 static inline void FN(field_and_gradient)(const FN(coefficients) * c, REAL x, REAL y, REAL b[3],
                                           FN(gradient) * g)
@@ -74,8 +96,8 @@ static inline void FN(field_and_gradient)(const FN(coefficients) * c, REAL x, RE
                                    FN(see_line)(y + c->spacing, across2), FN(see_line)(y, across2),
                                    FN(see_line)(y - c->spacing, across2),
                                    FN(see_line)(REAL_NEGMULADD(R(2.0), c->spacing, y), across2)};
-        for (int i = 0; i < 5; ++i)
-            FN(add_line)(sum, &lines[i]);
+        for (int end = 0; end < 2; ++end)
+            sum[end] = FN(moments_of_five)(lines, end, c->spacing);
     } else {
         REAL place = c->first_line;
         for (int count = c->lines; count > 0; --count, place = place + R(1.0)) {

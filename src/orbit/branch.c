@@ -98,13 +98,20 @@ void fst_branch_reverse(fst_branch *out, size_t first)
 
 /* ------------------------------------------------------------------ what a curve tells */
 
+/* Nobody knows how long a branch is: forty points are taken for half of one. */
+fst_status fst_tracer_progress(fst_tracer *t, fst_error *error)
+{
+    const fst_branch_options *o = t->options;
+    const double part = (t->done + t->nodes / (t->nodes + 40.0)) / (t->pending_count ? t->pending_count : 1);
+    t->furthest = fmax(t->furthest, t->share[0] + part * (t->share[1] - t->share[0]));
+    return o->progress ? o->progress(o->user, t->furthest, error) : FST_OK;
+}
+
 static fst_status take_node(void *user, const fst_node *node, fst_error *error)
 {
     fst_tracer *t = user;
-    const fst_branch_options *o = t->options;
-    fst_status status = FST_OK;
-    if (o->progress && t->out->point_count % 16 == 0)
-        status = o->progress(o->user, fmin(0.95, (double)t->out->point_count / 400.0), error);
+    t->nodes += 1;
+    const fst_status status = fst_tracer_progress(t, error);
     t->last_value = node->s.value;
     return status == FST_OK ? fst_branch_add_point(t->out, &node->seen, t->branch, error) : status;
 }
@@ -218,9 +225,11 @@ static fst_status follow_branch(fst_tracer *t, const fst_pending *from, fst_erro
 fst_status fst_tracer_run(fst_tracer *t, fst_error *error)
 {
     fst_status status = FST_OK;
-    for (int i = 0; i < t->pending_count && status == FST_OK; ++i)
-        status = follow_branch(t, &t->pending[i], error);
-    t->pending_count = 0;
+    for (t->done = 0; t->done < t->pending_count && status == FST_OK; ++t->done) {
+        t->nodes = 0;
+        status = follow_branch(t, &t->pending[t->done], error);
+    }
+    t->pending_count = t->done = t->nodes = 0;
     t->out->branches = t->branch_count;
     return status;
 }
@@ -374,11 +383,13 @@ static fst_status first_orbits(fst_tracer *t, fst_node start[2], int *count, fst
         climb_to_symmetric(t, start);
         return FST_OK;
     }
+    const char *advice = strstr(why.sentence, ". "); /* what follows is about a single orbit */
+    const int length = advice ? (int)(advice - why.sentence) : (int)strlen(why.sentence);
     return fst_fail(
         error, FST_NO_CONVERGENCE, "branch",
-        "no counter-rotating orbit was found between %.10g and %.10g from the scene's start (the last try: "
-        "%.480s); try another range or start.r",
-        lo, hi, why.sentence);
+        "no counter-rotating orbit was found between %.10g and %.10g from the scene's start; the last try: "
+        "%.*s. Try another range or start.r",
+        lo, hi, length < 400 ? length : 400, why.sentence);
 }
 
 static fst_status follow_counter(fst_tracer *t, fst_error *error)
@@ -427,6 +438,18 @@ double fst_branch_scale(const char *key, double from, double to)
     return strcmp(key, "drive.omega") == 0 ? 1.0 : fmax(fabs(from), fabs(to));
 }
 
+/* The curves' part of the progress, the second half. */
+typedef struct second_half {
+    const fst_branch_options *options;
+    int curve, curves;
+} second_half;
+
+static fst_status progress_of_curve(void *user, double fraction, fst_error *error)
+{
+    const second_half *s = user;
+    return s->options->progress(s->options->user, 0.5 + 0.5 * (s->curve + fraction) / s->curves, error);
+}
+
 /* Over two parameters: the branches over the first were followed for their special points; now the curve of
  * each. */
 static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_error *error)
@@ -455,8 +478,13 @@ static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_e
                         "no %s lies between %s = %.10g and %.10g, so none can be followed over %s: try another "
                         "range",
                         fst_special_name(o->special), o->key, o->from, o->to, o->second_key);
-    for (int i = 0; i < t->start_count && status == FST_OK; ++i)
-        status = fst_special_curve_follow(o, params, &t->starts[i], i, out, error);
+    second_half progress = {o, 0, t->start_count};
+    fst_branch_options of_curve = *o;
+    of_curve.user = &progress;
+    of_curve.progress = o->progress ? progress_of_curve : NULL;
+    for (; progress.curve < t->start_count && status == FST_OK; ++progress.curve)
+        status =
+            fst_special_curve_follow(&of_curve, params, &t->starts[progress.curve], progress.curve, out, error);
     return status;
 }
 
@@ -473,6 +501,7 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     t->options = options;
     t->out = branch;
     t->follow_hopf = options->kind == FST_BRANCH_ALL;
+    t->share[1] = options->second_key ? 0.5 : 1.0;
     branch->kind = options->kind;
     branch->from = options->from;
     branch->to = options->to;
@@ -490,10 +519,11 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
         status = options->kind == FST_BRANCH_COUNTER ? follow_counter(t, error) : fst_follow_locked(t, error);
     if (status == FST_OK && options->second_key)
         status = follow_specials(t, params, error);
-    if (status == FST_OK)
+    branch->complete = status == FST_OK;
+    if (status == FST_OK || status == FST_INTERRUPTED)
         find_images(branch);
-    free(t);
-    if (status != FST_OK)
+    else
         fst_branch_free(branch);
+    free(t);
     return status;
 }

@@ -40,6 +40,8 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     p->omega = setup.model.groups.omega;
     p->mean_r = p->mean_alpha_dot = p->mean_nz = p->festoons = p->period = p->min_r = p->phi_deg = p->slip =
         p->second = NAN;
+    p->swing_ratio = NAN;
+    p->relaxation_time = fst_solution_relaxation(&node->s);
     p->stable = fst_solution_is_stable(&node->s);
     p->multipliers = node->s.multipliers;
     memcpy(p->multiplier_re, node->s.re, sizeof p->multiplier_re);
@@ -60,6 +62,7 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     p->mean_nz = d.means.mean_nz;
     p->festoons = d.means.festoons;
     p->period = d.means.period;
+    p->swing_ratio = d.swing_ratio;
     p->symmetry = d.means.symmetry;
     p->turns = d.turns;
     if (d.has_section)
@@ -168,7 +171,7 @@ static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *he
     else if (here->seen.mean_r > LARGEST_RADIUS)
         (void)snprintf(curve->reason, sizeof curve->reason, "it has left the magnet's field: <r> = %.4g",
                        here->seen.mean_r);
-    else if (here->s.segments == 0 && fabs(here->s.y[0][FST_WZ]) > LARGEST_SPIN)
+    else if (here->s.segments == 0 && fabs(here->s.y[0][FST_WZ] - here->seen.omega) > LARGEST_SPIN)
         (void)snprintf(curve->reason, sizeof curve->reason,
                        "its spin grows without bound (W_z = %.4g) while n turns upright", here->s.y[0][FST_WZ]);
     else if (nodes >= MOST_NODES)

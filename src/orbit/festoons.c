@@ -85,12 +85,12 @@ static fst_status piece_of(const fst_family *family, const fst_branch_point *fro
 static fst_status locate(const fst_family *family, const fst_node *a, const fst_node *b, double target,
                          fst_solution *s, fst_error *error)
 {
-    fst_bracket bracket = {0.0, 1.0, festoons_of(&a->s) - target, festoons_of(&b->s) - target, 0, 0};
+    fst_bracket z = {0.0, 1.0, festoons_of(&a->s) - target, festoons_of(&b->s) - target, 0};
     fst_direction way;
     fst_direction_between(&a->s, &b->s, &way);
     double f = INFINITY;
     for (int i = 0; i < 60 && fabs(f) > 1e-13 * target; ++i) {
-        const double x = fst_bracket_next(&bracket), before = s->value;
+        const double x = i % 6 == 5 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z), before = s->value;
         fst_solution_between(a, b, x, s);
         const fst_status status = fst_solution_correct(family, s, &way, error);
         if (status != FST_OK)
@@ -98,7 +98,7 @@ static fst_status locate(const fst_family *family, const fst_node *a, const fst_
         f = festoons_of(s) - target;
         if (i > 0 && fabs(s->value - before) < 1e-14 * s->value)
             break;
-        fst_bracket_narrow(&bracket, x, f);
+        fst_bracket_take(&z, x, f);
     }
     return fabs(f) < 1e-9 * target
                ? FST_OK

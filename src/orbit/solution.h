@@ -87,6 +87,9 @@ fst_status fst_solution_eigenvector(const fst_family *family, const fst_solution
 /* Whether it attracts: multipliers within the unit circle, eigenvalues on the left. */
 int fst_solution_is_stable(const fst_solution *s);
 
+/* The time in which a small disturbance falls by e; NAN: it does not. */
+double fst_solution_relaxation(const fst_solution *s);
+
 /* Fill in the states of a chain of `segments` from the first one and the period. */
 fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int segments, fst_error *error);
 

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bracket.h"
 #include "base/error.h"
 #include "orbit/normal_form.h"
 
@@ -171,18 +172,15 @@ static int narrow_to_one_pair(const fst_family *family, const fst_node *a, const
 fst_status fst_locate_special(const fst_family *family, const fst_node *a, const fst_node *b, int test,
                               fst_node *out, fst_error *error)
 {
-    double lo = 0.0, hi = 1.0, f_lo = fst_test_value(a, test), f_hi = fst_test_value(b, test);
-    int side = 0;
+    fst_bracket z = {0.0, 1.0, fst_test_value(a, test), fst_test_value(b, test), 0};
     const double least =
-        family->location * (test == FST_TEST_PAIR ? 10.0 : fmin(1.0, fmax(fabs(f_lo), fabs(f_hi))));
-    *out = fabs(f_lo) < fabs(f_hi) ? *a : *b;
-    if (test == FST_TEST_PAIR && !narrow_to_one_pair(family, a, b, &lo, &hi, &f_lo, &f_hi))
+        family->location * (test == FST_TEST_PAIR ? 10.0 : fmin(1.0, fmax(fabs(z.f_lo), fabs(z.f_hi))));
+    *out = fabs(z.f_lo) < fabs(z.f_hi) ? *a : *b;
+    if (test == FST_TEST_PAIR && !narrow_to_one_pair(family, a, b, &z.lo, &z.hi, &z.f_lo, &z.f_hi))
         return fst_fail(error, FST_NO_CONVERGENCE, "special point", "no single pair crosses at %.10g",
                         a->s.value);
-    for (int i = 0; i < 60 && (hi - lo) * b->length > 1e-13; ++i) {
-        double x = i % 6 == 5 ? 0.5 * (lo + hi) : (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
-        if (!(x > lo && x < hi))
-            x = 0.5 * (lo + hi);
+    for (int i = 0; i < 60 && (z.hi - z.lo) * b->length > 1e-13; ++i) {
+        const double x = i % 6 == 5 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z);
         fst_node node;
         const fst_status status = fst_node_between(family, a, b, x, &node, error);
         if (status != FST_OK)
@@ -195,15 +193,7 @@ fst_status fst_locate_special(const fst_family *family, const fst_node *a, const
                             node.s.value);
         if (fabs(f) <= least || (i > 1 && fabs(f) < 100.0 * least && moved < family->location * family->scale))
             break;
-        if ((f < 0) == (f_lo < 0)) {
-            lo = x, f_lo = f;
-            f_hi *= side < 0 ? 0.5 : 1.0;
-            side = -1;
-        } else {
-            hi = x, f_hi = f;
-            f_lo *= side > 0 ? 0.5 : 1.0;
-            side = 1;
-        }
+        fst_bracket_take(&z, x, f);
     }
     if (!(fabs(fst_test_value(out, test)) < 1e-8))
         return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test jumps at %.10g", out->s.value);

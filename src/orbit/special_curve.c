@@ -386,8 +386,8 @@ static fst_status walk_on(walk *w, int branch, fst_branch *out, fst_error *error
             return FST_OK;
         remember(w, &next);
         fst_status status = report(w, &next, branch, out, error);
-        if (status == FST_OK && w->options->progress && places % 4 == 0)
-            status = w->options->progress(w->options->user, fmin(0.95, places / 100.0), error);
+        if (status == FST_OK && w->options->progress)
+            status = w->options->progress(w->options->user, places / (places + 20.0), error);
         if (status != FST_OK || left || has_ended(w, &start, places, h))
             return status;
         h *= tries <= 3 ? 1.5 : tries > 5 ? 0.6 : 1.0;
