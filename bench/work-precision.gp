@@ -1,4 +1,4 @@
-# Error against time of a trajectory: gnuplot -e "data='work-precision.csv'; figure='work-precision.svg'" work-precision.gp
+# Error against time of a trajectory: gnuplot -e "data='FILE.csv'" -e "figure='FILE.svg'" work-precision.gp
 set terminal svg size 860,520 enhanced background 'white' font 'sans-serif,14'
 set output figure
 set datafile separator ','

@@ -6,11 +6,16 @@ Environment: FESTOON is the program, SOURCE_DIR the source tree.
 import csv
 import io
 import math
+import os
 import shutil
+import signal
+import sqlite3
+import subprocess
 import sys
+import time
 import unittest
 
-from sweep_tools import SHORT, Case, content_of, festoon
+from sweep_tools import FESTOON, SHORT, Case, content_of
 
 GAMMA, HALF_LENGTH = 312.5, 23e-3
 
@@ -177,6 +182,48 @@ class Units(Figures):
         self.sweep("m.db", "drive.frequency=19,20", "model.kappa=1.5,1.6")
         self.assertIn("no point", self.refused("plot", self.path("m.db"), "--key", "largest_exponent", "-o",
                                                self.path("f.svg")))
+
+
+class ManyPoints(Figures):
+    """More points than a figure can show: some are drawn, and the title says how many."""
+
+    def fill(self, name, points, value, *over):
+        """A sweep whose rows are made up: mean_r = value(point)."""
+        words = [word for axis in over for word in ("--over", axis)]
+        process = subprocess.Popen([FESTOON, "sweep", *SHORT, *words, "-o", self.path(name)], stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        while process.poll() is None and not os.path.exists(self.path(name)):
+            time.sleep(0.02)
+        process.send_signal(signal.SIGINT)
+        process.wait()
+        base = sqlite3.connect(self.path(name))
+        base.execute("DELETE FROM rows")
+        base.executemany("INSERT INTO rows(point, status, regime, mean_r) VALUES(?, 'done', 'locked', ?)",
+                         ((point, value(point)) for point in range(points)))
+        base.commit()
+        base.close()
+
+    def test_curves(self):
+        self.fill("c.db", 100001, lambda point: 0.5 + point, "drive.frequency=0.1Hz:100.1Hz:100001")
+        script, blocks = self.plot("c.db", "--key", "mean_r,regime")
+        self.assertIn("one point of 11", script)
+        drawn = blocks["panel1-curve1"]
+        self.assertEqual(len(drawn), 9091)
+        for i, (x, y) in enumerate(drawn):
+            self.assertAlmostEqual(x, 0.1 + 0.001 * 11 * i, 6)
+            self.assertAlmostEqual(y, 0.5 + 11 * i, 2)
+
+    def test_maps(self):
+        self.fill("m.db", 2050 * 10, lambda point: point, "model.kappa=1:10:10", "drive.frequency=1Hz:206Hz:2050")
+        script, cells = self.cells("m.db", "--key", "mean_r")
+        self.assertIn("one point of 1 x 3", script)
+        self.assertEqual(len(cells), 10 * 684)
+        for i, cell in enumerate(cells):
+            row, column = divmod(i, 684)
+            self.assertEqual(cell[6], row * 2050 + 3 * column)
+            self.assertAlmostEqual(cell[1], 1 + row, 6)
+        script, blocks = self.plot("m.db")
+        self.assertEqual(len(blocks["cells-1"]), 10)  # a box a row: all are locked
 
 
 if __name__ == "__main__":

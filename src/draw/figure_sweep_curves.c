@@ -7,14 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_KEYS = 8, REGIMES = FST_REGIME_LIFTED + 1 };
+enum { MOST_KEYS = 8, REGIMES = FST_REGIME_LIFTED + 1, MOST_POINTS = 10000 };
 
 typedef struct drawing {
     double *x, *by_regime; /* by_regime[regime * points + i] */
     fst_chart_curve curves[MOST_KEYS + REGIMES];
     fst_chart_panel panels[MOST_KEYS];
     int curve_count, panel_count;
-    size_t points;
+    size_t points, step; /* that are drawn: every `step`-th one of the sweep */
     char title[256];
 } drawing;
 
@@ -58,8 +58,12 @@ static void add_regimes(drawing *d, const double *regime, const double *values)
 static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep_quantity *quantities,
                        int count)
 {
+    const size_t all = (size_t)fst_grid_points(table->grid);
+    for (int k = 0; k < count; ++k)
+        for (size_t i = 0; i < d->points; ++i)
+            table->values[(size_t)k * all + i] = table->values[(size_t)k * all + i * d->step];
     for (int k = 0; k < count; ++k) {
-        double *values = table->values + (size_t)k * d->points;
+        double *values = table->values + (size_t)k * all;
         const int regimes_follow = k + 1 < count && strcmp(quantities[k + 1].key, "regime") == 0;
         if (strcmp(quantities[k].key, "regime") == 0 && k > 0)
             continue;
@@ -77,7 +81,7 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep
                                    .curves = &d->curves[d->curve_count]};
         const int first = d->curve_count;
         if (regimes_follow)
-            add_regimes(d, values + d->points, values);
+            add_regimes(d, values + all, values);
         else
             d->curves[d->curve_count++] = (fst_chart_curve){.x = d->x,
                                                             .y = values,
@@ -96,7 +100,7 @@ static void lay_abscissa(drawing *d, const fst_grid *grid, const fst_sweep_axis 
     *low = INFINITY;
     *high = -INFINITY;
     for (size_t i = 0; i < d->points; ++i) {
-        d->x[i] = fst_sweep_axis_value(grid, axis, (int64_t)i);
+        d->x[i] = fst_sweep_axis_value(grid, axis, (int64_t)(i * d->step));
         *low = fmin(*low, d->x[i]);
         *high = fmax(*high, d->x[i]);
     }
@@ -120,7 +124,8 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
                                    int count, const fst_sweep_axis *axis, const char *out, fst_error *error)
 {
     drawing *d = calloc(1, sizeof *d);
-    const size_t points = (size_t)fst_grid_points(table->grid);
+    const size_t all = (size_t)fst_grid_points(table->grid), step = (all + MOST_POINTS - 1) / MOST_POINTS;
+    const size_t points = (all + step - 1) / step;
     double *memory = malloc((1 + REGIMES) * points * sizeof *memory);
     if (!d || !memory) {
         free(d);
@@ -128,11 +133,14 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
         return fst_fail(error, FST_NO_MEMORY, out, "no memory for %zu points", points);
     }
     d->points = points;
+    d->step = step;
     d->x = memory;
     d->by_regime = memory + points;
     double low, high;
     lay_abscissa(d, table->grid, axis, &low, &high);
     (void)snprintf(d->title, sizeof d->title, "Sweep over one parameter");
+    if (step > 1)
+        (void)snprintf(d->title, sizeof d->title, "Sweep over one parameter, one point of %zu", step);
     add_panels(d, table, quantities, count);
     char tics[512] = "";
     if (axis->choice)

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 780, HEIGHT = 620, REGIMES = FST_REGIME_LIFTED + 1 };
+enum { WIDTH = 780, HEIGHT = 620, REGIMES = FST_REGIME_LIFTED + 1, MOST_CELLS = 1024 };
 
 /* A value of an axis and the points that have it. */
 typedef struct place {
@@ -18,7 +18,7 @@ typedef struct place {
 typedef struct side {
     place *places;
     double *edges;
-    int64_t count;
+    int64_t count, step; /* of every `step` values one is drawn: more cells than pixels show nothing more */
 } side;
 
 typedef struct map {
@@ -82,6 +82,10 @@ static fst_status lay_side(side *s, const fst_grid *grid, const fst_sweep_axis *
     for (int64_t i = 1; i < axis->count; ++i)
         if (s->places[i].value != s->places[s->count - 1].value)
             s->places[s->count++] = s->places[i];
+    s->step = (s->count + MOST_CELLS - 1) / MOST_CELLS;
+    s->count = (s->count + s->step - 1) / s->step;
+    for (int64_t i = 1; i < s->count; ++i)
+        s->places[i] = s->places[i * s->step];
     lay_edges(s, axis);
     return FST_OK;
 }
@@ -145,9 +149,10 @@ static void write_axis(fst_figure_file *figure, const fst_sweep_axis *axis, cons
 static void write_regimes(fst_figure_file *figure, const map *m)
 {
     int occurs[REGIMES] = {0};
-    for (int64_t i = 0; i < fst_grid_points(m->table->grid); ++i)
-        if (isfinite(m->table->values[i]))
-            occurs[(int)m->table->values[i]] = 1;
+    for (int64_t row = 0; row < m->up.count; ++row)
+        for (int64_t column = 0; column < m->right.count; ++column)
+            if (isfinite(value_at(m, row, column)))
+                occurs[(int)value_at(m, row, column)] = 1;
     (void)fputs("set key outside below horizontal height 1\nplot ", figure->script);
     for (int r = 0; r < REGIMES; ++r)
         if (occurs[r]) {
@@ -199,6 +204,10 @@ static void write_title(fst_figure_file *figure, const map *m)
     char title[192];
     int used =
         snprintf(title, sizeof title, "%s", m->regimes ? "Regimes of motion" : "Sweep over two parameters");
+    if (m->up.step * m->right.step > 1)
+        used = snprintf(title, sizeof title, "%s, one point of %lld x %lld",
+                        m->regimes ? "Regimes of motion" : "Sweep over two parameters", (long long)m->up.step,
+                        (long long)m->right.step);
     if (blank > 0 && used > 0 && (size_t)used < sizeof title)
         (void)snprintf(title + used, sizeof title - (size_t)used,
                        "; white: %lld of %lld points without a value", (long long)blank, (long long)points);
