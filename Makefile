@@ -31,7 +31,7 @@ test-long: ## run the long tests
 	@cmake --build build -j $(JOBS)
 	@ctest --preset release-long -j $(JOBS)
 
-bench: ## time festoon against other integrators
+bench: ## time festoon against other integrators and AUTO-07p
 	@$(PACKAGES) bench
 	@cmake --preset release --log-level=WARNING -DFESTOON_BENCH=ON
 	@cmake --build build -j $(JOBS) --target bench

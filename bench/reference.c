@@ -1,6 +1,7 @@
 #include "reference.h"
 
 #include <stddef.h>
+#include <string.h>
 
 #include "base/real_long_double.h"
 
@@ -12,8 +13,9 @@
 int reference_state(const fst_groups *groups, const double state[FST_STATE_SIZE], long double t_end,
                     long double tolerance, double end[FST_STATE_SIZE])
 {
-    static fst_bead_step_long_double s;
+    fst_bead_step_long_double s;
     long double atol[FST_STATE_SIZE], t = 0, lost = 0, h = 1e-3L;
+    memset(&s, 0, sizeof s);
     s.context.coefficients = fst_make_coefficients_long_double(groups);
     s.omega = s.context.coefficients.omega;
     s.ramp = 0;

@@ -229,6 +229,57 @@ static void test_extremes_are_those_of_the_path(void **state)
     }
 }
 
+/* Weak beads at low drives, which librate: their regime takes an exponent.  More than lanes, of two windows. */
+enum { LIBRATING = 11 };
+
+static int librating_job(void *user, fst_row_job *job)
+{
+    store *s = user;
+    if (s->next == LIBRATING)
+        return 0;
+    memset(job, 0, sizeof *job);
+    job->point = s->next++;
+    job->params = fst_default_params();
+    job->params.drive_frequency = 6.57 + 0.02 * (double)job->point;
+    job->params.model_kappa = 0.93;
+    job->params.run_periods = job->point % 2 ? 36 : 40;
+    job->params.run_discard = 16;
+    return 1;
+}
+
+/* Exponents are computed in lanes too: the portable form's have the bits of the run, the others agree as far as
+ * the trajectories do. */
+static void test_exponents(void **state)
+{
+    (void)state;
+    static store runs, rows;
+    memset(&runs, 0, sizeof runs);
+    fst_row_job job;
+    while (librating_job(&runs, &job)) {
+        const fst_run_options options = fst_default_run_options();
+        assert_int_equal(fst_run(&job.params, &options, &runs.results[job.point], NULL), FST_OK);
+        assert_int_equal(runs.results[job.point].regime, FST_REGIME_LIBRATING);
+    }
+    for (int form = FST_ARITHMETIC_PORTABLE; form <= FST_ARITHMETIC_AVX512; ++form) {
+        if (!fst_lane_engine_of((fst_arithmetic)form, 0))
+            continue;
+        memset(&rows, 0, sizeof rows);
+        const fst_row_work work = {&rows, (fst_arithmetic)form, 0, librating_job, job_done, never};
+        assert_int_equal(fst_rows(&work, NULL), FST_OK);
+        for (int i = 0; i < LIBRATING; ++i) {
+            const fst_run_result *run = &runs.results[i], *row = &rows.results[i];
+            assert_int_equal(row->regime, FST_REGIME_LIBRATING);
+            if (form == FST_ARITHMETIC_PORTABLE) {
+                assert_true(row->largest_exponent == run->largest_exponent);
+                assert_true(row->largest_exponent_error == run->largest_exponent_error);
+                assert_int_equal(row->rhs_calls, run->rhs_calls);
+            }
+            assert_true(fabs(row->largest_exponent - run->largest_exponent) < 1e-9);
+            assert_true(run->largest_exponent_error > 1e-6); /* far above that */
+        }
+    }
+}
+
 static void test_no_such_engine(void **state)
 {
     (void)state;
@@ -282,6 +333,7 @@ int main(void)
         cmocka_unit_test(test_portable_rows_are_runs),
         cmocka_unit_test(test_fast_rows_depend_on_nothing_else),
         cmocka_unit_test(test_extremes_are_those_of_the_path),
+        cmocka_unit_test(test_exponents),
         cmocka_unit_test(test_no_such_engine),
         cmocka_unit_test(test_final_states),
     };

@@ -7,11 +7,13 @@ import csv
 import io
 import json
 import os
+import pty
+import re
 import sqlite3
 import subprocess
 import unittest
 
-from sweep_tools import SHORT, SMALL, Case, content_of, festoon
+from sweep_tools import FESTOON, SHORT, SMALL, Case, content_of, festoon
 
 
 class Rows(Case):
@@ -33,6 +35,13 @@ class Rows(Case):
         run = json.loads(self.good("run", *SHORT, "--set", "drive.frequency=9", "--json"))
         for key in set(run) - {"scene", "groups", "version"}:
             self.assertEqual(run[key], row[key], key)
+
+    def test_many_exponents_wanted_in_one_step(self):
+        """Undecided neighbours end together: more of them than lanes then wait for their exponents."""
+        words = ["sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:300", "--portable"]
+        self.good(*words, "-o", self.path("many.db"))
+        self.good(*words, "--lanes", "1", "-o", self.path("one.db"))
+        self.assertEqual(self.rows("many.db"), self.rows("one.db"))
 
     def test_nothing_depends_on_threads_or_lanes(self):
         found = set()
@@ -78,6 +87,23 @@ class Rows(Case):
         self.good("sweep", *SHORT, "--over", "drive.omega=0.3:0.36:4", "--over", "model.dynamics=rigid,farago2020",
                   "--carry", "up", "--portable", "-o", self.path("up.db"))
         self.assertEqual(self.rows("up.db"), up)
+
+
+class Bands(Case):
+    def test_librating_bands_lie_between_bifurcations_of_locked_states(self):
+        """Rows come from integration, bifurcations from eigenvalues (docs/regimes.md)."""
+        branch = json.loads(self.good("branch", "--kind", "locked", "--over", "drive.frequency=4Hz:8Hz", "--json"))
+        stable = {}
+        for point in branch["points"]:
+            if point["stable"]:
+                stable.setdefault(point["branch"], []).append(point["value"])
+        def is_locked(frequency):
+            return any(min(values) <= frequency <= max(values) for values in stable.values())
+        self.good("sweep", "--over", "drive.frequency=4.2,4.5,4.8,5.5,6.2,6.6,7,7.4,7.8", "-o", self.path("a.db"))
+        rows = json.loads(self.good("export", self.path("a.db"), "--json"))
+        for row in rows:
+            self.assertEqual(row["regime"], "locked" if is_locked(row["drive.frequency"]) else "librating")
+        self.assertEqual(len({row["regime"] for row in rows}), 2)
 
 
 class Refusals(Case):
@@ -134,6 +160,35 @@ class Refusals(Case):
             self.assertEqual(json.loads(out)["added"], 1500 - kept)
         finally:
             subprocess.run(["umount", mount], check=True)
+
+
+class Progress(Case):
+    def test_a_sweep_that_goes_on_shows_what_is_there_and_its_own_speed(self):
+        words = ["sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:1000", "--threads", "1", "-o", self.path("a.db")]
+        self.good(*words)
+        base = sqlite3.connect(self.path("a.db"))
+        base.execute("DELETE FROM rows WHERE point >= 250")
+        base.commit()
+        base.close()
+        master, slave = pty.openpty()
+        process = subprocess.Popen([FESTOON, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=slave)
+        os.close(slave)
+        shown = b""
+        try:
+            while piece := os.read(master, 4096):
+                shown += piece
+        except OSError:  # the other side is closed
+            pass
+        os.close(master)
+        self.assertEqual(process.communicate()[0].count(b"750 of them new"), 1)
+        lines = re.findall(rb"([0-9.]+) %(?:  ([0-9]+) s left)?  ([0-9]+) of 1000 points, ([0-9.e+]+) a second", shown)
+        if not lines:
+            self.skipTest("this machine was faster than the line")
+        for percent, left, there, rate in lines:
+            self.assertGreaterEqual(int(there), 250)
+            self.assertAlmostEqual(float(percent), int(there) / 10, delta=0.06)
+            if left and float(rate) > 0:
+                self.assertAlmostEqual(int(left), (1000 - int(there)) / float(rate), delta=1 + 0.01 * int(left))
 
 
 class Exports(Case):

@@ -11,10 +11,10 @@ build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansso
     liblapacke-dev libcairo2-dev libopenmpi-dev"
 demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
 test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
-bench_packages="$build_packages g++ gnuplot-nox libgsl-dev"
+bench_packages="$build_packages g++ gnuplot-nox libgsl-dev libboost-dev python3-scipy auto-07p"
 docs_packages="$build_packages doxygen"
 format_packages="clang-format"
-ci_packages="$test_packages clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev librsvg2-bin"
+ci_packages="$test_packages clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev libboost-dev librsvg2-bin"
 
 case "${1-}" in
 build) wanted=$build_packages ;;

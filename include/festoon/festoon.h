@@ -41,7 +41,7 @@ extern "C" {
 
 /* Changes when the same parameters give other bits than before: a sweep begun by another version is not
  * continued. */
-#define FST_RESULTS_VERSION 2
+#define FST_RESULTS_VERSION 3
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
@@ -367,6 +367,9 @@ FST_API fst_status fst_run(const fst_params *params, const fst_run_options *opti
 /* These need LAPACK; FST_UNAVAILABLE where this build or machine has none.  Methods and criteria:
  * docs/orbits.md. */
 
+/* Whether it can be called. */
+FST_API int fst_lapack_present(void);
+
 enum { FST_MULTIPLIER_COUNT = 8, FST_EIGENVALUE_COUNT = 9, FST_LYAPUNOV_TRACE = 64 };
 
 /* A periodic orbit of the turning frame. */
@@ -378,8 +381,12 @@ typedef struct fst_orbit {
     double multiplier_re[FST_MULTIPLIER_COUNT]; /* of the half map composed with S2 for S2, else of the full
                                                    map; */
     double multiplier_im[FST_MULTIPLIER_COUNT]; /* flow direction and |n| are split off */
-    double trivial_error;                       /* how exactly the flow direction was mapped onto itself */
-    double residual;                            /* greatest component of what Newton's equations leave */
+    double relaxation_time; /* in which a small disturbance falls by e, from the leading multiplier; NAN:
+                               unstable */
+    double swing_ratio;   /* the paper's p: of the two falls of r in a turn the larger over the other, minus 1;
+                           * NAN:   there are not two */
+    double trivial_error; /* how exactly the flow direction was mapped onto itself */
+    double residual;      /* greatest component of what Newton's equations leave */
     double state[FST_STATE_SIZE]; /* on Phi = pi/2, passed downward; a libration: where r is greatest */
 } fst_orbit;
 
@@ -424,9 +431,10 @@ typedef enum {
     FST_SPECIAL_PERIOD_DOUBLING,
     FST_SPECIAL_HOPF,
     FST_SPECIAL_NEIMARK_SACKER,
-    FST_SPECIAL_ORIGIN_CROSSING
+    FST_SPECIAL_ORIGIN_CROSSING,
+    FST_SPECIAL_TRANSCRITICAL /* two families pass through each other */
 } fst_special_type;
-/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing" */
+/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing", "transcritical" */
 FST_API const char *fst_special_name(fst_special_type type);
 
 /* A point of a branch. */
@@ -434,6 +442,7 @@ typedef struct fst_branch_point {
     double value;  /* of the parameter */
     double second; /* of the second one, NAN where there is none */
     double omega, mean_r, mean_alpha_dot, mean_nz, festoons, period, min_r, phi_deg, slip;
+    double relaxation_time, swing_ratio; /* as of an orbit; of an equilibrium the former */
     fst_symmetry symmetry;
     int stable, turns, branch;
     int multipliers; /* 8 of an orbit, 9 eigenvalues of an equilibrium */
@@ -476,6 +485,7 @@ typedef struct fst_branch {
     fst_branch_end *ends; /* two a branch */
     size_t end_count;
     int branches;
+    int complete; /* 0: stopped by the caller before its end */
 } fst_branch;
 
 typedef struct fst_branch_options {
@@ -498,7 +508,8 @@ FST_API fst_branch_options fst_default_branch_options(void);
 
 /* Follow the counter-rotating family (the S2 branch both ways, the S1 branches that leave it, through r = 0 and
  * beyond), or every family of equilibria, or all of it, over a parameter; or the curves of special points over
- * two.  Free it with fst_branch_free(). */
+ * two.  Free it with fst_branch_free().  FST_INTERRUPTED (from `progress`): the branch holds what was found
+ * until then, and is to be freed too. */
 FST_API fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options,
                                      fst_branch *branch, fst_error *error);
 FST_API void fst_branch_free(fst_branch *branch);
@@ -508,14 +519,20 @@ typedef struct fst_festoon_list {
     double *omegas; /* rising; each has a stable orbit with N festoons */
     fst_orbit *orbits;
     size_t count;
-    double least, greatest; /* the range of N on the stable branch */
-    double from, to;        /* and of omega */
+    double least[2],
+        greatest[2]; /* N on the stable S1 orbits, on the stable S2 orbits; inf, -inf: none is stable */
+    double from, to; /* the range of omega of both */
 } fst_festoon_list;
 
 /* Every omega at which a stable counter-rotating pattern has exactly N festoons.  FST_NO_CONVERGENCE: none; the
  * sentence tells how far the branch reaches. */
 FST_API fst_status fst_festoons_find(const fst_params *params, double festoons, fst_festoon_list *list,
                                      fst_error *error);
+
+/* The same on a branch of the kind FST_BRANCH_COUNTER over drive.omega that fst_branch_follow() made of the
+ * same parameters: for many N. */
+FST_API fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
+                                   fst_festoon_list *list, fst_error *error);
 FST_API void fst_festoons_free(fst_festoon_list *list);
 
 /* The spectrum of Lyapunov exponents. */
@@ -558,6 +575,10 @@ FST_API const char *fst_grid_key(const fst_grid *grid, int axis);
 FST_API const char *fst_grid_axis_text(const fst_grid *grid, int axis);
 FST_API int64_t fst_grid_axis_points(const fst_grid *grid, int axis);
 FST_API int64_t fst_grid_axis_stride(const fst_grid *grid, int axis);
+
+/* How the values of an axis lie. */
+typedef enum { FST_SPACING_LINEAR, FST_SPACING_LOG, FST_SPACING_LIST, FST_SPACING_RANDOM } fst_spacing;
+FST_API fst_spacing fst_grid_axis_spacing(const fst_grid *grid, int axis);
 
 /* The value of an axis at a point, in SI (of a choice: its index). */
 FST_API double fst_grid_value(const fst_grid *grid, int axis, int64_t point);

@@ -149,7 +149,9 @@ typedef struct fst_sweep_progress {
     int64_t points, there; /* of the grid; with a row */
     int64_t added, failed; /* rows added by this call; of these, runs that failed */
     double seconds;        /* since the call */
-    int rank, ranks;       /* of this process among those of an MPI job: only rank 0 counts; 0 of 1 without */
+    double processor_seconds,
+        journal_seconds; /* of this process; of these, of the thread that keeps the database */
+    int rank, ranks;     /* of this process among those of an MPI job: only rank 0 counts; 0 of 1 without */
 } fst_sweep_progress;
 
 typedef struct fst_sweep_options {
@@ -197,11 +199,19 @@ FST_API fst_status fst_sweep_read(const char *path, const char *const *keys, int
                                   fst_error *error);
 FST_API void fst_sweep_table_free(fst_sweep_table *table);
 
+/* The grid alone, which fst_grid_free() frees. */
+FST_API fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *error);
+
+/* The units that a sweep's figure has on its axes: those of the parameters that were varied (lengths in mm);
+ * those of the laboratory (Hz, mm, mm/s, 1/s, s); or scaled ones (drive omega, lengths in l). */
+typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED } fst_shown_units;
+
 /* Draw a sweep: over one axis curves of the keys, over two a map of the one key, of regimes where it is
  * `regime`.  With count = 0 the keys are chosen: mean r and its deviation, the mean angular velocity and the
- * regime over one axis, the regime over two.  FST_BAD_INPUT: more than two axes, more than one key on a map. */
-FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, const char *out,
-                                    fst_error *error);
+ * regime over one axis, the regime over two.  Logarithmic axes are drawn so.  FST_BAD_INPUT: more than two
+ * axes, more than one key on a map, units that a varied parameter changes. */
+FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, fst_shown_units units,
+                                    const char *out, fst_error *error);
 
 /* Whether a file begins like a sweep's database. */
 FST_API int fst_is_sweep(const char *path);

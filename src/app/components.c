@@ -28,7 +28,7 @@ static int program_present(const char *name)
 
 const char *fst_tools_components(void)
 {
-    static const char *const texts[2][2][2][2][2] = {
+    static const char *const texts[2][2][2][2][2][2] = {
 #define GNUPLOT(yes_or_no)                                                                                     \
     {HDF5(yes_or_no ", hdf5 no (install libhdf5-dev and build again)"), HDF5(yes_or_no ", hdf5 yes")}
 #define HDF5(before)                                                                                           \
@@ -41,6 +41,10 @@ const char *fst_tools_components(void)
     }
 #define MPI(before)                                                                                            \
     {                                                                                                          \
+        LAPACK(before ", lapack no (install liblapacke-dev and build again)"), LAPACK(before ", lapack yes")   \
+    }
+#define LAPACK(before)                                                                                         \
+    {                                                                                                          \
         before ", ffmpeg no (install ffmpeg)", before ", ffmpeg yes"                                           \
     }
         GNUPLOT("gnuplot no (install gnuplot-nox)"), GNUPLOT("gnuplot yes")
@@ -48,7 +52,8 @@ const char *fst_tools_components(void)
 #undef HDF5
 #undef CAIRO
 #undef MPI
+#undef LAPACK
     };
     return texts[program_present("gnuplot")][fst_hdf5_present()][fst_film_present()][fst_mpi_present()]
-                [program_present("ffmpeg")];
+                [fst_lapack_present()][program_present("ffmpeg")];
 }

@@ -23,52 +23,19 @@ static fst_params params_at(fst_dynamics dynamics, double omega)
     return params;
 }
 
-/* The drive between two stable neighbours on the branch at which N is `target`: the Illinois rule on orbits
- * that Newton's method makes exact. */
-static fst_status close_pattern(fst_dynamics dynamics, const fst_branch_point *a, const fst_branch_point *b,
-                                double target, fst_paper_pattern *pattern, fst_error *error)
-{
-    double low = a->value, high = b->value, f_low = a->festoons - target, f_high = b->festoons - target;
-    fst_orbit orbit;
-    for (int i = 0, side = 0; i < 60; i++) {
-        double omega = (low * f_high - high * f_low) / (f_high - f_low);
-        fst_params params = params_at(dynamics, omega);
-        fst_status status = fst_orbit_find(&params, &orbit, error);
-        if (status != FST_OK)
-            return status;
-        double f = orbit.means.festoons - target;
-        *pattern = (fst_paper_pattern){omega, orbit.symmetry};
-        if (fabs(f) < 1e-11 * target || fabs(high - low) < 1e-12)
-            break;
-        if ((f < 0.0) == (f_low < 0.0)) {
-            low = omega, f_low = f;
-            f_high *= side < 0 ? 0.5 : 1.0;
-            side = -1;
-        } else {
-            high = omega, f_high = f;
-            f_low *= side > 0 ? 0.5 : 1.0;
-            side = 1;
-        }
-    }
-    return FST_OK;
-}
-
-static int brackets(const fst_branch_point *a, const fst_branch_point *b, double target)
-{
-    return a->branch == b->branch && a->stable && b->stable && a->turns < 0 && b->turns < 0 &&
-           (a->festoons < target) != (b->festoons < target);
-}
-
 /* Each row of Table 1 whose pattern closes somewhere on the stable branch. */
-static fst_status close_patterns(fst_dynamics dynamics, const fst_branch *branch, fst_paper_exact *exact,
+static fst_status close_patterns(const fst_params *params, const fst_branch *branch, fst_paper_exact *exact,
                                  fst_error *error)
 {
     fst_status status = FST_OK;
-    for (int row = 0; row < FST_TABLE1_ROWS; row++)
-        for (size_t i = 0; i + 1 < branch->point_count && status == FST_OK; i++)
-            if (brackets(&branch->points[i], &branch->points[i + 1], fst_table1[row].count))
-                status = close_pattern(dynamics, &branch->points[i], &branch->points[i + 1],
-                                       fst_table1[row].count, &exact->closed[row], error);
+    for (int row = 0; row < FST_TABLE1_ROWS && status == FST_OK; row++) {
+        fst_festoon_list list;
+        status = fst_festoons_on(params, branch, fst_table1[row].count, &list, error);
+        if (status == FST_OK)
+            exact->closed[row] = (fst_paper_pattern){list.omegas[0], list.orbits[0].means.symmetry};
+        fst_festoons_free(&list);
+        status = status == FST_NO_CONVERGENCE ? FST_OK : status; /* it closes nowhere */
+    }
     return status;
 }
 
@@ -138,9 +105,9 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
     fst_status status = fst_branch_follow(&params, &options, &branch, &why);
     if (status == FST_OK) {
         read_branch(&branch, exact);
-        status = close_patterns(dynamics, &branch, exact, &why);
-        fst_branch_free(&branch);
+        status = close_patterns(&params, &branch, exact, &why);
     }
+    fst_branch_free(&branch);
     if (status == FST_OK)
         status = count_minima(dynamics, exact, &why);
     if (status == FST_OK)

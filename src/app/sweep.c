@@ -32,6 +32,7 @@ typedef struct job {
     int64_t next; /* point or chain from which on the journal is yet to be looked through */
     fst_sweep_progress progress;
     double started, committed;
+    double processor_started, journal_started;
     int uncommitted;
     int no_answer; /* a follower that was told to stop said nothing more */
 } job;
@@ -45,11 +46,24 @@ fst_sweep_options fst_default_sweep_options(void)
     return o;
 }
 
-static double now(void)
+static double read_clock(clockid_t clock)
 {
     struct timespec time = {0, 0};
-    (void)clock_gettime(CLOCK_MONOTONIC, &time);
+    (void)clock_gettime(clock, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+static double now(void)
+{
+    return read_clock(CLOCK_MONOTONIC);
+}
+
+/* What the job has taken so far. */
+static void read_clocks(job *j)
+{
+    j->progress.seconds = now() - j->started;
+    j->progress.processor_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - j->processor_started;
+    j->progress.journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - j->journal_started;
 }
 
 /* ------------------------------------------------------------------ tasks */
@@ -205,7 +219,7 @@ static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
         const int count = fst_crew_take(j->crew, rows, seconds, &busy);
         if (status == FST_OK)
             status = write_rows(j, rows, count, error);
-        j->progress.seconds = now() - j->started;
+        read_clocks(j);
         if (status == FST_OK && outcome == FST_OK && j->options->progress)
             outcome = j->options->progress(j->options->user, &j->progress, error);
         if (stopped == 0.0 && (status != FST_OK || outcome != FST_OK)) {
@@ -355,7 +369,10 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
                  .ranks = {.count = 1, .neighbours = 1}};
         j.progress.points = fst_grid_points(grid);
         j.started = j.committed = now();
+        j.processor_started = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+        j.journal_started = read_clock(CLOCK_THREAD_CPUTIME_ID);
         status = run_job(&j, path, error);
+        read_clocks(&j);
         *result = j.progress;
     }
     fst_grid_free(grid);

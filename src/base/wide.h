@@ -131,23 +131,30 @@ static inline fst_wide fst_wide_reciprocal_sqrt(fst_wide x)
 #endif
 }
 
+/* An estimate of 1/sqrt(x) for fst_wide_inverse_fifth(). */
+static inline fst_wide fst_wide_estimate_reciprocal_sqrt(fst_wide x)
+{
+#if FST_LANES == 8
+    return (fst_wide)_mm512_rsqrt14_pd(WIDE_NATIVE(x));
+#else
+    /* A root and a quotient of floats, which are exactly rounded everywhere. */
+    const __m128 root = _mm_sqrt_ps(_mm256_cvtpd_ps(WIDE_NATIVE(x)));
+    return (fst_wide)_mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0F), root));
+#endif
+}
+
 /* x^(-5/2) = y^5 (1 - e)^(-5/2) with e = 1 - x y^2 and an estimate y of 1/sqrt(x), for x between 1e-30 and
  * 1e30: one series for root, quotient and power. */
-static inline fst_wide fst_wide_inverse_fifth(fst_wide x)
+static inline fst_wide fst_wide_inverse_fifth(fst_wide x, fst_wide y)
 {
     const fst_wide one = fst_wide_of(1.0), first = fst_wide_of(2.5);
+    const fst_wide y2 = y * y, e = WIDE_NEGMULADD(x, y2, one);
 #if FST_LANES == 8
     /* |e| < 1.23e-4.  Beyond 105/16 e^3 there is 9.02 e^4, whose best approximation by e^2 is added to 35/8 and
      * leaves 3.4e-16. */
-    const fst_wide y = (fst_wide)_mm512_rsqrt14_pd(WIDE_NATIVE(x));
-    const fst_wide y2 = y * y, e = WIDE_NEGMULADD(x, y2, one);
     const fst_wide rest = WIDE_MULADD(e, fst_wide_of(6.5625), fst_wide_of(4.375 + 1.1135e-7));
 #else
-    /* A root and a quotient of floats, which are exactly rounded everywhere: |e| < 4e-7, and 6.6 e^3 is
-     * nothing. */
-    const __m128 root = _mm_sqrt_ps(_mm256_cvtpd_ps(WIDE_NATIVE(x)));
-    const fst_wide y = (fst_wide)_mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0F), root));
-    const fst_wide y2 = y * y, e = WIDE_NEGMULADD(x, y2, one);
+    /* |e| < 4e-7, and 6.6 e^3 is nothing. */
     const fst_wide rest = fst_wide_of(4.375);
 #endif
     const fst_wide series = WIDE_MULADD(e, WIDE_MULADD(e, rest, first), one);
@@ -178,7 +185,8 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_NEGMULADD(a, b, c) WIDE_NEGMULADD(a, b, c)
 #define REAL_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x)
 #define REAL_FAST_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x) /* where it is no root and a quotient */
-#define REAL_INVERSE_FIFTH(x) fst_wide_inverse_fifth(x)
+#define REAL_ESTIMATE_RECIPROCAL_SQRT(x) fst_wide_estimate_reciprocal_sqrt(x)
+#define REAL_INVERSE_FIFTH(x, estimate) fst_wide_inverse_fifth(x, estimate)
 #define REAL_ROUGH_RECIPROCAL(x) fst_wide_rough_reciprocal(x)
 #define REAL_OVER_SQRT(a, x) ((a)*fst_wide_reciprocal_sqrt(x))
 #define REAL_INVERSE_EIGHTH_ROOT(x) fst_wide_inverse_eighth_root(x)

@@ -1,5 +1,7 @@
 /* branch.c - festoon branch: families of orbits or of equilibria over a parameter. */
+#include <errno.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/command.h"
 #include "cli/terminal.h"
@@ -43,12 +45,15 @@ static fst_status read_range(const char *name, const char *text, char key[64], d
         return fail(error, FST_BAD_INPUT, name, "\"%s\" is no parameter with real values; the nearest is %s",
                     key, nearest);
     }
-    fst_status status = fst_parse_value(low, fst_param_at(row)->unit, from, error);
+    fst_error why;
+    fst_status status = fst_parse_value(low, fst_param_at(row)->unit, from, &why);
     if (status == FST_OK)
-        status = fst_parse_value(high, fst_param_at(row)->unit, to, error);
-    if (status == FST_OK && !(*from < *to))
-        status = fail(error, FST_BAD_INPUT, name, "the range %s:%s must rise", low, high);
-    return status;
+        status = fst_parse_value(high, fst_param_at(row)->unit, to, &why);
+    if (status != FST_OK)
+        return fail(error, FST_BAD_INPUT, name, "%s", why.sentence);
+    if (!(*from < *to))
+        return fail(error, FST_BAD_INPUT, name, "the range %s:%s must rise", low, high);
+    return FST_OK;
 }
 
 /* The second parameter, and the type of the special points that are followed over both. */
@@ -92,8 +97,14 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
             o->kind = (fst_branch_kind)k;
             found = 1;
         }
-    if (!found)
+    if (!kind)
         return fail(error, FST_BAD_INPUT, "--kind", "tell which: --kind counter, --kind locked or --kind all");
+    if (!found) {
+        char nearest[32];
+        (void)fst_nearest_name(kind, "counter|locked|all", nearest, sizeof nearest);
+        return fail(error, FST_BAD_INPUT, "--kind",
+                    "unknown kind \"%.60s\"; the nearest is %s (counter|locked|all)", kind, nearest);
+    }
     if (!over)
         return fail(error, FST_BAD_INPUT, "--over", "tell over what: --over drive.omega=0.2:3");
     fst_status status = read_range("--over", over, keys[0], &o->from, &o->to, error);
@@ -105,6 +116,20 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
     if (status == FST_OK && step)
         status = read_numbers("--step", step, &o->longest_step, 1, error);
     return status;
+}
+
+/* Whether a file can be made there, before any work is done for it. */
+static fst_status check_place(const char *path, fst_error *error)
+{
+    char directory[1024];
+    const char *slash = strrchr(path, '/');
+    const int length = slash == path ? 1 : slash ? (int)(slash - path) : 0;
+    if ((size_t)length >= sizeof directory)
+        return FST_OK; /* writing will tell */
+    (void)snprintf(directory, sizeof directory, "%.*s", length, path);
+    return access(length ? directory : ".", W_OK) == 0
+               ? FST_OK
+               : fail(error, FST_IO, path, "cannot write here: %s", strerror(errno));
 }
 
 /* A curve over two parameters: a few of its points. */
@@ -167,6 +192,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
         status = read_options(given, keys, &o, error);
+    const char *path = option_value(given, "output");
+    if (status == FST_OK && path)
+        status = check_place(path, error);
     if (status != FST_OK)
         return status;
     progress_line line;
@@ -175,11 +203,16 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     o.progress = show;
     status = fst_branch_follow(&params, &o, &branch, error);
     progress_end(&line);
-    if (status != FST_OK)
+    if (status != FST_OK && status != FST_INTERRUPTED)
         return status;
-    const char *path = option_value(given, "output");
+    const int stopped = status == FST_INTERRUPTED;
     if (path)
         status = fst_branch_write(path, &params, &branch, error);
+    if (stopped && (!path || status == FST_OK))
+        status = fail(error, FST_INTERRUPTED, path ? path : "branch",
+                      path ? "interrupted: it holds the %zu points found until then, and is marked incomplete"
+                           : "interrupted after %zu points, which -o FILE.json would have kept",
+                      branch.point_count);
     if (status == FST_OK && option_value(given, "json"))
         status = print_and_free(fst_branch_json(&params, &branch), out, error);
     else if (status == FST_OK)

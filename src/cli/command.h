@@ -17,6 +17,7 @@ typedef struct command {
     const char *details;  /* further help, whole lines, or "" */
     const option *options;
     int most_operands; /* arguments that are no options */
+    int much_output;   /* standard output may be larger than memory */
     /* Do it.  What is written to `out` reaches standard output only if FST_OK is returned. */
     fst_status (*perform)(const arguments *given, FILE *out, fst_error *error);
 } command;

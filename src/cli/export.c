@@ -36,5 +36,6 @@ const command export_command = {
     .details = "",
     .options = options,
     .most_operands = 1,
+    .much_output = 1,
     .perform = perform,
 };

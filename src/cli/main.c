@@ -134,32 +134,54 @@ static void print_error(const fst_error *error)
     (void)fprintf(stderr, "festoon: %s%s%s\n", error->where, error->where[0] ? ": " : "", error->sentence);
 }
 
+/* Standard output is written only when all is well: until then it waits in memory, or, where there is much of
+ * it, in a file. */
+typedef struct waiting_output {
+    FILE *stream;
+    char *text; /* NULL: in a file */
+    size_t size;
+} waiting_output;
+
+static fst_status begin_output(waiting_output *out, const char *name, fst_error *error)
+{
+    const command *wanted = name ? find_command(name) : NULL;
+    *out = (waiting_output){NULL, NULL, 0};
+    if (wanted && wanted->much_output)
+        out->stream = spool_open();
+    if (!out->stream)
+        out->stream = open_memstream(&out->text, &out->size);
+    return out->stream ? FST_OK : fail(error, FST_NO_MEMORY, "", "out of memory");
+}
+
+static fst_status end_output(waiting_output *out, fst_status status, fst_error *error)
+{
+    int reason = 0;
+    if ((fflush(out->stream) != 0 || ferror(out->stream)) && status == FST_OK)
+        status = fail(error, FST_IO, "standard output", "no room to gather it, in memory or in $TMPDIR");
+    if (status == FST_OK)
+        reason =
+            out->text ? write_standard_output(out->text, out->size) : spool_to_standard_output(out->stream);
+    if (reason)
+        status = fail(error, FST_IO, "standard output", "writing failed: %s", strerror(reason));
+    (void)fclose(out->stream);
+    free(out->text);
+    return status;
+}
+
 int main(int argc, char **argv)
 {
     terminal_prepare();
     fst_error error = {FST_OK, "", ""};
-    char *text = NULL;
-    size_t size = 0;
-    /* Standard output is written only when all is well. */
-    FILE *out = open_memstream(&text, &size);
-    fst_status status = FST_NO_MEMORY;
-    if (out) {
-        status = perform(argc > 0 ? argc - 1 : 0, argv + 1, out, &error);
-        if (fclose(out) != 0 && status == FST_OK)
-            status = fail(&error, FST_NO_MEMORY, "", "out of memory");
-    } else {
-        (void)fail(&error, FST_NO_MEMORY, "", "out of memory");
-    }
+    waiting_output out;
+    fst_status status = begin_output(&out, argc > 1 ? argv[1] : NULL, &error);
     if (status == FST_OK) {
-        int reason = write_standard_output(text, size);
-        if (reason)
-            status = fail(&error, FST_IO, "standard output", "writing failed: %s", strerror(reason));
-    } else if (interrupted() && status != FST_INTERRUPTED && error.sentence[0]) {
-        /* Also where the signal reached a helper process such as gnuplot first. */
-        status = fail(&error, FST_INTERRUPTED, "", "interrupted");
+        status = perform(argc > 0 ? argc - 1 : 0, argv + 1, out.stream, &error);
+        status = end_output(&out, status, &error);
     }
+    /* Also where the signal reached a helper process such as gnuplot first. */
+    if (status != FST_OK && interrupted() && status != FST_INTERRUPTED && error.sentence[0])
+        status = fail(&error, FST_INTERRUPTED, "", "interrupted");
     if (status != FST_OK)
         print_error(&error);
-    free(text);
     return exit_status(status);
 }

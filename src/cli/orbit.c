@@ -40,6 +40,10 @@ static void print_orbit(FILE *out, const fst_orbit *o)
     for (int i = 0; i < FST_MULTIPLIER_COUNT; i++)
         (void)fprintf(out, " %.4g%s%.4gi", o->multiplier_re[i], o->multiplier_im[i] < 0 ? "-" : "+",
                       fabs(o->multiplier_im[i]));
+    if (isfinite(o->relaxation_time))
+        (void)fprintf(out, "\n  relaxation time           %.10g 1/gamma", o->relaxation_time);
+    if (isfinite(o->swing_ratio))
+        (void)fprintf(out, "\n  p, ratio of swings - 1    %.10g", o->swing_ratio);
     (void)fprintf(out, "\n  residual %.2g, flow direction mapped onto itself to %.2g\n", o->residual,
                   o->trivial_error);
 }

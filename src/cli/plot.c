@@ -20,6 +20,9 @@ static const option options[] = {
      "path: in the laboratory; local-n: of the moment in the local frame; radius-field: r and "
      "|B| against Phi"},
     {"key", '\0', "KEY,...", "of a sweep: the keys of festoon run that are drawn (regime: a map of regimes)"},
+    {"units", '\0', "lab|scaled",
+     "of a sweep: Hz, mm and seconds, or the drive's omega and lengths in l (unless given: as they were "
+     "varied)"},
     {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
     {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
     {"no-arrows", '\0', NULL, "draw none"},
@@ -125,14 +128,20 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
 /* Curves over one axis, a map over two. */
 static fst_status plot_sweep(const arguments *given, const char *path, const char *to, fst_error *error)
 {
-    enum { MOST_KEYS = 8 };
-    const char *text = option_value(given, "key"), *keys[MOST_KEYS];
-    char words[256] = "";
+    enum { MOST_KEYS = 16 };
+    const char *text = option_value(given, "key"), *keys[MOST_KEYS], *unit_word = option_value(given, "units");
+    char words[512] = "";
     int count = 0;
+    fst_shown_units units = FST_SHOWN_AS_GIVEN;
     for (int i = 0; i < given->option_count; i++) {
         const char *name = given->options[i].row->name;
-        if (strcmp(name, "key") != 0 && strcmp(name, "output") != 0)
+        if (strcmp(name, "key") != 0 && strcmp(name, "units") != 0 && strcmp(name, "output") != 0)
             return fail(error, FST_BAD_INPUT, "", "--%s belongs to trajectories; this is a sweep", name);
+    }
+    if (unit_word) {
+        if (strcmp(unit_word, "lab") != 0 && strcmp(unit_word, "scaled") != 0)
+            return fail(error, FST_BAD_INPUT, "--units", "\"%.40s\" must be lab or scaled", unit_word);
+        units = strcmp(unit_word, "lab") == 0 ? FST_SHOWN_LAB : FST_SHOWN_SCALED;
     }
     (void)snprintf(words, sizeof words, "%s", text ? text : "");
     for (char *word = words; *word && count < MOST_KEYS;) {
@@ -143,7 +152,7 @@ static fst_status plot_sweep(const arguments *given, const char *path, const cha
         word[length] = '\0';
         word += length + 1;
     }
-    fst_status status = fst_figure_sweep(path, keys, count, to, error);
+    fst_status status = fst_figure_sweep(path, keys, count, units, to, error);
     if (status == FST_OK)
         (void)fprintf(stderr, "wrote %s\n", to);
     return status;
@@ -163,8 +172,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return plot_branch(given, path, to, error);
     if (fst_is_sweep(path))
         return plot_sweep(given, path, to, error);
-    if (option_value(given, "key"))
-        return fail(error, FST_BAD_INPUT, path, "--key belongs to sweeps; this is none");
+    if (option_value(given, "key") || option_value(given, "units"))
+        return fail(error, FST_BAD_INPUT, path, "--key and --units belong to sweeps; this is none");
     fst_status status = read_figure(given, &figure, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);

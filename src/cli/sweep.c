@@ -82,20 +82,23 @@ static fst_status show(void *user, const fst_sweep_progress *p, fst_error *error
     char what[64];
     if (p->rank != 0)
         return interrupted() ? fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
-    int64_t wanted = p->points - p->there + p->added;
+    /* A sweep that goes on counts what is there, but hopes for the speed of this call. */
+    const double rate = p->seconds > 0 ? (double)p->added / p->seconds : 0.0;
     (void)snprintf(what, sizeof what, "%lld of %lld points, %.3g a second", (long long)p->there,
-                   (long long)p->points, p->seconds > 0 ? (double)p->added / p->seconds : 0.0);
-    return progress_show(user, wanted > 0 ? (double)p->added / (double)wanted : 1.0, what, error);
+                   (long long)p->points, rate);
+    return progress_show_left(user, (double)p->there / (double)p->points,
+                              rate > 0 ? (double)(p->points - p->there) / rate : INFINITY, what, error);
 }
 
 static void print_sweep(FILE *out, const char *path, const fst_sweep_progress *p, int json)
 {
     if (json) {
-        (void)fprintf(out,
-                      "{\n  \"points\": %lld,\n  \"rows\": %lld,\n  \"added\": %lld,\n  \"failed\": %lld,\n"
-                      "  \"seconds\": %.17g\n}\n",
-                      (long long)p->points, (long long)p->there, (long long)p->added, (long long)p->failed,
-                      p->seconds);
+        (void)fprintf(
+            out,
+            "{\n  \"points\": %lld,\n  \"rows\": %lld,\n  \"added\": %lld,\n  \"failed\": %lld,\n"
+            "  \"seconds\": %.17g,\n  \"processor_seconds\": %.17g,\n  \"journal_seconds\": %.17g\n}\n",
+            (long long)p->points, (long long)p->there, (long long)p->added, (long long)p->failed, p->seconds,
+            p->processor_seconds, p->journal_seconds);
         return;
     }
     (void)fprintf(out, "%s: all %lld points", path, (long long)p->points);

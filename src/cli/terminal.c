@@ -2,8 +2,10 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -62,7 +64,20 @@ void progress_begin(progress_line *line)
     line->shown = line->started;
 }
 
-fst_status progress_show(progress_line *line, double fraction, const char *what, fst_error *error)
+static void show_time_left(double seconds)
+{
+    if (seconds < 600.0)
+        (void)fprintf(stderr, "  %.0f s left", seconds);
+    else if (seconds < 36000.0)
+        (void)fprintf(stderr, "  %.0f min left", seconds / 60.0);
+    else if (seconds < 200000.0)
+        (void)fprintf(stderr, "  %.0f h left", seconds / 3600.0);
+    else
+        (void)fprintf(stderr, "  %.3g days left", seconds / 86400.0);
+}
+
+fst_status progress_show_left(progress_line *line, double fraction, double seconds_left, const char *what,
+                              fst_error *error)
 {
     if (interrupted())
         return fail(error, FST_INTERRUPTED, "", "interrupted after %.3g %% of the way", 100.0 * fraction);
@@ -72,14 +87,20 @@ fst_status progress_show(progress_line *line, double fraction, const char *what,
     if (time - line->shown < 0.2)
         return FST_OK;
     line->shown = time;
-    double passed = time - line->started;
     (void)fprintf(stderr, "\r\033[K%5.1f %%", 100.0 * fraction);
-    if (fraction > 0.0)
-        (void)fprintf(stderr, "  %.0f s left", passed * (1.0 - fraction) / fraction);
+    if (isfinite(seconds_left))
+        show_time_left(seconds_left);
     if (what)
-        (void)fprintf(stderr, "  %.50s", what);
+        (void)fprintf(stderr, "  %.60s", what);
     (void)fflush(stderr);
     return FST_OK;
+}
+
+fst_status progress_show(progress_line *line, double fraction, const char *what, fst_error *error)
+{
+    const double passed = now() - line->started;
+    return progress_show_left(line, fraction, fraction > 0.0 ? passed * (1.0 - fraction) / fraction : INFINITY,
+                              what, error);
 }
 
 void progress_end(progress_line *line)
@@ -88,7 +109,8 @@ void progress_end(progress_line *line)
         (void)fputs("\r\033[K", stderr);
 }
 
-int write_standard_output(const char *text, size_t size)
+/* 0, or errno. */
+static int write_all(const char *text, size_t size)
 {
     while (size > 0) {
         ssize_t written = write(STDOUT_FILENO, text, size);
@@ -99,6 +121,44 @@ int write_standard_output(const char *text, size_t size)
         text += written;
         size -= (size_t)written;
     }
-    /* Some file systems tell only now that the disk is full. */
-    return close(STDOUT_FILENO) != 0 ? errno : 0;
+    return 0;
+}
+
+/* Some file systems tell only now that the disk is full. */
+static int end_standard_output(int reason)
+{
+    return close(STDOUT_FILENO) != 0 && reason == 0 ? errno : reason;
+}
+
+int write_standard_output(const char *text, size_t size)
+{
+    return end_standard_output(write_all(text, size));
+}
+
+FILE *spool_open(void)
+{
+    const char *folder = getenv("TMPDIR");
+    char path[4096];
+    const int length = snprintf(path, sizeof path, "%s/festoon-XXXXXX", folder && folder[0] ? folder : "/tmp");
+    const int descriptor = length < (int)sizeof path ? mkstemp(path) : -1;
+    if (descriptor < 0)
+        return NULL;
+    (void)unlink(path); /* it lives as long as it is open */
+    FILE *spool = fdopen(descriptor, "w+");
+    if (!spool)
+        (void)close(descriptor);
+    return spool;
+}
+
+int spool_to_standard_output(FILE *spool)
+{
+    char piece[65536];
+    size_t size;
+    int reason = 0;
+    rewind(spool);
+    while (reason == 0 && (size = fread(piece, 1, sizeof piece, spool)) > 0)
+        reason = write_all(piece, size);
+    if (reason == 0 && ferror(spool))
+        reason = EIO;
+    return end_standard_output(reason);
 }

@@ -2,6 +2,8 @@
 #ifndef FST_CLI_TERMINAL_H
 #define FST_CLI_TERMINAL_H
 
+#include <stdio.h>
+
 #include <festoon/festoon.h>
 
 /* Prepare standard streams and signals, before anything is opened. */
@@ -22,10 +24,19 @@ void progress_begin(progress_line *line);
  * in, once a signal came; that is how a computation learns of it. */
 fst_status progress_show(progress_line *line, double fraction, const char *what, fst_error *error);
 
+/* The same where the time left does not follow from the fraction (INFINITY: nobody knows). */
+fst_status progress_show_left(progress_line *line, double fraction, double seconds_left, const char *what,
+                              fst_error *error);
+
 /* Wipe the line. */
 void progress_end(progress_line *line);
 
 /* Write all of `text` to standard output; 0, or the reason (errno). */
 int write_standard_output(const char *text, size_t size);
+
+/* A file without a name, for output that may not fit into memory, in $TMPDIR or /tmp; NULL: it cannot be made.
+ * The second one writes all of it to standard output, as above. */
+FILE *spool_open(void);
+int spool_to_standard_output(FILE *spool);
 
 #endif

@@ -74,6 +74,8 @@ static void write_axes(fst_figure_file *figure, const fst_chart *chart, const fs
                       chart->x_low * chart->x2_factor, chart->x_high * chart->x2_factor);
     else
         (void)fputs("unset x2tics\n", script);
+    if (second && chart->x_logarithmic)
+        fst_figure_logarithmic(figure, "x2", chart->x_low * chart->x2_factor, chart->x_high * chart->x2_factor);
     if (panel->key)
         (void)fprintf(script, "set key %s samplen 2.5 spacing 1.15\n", panel->key);
     else
@@ -198,6 +200,8 @@ fst_status fst_figure_chart(const char *out, const fst_chart *chart, fst_error *
     (void)fputs(" noenhanced\nset grid ls 101\n", script);
     if (chart->square)
         (void)fputs("set size ratio -1\n", script);
+    if (chart->x_logarithmic)
+        fst_figure_logarithmic(&figure, "x", chart->x_low, chart->x_high);
     double head = (chart->x2_label ? HEAD_HEIGHT : HEAD_HEIGHT - 70) / (double)height;
     double each = (1.0 - head - FOOT_HEIGHT / (double)height) / chart->panel_count;
     for (int p = 0; p < chart->panel_count; p++) {

@@ -59,6 +59,7 @@ typedef struct fst_chart_mark {
 typedef struct fst_chart {
     const char *title, *x_label;
     double x_low, x_high;
+    int x_logarithmic;
     const char *x_tics;   /* gnuplot's tics, "('0' 0, 'π' 3.14159)"; NULL: automatic */
     const char *x2_label; /* a second abscissa on top, x2 = x2_factor x; NULL: none */
     double x2_factor;

@@ -11,7 +11,7 @@
 enum {
     CIRCLE = 181,
     CIRCLE_SIZE = 680,
-    SPECIAL_TYPES = FST_SPECIAL_ORIGIN_CROSSING + 1,
+    SPECIAL_TYPES = FST_SPECIAL_TRANSCRITICAL + 1,
     CURVES = SPECIAL_TYPES + 4
 };
 
@@ -28,6 +28,8 @@ static const struct observable {
     {"period", "period γ", offsetof(fst_branch_point, period)},
     {"phi_deg", "Φ / degrees", offsetof(fst_branch_point, phi_deg)},
     {"slip", "slip / (l γ)", offsetof(fst_branch_point, slip)},
+    {"relaxation_time", "relaxation time γ", offsetof(fst_branch_point, relaxation_time)},
+    {"swing_ratio", "p, ratio of swings - 1", offsetof(fst_branch_point, swing_ratio)},
 };
 
 static const struct observable *find_observable(const char *name)
@@ -135,7 +137,8 @@ static int add_diagram(const fst_branch *b, const struct observable *what, colum
 {
     const int over_two = b->second_key[0] != 0;
     static const fst_colour colours[SPECIAL_TYPES] = {FST_COLOUR_BLACK,  FST_COLOUR_VERMILION, FST_COLOUR_GREEN,
-                                                      FST_COLOUR_PURPLE, FST_COLOUR_GREY,      FST_COLOUR_BLUE};
+                                                      FST_COLOUR_PURPLE, FST_COLOUR_GREY,      FST_COLOUR_BLUE,
+                                                      FST_COLOUR_ORANGE};
     int count = 0;
     put_pieces(&c[0], b, what, 1);
     put_pieces(&c[1], b, what, 0);

@@ -10,13 +10,29 @@
 enum { MOST_KEYS = 8, REGIMES = FST_REGIME_LIFTED + 1 };
 
 typedef struct drawing {
-    double *x, *by_regime;
+    double *x, *by_regime; /* by_regime[regime * points + i] */
     fst_chart_curve curves[MOST_KEYS + REGIMES];
     fst_chart_panel panels[MOST_KEYS];
-    char labels[MOST_KEYS][96];
     int curve_count, panel_count;
     size_t points;
+    char title[256];
 } drawing;
+
+static int any_value(const double *values, size_t count)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (isfinite(values[i]))
+            return 1;
+    return 0;
+}
+
+/* A key without any value gets no panel, but a word in the title. */
+static void mention_empty(drawing *d, const char *label)
+{
+    const size_t used = strlen(d->title);
+    (void)snprintf(d->title + used, sizeof d->title - used, "%s%s",
+                   strchr(d->title, ':') ? ", " : "; no value of: ", label);
+}
 
 /* One curve for each regime that occurs, at the height of `values`: who does what where. */
 static void add_regimes(drawing *d, const double *regime, const double *values)
@@ -39,16 +55,22 @@ static void add_regimes(drawing *d, const double *regime, const double *values)
 }
 
 /* A panel a key; the regime, where it is asked for, colours the points of the key before it. */
-static void add_panels(drawing *d, const fst_sweep_table *table, const char *const *keys, int count)
+static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep_quantity *quantities,
+                       int count)
 {
     for (int k = 0; k < count; ++k) {
-        const double *values = table->values + (size_t)k * d->points;
-        const int regimes_follow = k + 1 < count && strcmp(keys[k + 1], "regime") == 0;
-        if (strcmp(keys[k], "regime") == 0 && k > 0)
+        double *values = table->values + (size_t)k * d->points;
+        const int regimes_follow = k + 1 < count && strcmp(quantities[k + 1].key, "regime") == 0;
+        if (strcmp(quantities[k].key, "regime") == 0 && k > 0)
             continue;
-        fst_chart_panel *panel = &d->panels[d->panel_count];
-        fst_sweep_key_label(keys[k], d->labels[d->panel_count], sizeof d->labels[0]);
-        *panel = (fst_chart_panel){.left_label = d->labels[d->panel_count++],
+        for (size_t i = 0; i < d->points; ++i)
+            values[i] *= quantities[k].factor;
+        if (!any_value(values, d->points)) {
+            mention_empty(d, quantities[k].label);
+            continue;
+        }
+        fst_chart_panel *panel = &d->panels[d->panel_count++];
+        *panel = (fst_chart_panel){.left_label = quantities[k].label,
                                    .low = NAN,
                                    .high = NAN,
                                    .key = regimes_follow ? "top right" : NULL,
@@ -66,11 +88,37 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const char *con
     }
 }
 
-fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const char *const *keys, int count,
-                                   const fst_sweep_axis *axis, const char *out, fst_error *error)
+/* The abscissa, and where the drawing ends: at the outermost values, or half a unit beyond those of a choice.
+ */
+static void lay_abscissa(drawing *d, const fst_grid *grid, const fst_sweep_axis *axis, double *low,
+                         double *high)
 {
-    if (count > MOST_KEYS)
-        return fst_fail(error, FST_BAD_INPUT, "--key", "a figure shows at most %d keys", MOST_KEYS);
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (size_t i = 0; i < d->points; ++i) {
+        d->x[i] = fst_sweep_axis_value(grid, axis, (int64_t)i);
+        *low = fmin(*low, d->x[i]);
+        *high = fmax(*high, d->x[i]);
+    }
+    const double wider = axis->choice ? 0.5 : *low < *high ? 0.0 : 0.1 * fabs(*low);
+    *low -= wider;
+    *high += wider;
+}
+
+/* What one unit of a drive in Hz is as scaled angular velocity; 0 for other axes. */
+static double scale_of_drive(const fst_grid *grid, const fst_sweep_axis *axis)
+{
+    const char *key = fst_grid_key(grid, axis->index);
+    const double factor = 6.283185307179586 / fst_grid_base(grid)->friction_gamma;
+    const int in_hertz = strcmp(key, "drive.frequency") == 0
+                             ? axis->factor == 1.0
+                             : strcmp(key, "drive.omega") == 0 && axis->factor != 1.0;
+    return in_hertz ? factor : 0.0;
+}
+
+fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep_quantity *quantities,
+                                   int count, const fst_sweep_axis *axis, const char *out, fst_error *error)
+{
     drawing *d = calloc(1, sizeof *d);
     const size_t points = (size_t)fst_grid_points(table->grid);
     double *memory = malloc((1 + REGIMES) * points * sizeof *memory);
@@ -82,28 +130,27 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const char *con
     d->points = points;
     d->x = memory;
     d->by_regime = memory + points;
-    double low = INFINITY, high = -INFINITY;
-    for (size_t i = 0; i < points; ++i) {
-        d->x[i] = fst_sweep_axis_value(table->grid, axis, (int64_t)i);
-        low = fmin(low, d->x[i]);
-        high = fmax(high, d->x[i]);
-    }
-    add_panels(d, table, keys, count);
-    fst_model *model = NULL;
-    const int in_hertz = strcmp(fst_grid_key(table->grid, axis->index), "drive.frequency") == 0;
-    double scale = 0.0;
-    if (in_hertz && fst_model_new(fst_grid_base(table->grid), &model, NULL) == FST_OK)
-        scale = 6.283185307179586 * fst_model_groups(model).time_unit;
-    fst_model_free(model);
-    const fst_chart chart = {.title = "Sweep over one parameter",
+    double low, high;
+    lay_abscissa(d, table->grid, axis, &low, &high);
+    (void)snprintf(d->title, sizeof d->title, "Sweep over one parameter");
+    add_panels(d, table, quantities, count);
+    char tics[512] = "";
+    if (axis->choice)
+        fst_sweep_choice_tics(axis->choice, tics, sizeof tics);
+    const double scale = scale_of_drive(table->grid, axis);
+    const fst_chart chart = {.title = d->title,
                              .x_label = axis->label,
                              .x_low = low,
                              .x_high = high,
+                             .x_logarithmic = axis->logarithmic,
+                             .x_tics = axis->choice ? tics : NULL,
                              .x2_label = scale > 0 ? "drive ω (scaled)" : NULL,
                              .x2_factor = scale,
                              .panels = d->panels,
                              .panel_count = d->panel_count};
-    const fst_status status = fst_figure_chart(out, &chart, error);
+    const fst_status status = d->panel_count > 0 ? fst_figure_chart(out, &chart, error)
+                                                 : fst_fail(error, FST_BAD_INPUT, out,
+                                                            "no point of the sweep has a value to draw yet");
     free(memory);
     free(d);
     return status;

@@ -3,76 +3,143 @@
 
 #include "base/error.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum { WIDTH = 780, HEIGHT = 620, REGIMES = FST_REGIME_LIFTED + 1 };
 
+/* A value of an axis and the points that have it. */
+typedef struct place {
+    double value;
+    int64_t offset; /* added to the point's number */
+} place;
+
+/* An axis with its values in rising order, each once; cell i reaches from edges[i] to edges[i + 1]. */
+typedef struct side {
+    place *places;
+    double *edges;
+    int64_t count;
+} side;
+
 typedef struct map {
     const fst_sweep_table *table;
     const fst_sweep_axis *axes; /* the first one upward, the second one to the right */
-    const char *key;
+    side up, right;
     int regimes; /* colours stand for regimes */
+    double factor;
 } map;
 
-static int64_t point_at(const map *m, int64_t row, int64_t column)
+/* ------------------------------------------------------------------ cells */
+
+static int by_value(const void *a, const void *b)
 {
-    const fst_grid *grid = m->table->grid;
-    return row * fst_grid_axis_stride(grid, m->axes[0].index) +
-           column * fst_grid_axis_stride(grid, m->axes[1].index);
+    const place *left = a, *right = b;
+    if (left->value != right->value)
+        return left->value < right->value ? -1 : 1;
+    return (left->offset > right->offset) - (left->offset < right->offset);
 }
 
-/* The borders of a value's cell: halfway to its neighbours. */
-static void cell(const map *m, int which, int64_t i, double *low, double *high)
+/* Halfway between neighbours, on the scale that is drawn. */
+static double between(const fst_sweep_axis *axis, double a, double b)
 {
-    const fst_sweep_axis *axis = &m->axes[which];
-    const int64_t last = axis->count - 1, before = i > 0 ? i - 1 : 0, after = i < last ? i + 1 : last;
-#define VALUE(place)                                                                                           \
-    fst_sweep_axis_value(m->table->grid, axis, which ? point_at(m, 0, place) : point_at(m, place, 0))
-    const double here = VALUE(i), down = here - VALUE(before), up = VALUE(after) - here;
-#undef VALUE
-    *low = here - 0.5 * (i > 0 ? down : up);
-    *high = here + 0.5 * (i < last ? up : down);
+    return axis->logarithmic ? sqrt(a * b) : 0.5 * (a + b);
 }
 
-/* Boxes overlap a little, so that no seams show between them. */
-static void write_box(fst_figure_file *figure, double x_low, double x_high, double y_low, double y_high,
-                      double value)
+/* The outermost cells are as wide to both sides of their values. */
+static double mirrored(const fst_sweep_axis *axis, double value, double edge)
 {
-    const double wider = 0.03 * (x_high - x_low), higher = 0.03 * (y_high - y_low);
-    (void)fprintf(figure->data, "%.7g %.7g %.7g %.7g %.7g %.7g %.7g\n", 0.5 * (x_low + x_high),
-                  0.5 * (y_low + y_high), x_low, x_high + wider, y_low, y_high + higher, value);
+    return axis->logarithmic ? value * (value / edge) : value + (value - edge);
+}
+
+/* How far two values lie from each other on that scale. */
+static double axis_length(const fst_sweep_axis *axis, double low, double high)
+{
+    return axis->logarithmic ? log(high / low) : high - low;
+}
+
+static void lay_edges(side *s, const fst_sweep_axis *axis)
+{
+    const int64_t n = s->count;
+    for (int64_t i = 1; i < n; ++i)
+        s->edges[i] = between(axis, s->places[i - 1].value, s->places[i].value);
+    const double lone = s->places[0].value; /* a list of one value, given more than once */
+    s->edges[0] = n > 1 ? mirrored(axis, lone, s->edges[1]) : lone - fmax(0.1 * fabs(lone), 1e-9);
+    s->edges[n] = mirrored(axis, s->places[n - 1].value, s->edges[n - 1]);
+}
+
+static fst_status lay_side(side *s, const fst_grid *grid, const fst_sweep_axis *axis, fst_error *error)
+{
+    const int64_t stride = fst_grid_axis_stride(grid, axis->index);
+    s->places = malloc((size_t)axis->count * sizeof *s->places);
+    s->edges = malloc((size_t)(axis->count + 1) * sizeof *s->edges);
+    if (!s->places || !s->edges)
+        return fst_fail(error, FST_NO_MEMORY, "festoon plot", "no memory for %lld values",
+                        (long long)axis->count);
+    for (int64_t i = 0; i < axis->count; ++i)
+        s->places[i] = (place){fst_sweep_axis_value(grid, axis, i * stride), i * stride};
+    qsort(s->places, (size_t)axis->count, sizeof *s->places, by_value);
+    s->count = 1;
+    for (int64_t i = 1; i < axis->count; ++i)
+        if (s->places[i].value != s->places[s->count - 1].value)
+            s->places[s->count++] = s->places[i];
+    lay_edges(s, axis);
+    return FST_OK;
+}
+
+static double value_at(const map *m, int64_t row, int64_t column)
+{
+    return m->table->values[m->up.places[row].offset + m->right.places[column].offset];
+}
+
+/* ------------------------------------------------------------------ drawing */
+
+/* The upper end of a box that ends with cell `last`: boxes overlap by a pixel or so, so that no seams show
+ * between them. */
+static double upper_end(const side *s, const fst_sweep_axis *axis, int64_t last)
+{
+    const double edge = s->edges[last + 1];
+    if (last + 1 == s->count)
+        return edge;
+    const double pixel = 1e-3 * axis_length(axis, s->edges[0], s->edges[s->count]);
+    const double beyond = fmin(pixel, 0.3 * axis_length(axis, edge, s->edges[last + 2]));
+    return axis->logarithmic ? edge * exp(beyond) : edge + beyond;
 }
 
 /* The cells of one regime, or all of them (regime < 0).  Cells of one row that follow each other with the same
  * regime become one box: maps stay small as files. */
 static void write_cells(fst_figure_file *figure, const map *m, int regime)
 {
-    const double *values = m->table->values;
     char name[24];
     (void)snprintf(name, sizeof name, regime < 0 ? "cells" : "cells-%d", regime);
     fst_figure_block(figure, name, "x y x_low x_high y_low y_high value");
-    for (int64_t row = 0; row < m->axes[0].count; ++row)
-        for (int64_t column = 0; column < m->axes[1].count;) {
-            const double value = values[point_at(m, row, column)];
-            double x_low, x_high, y_low, y_high, end;
-            cell(m, 0, row, &y_low, &y_high);
-            cell(m, 1, column, &x_low, &x_high);
+    for (int64_t row = 0; row < m->up.count; ++row)
+        for (int64_t column = 0; column < m->right.count;) {
+            const double value = value_at(m, row, column);
             int64_t next = column + 1;
-            for (; m->regimes && next < m->axes[1].count && values[point_at(m, row, next)] == value; ++next)
-                cell(m, 1, next, &end, &x_high);
-            column = next;
+            while (m->regimes && next < m->right.count && value_at(m, row, next) == value)
+                ++next;
             if (regime < 0 ? isfinite(value) : value == regime)
-                write_box(figure, x_low, x_high, y_low, y_high, value);
+                (void)fprintf(figure->data, "%.7g %.7g %.9g %.9g %.9g %.9g %.7g\n",
+                              m->right.places[column].value, m->up.places[row].value, m->right.edges[column],
+                              upper_end(&m->right, &m->axes[1], next - 1), m->up.edges[row],
+                              upper_end(&m->up, &m->axes[0], row), value * m->factor);
+            column = next;
         }
 }
 
-static void write_axis(fst_figure_file *figure, const map *m, int which, const char *letter)
+static void write_axis(fst_figure_file *figure, const fst_sweep_axis *axis, const side *s, const char *letter)
 {
-    double low, high, unused;
-    cell(m, which, 0, &low, &unused);
-    cell(m, which, m->axes[which].count - 1, &unused, &high);
-    (void)fprintf(figure->script, "set %srange [%.7g:%.7g]\nset %slabel '%s'\n", letter, fmin(low, high),
-                  fmax(low, high), letter, m->axes[which].label);
+    if (axis->logarithmic)
+        fst_figure_logarithmic(figure, letter, s->edges[0], s->edges[s->count]);
+    if (axis->choice) {
+        char tics[512];
+        fst_sweep_choice_tics(axis->choice, tics, sizeof tics);
+        (void)fprintf(figure->script, "set %stics %s\n", letter, tics);
+    }
+    (void)fprintf(figure->script, "set %srange [%.9g:%.9g]\nset %slabel ", letter, s->edges[0],
+                  s->edges[s->count], letter);
+    fst_figure_quote(figure, axis->label);
+    (void)fputs(" noenhanced\n", figure->script);
 }
 
 static void write_regimes(fst_figure_file *figure, const map *m)
@@ -94,34 +161,88 @@ static void write_regimes(fst_figure_file *figure, const map *m)
     (void)fputs("NaN notitle\n", figure->script);
 }
 
-fst_status fst_figure_sweep_map(const fst_sweep_table *table, const char *key, const fst_sweep_axis axes[2],
-                                const char *out, fst_error *error)
+/* Quantities of both signs get a palette whose middle is zero. */
+static void write_heat(fst_figure_file *figure, const map *m, const char *label)
 {
-    const map m = {.table = table, .axes = axes, .key = key, .regimes = strcmp(key, "regime") == 0};
-    if (fst_grid_axis_stride(table->grid, axes[0].index) == fst_grid_axis_stride(table->grid, axes[1].index))
-        return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: festoon export them");
+    double least = INFINITY, greatest = -INFINITY;
+    for (int64_t i = 0; i < fst_grid_points(m->table->grid); ++i)
+        if (isfinite(m->table->values[i])) {
+            least = fmin(least, m->factor * m->table->values[i]);
+            greatest = fmax(greatest, m->factor * m->table->values[i]);
+        }
+    const double both = fmax(-least, greatest);
+    fst_figure_palette(figure, least < 0 && greatest > 0 ? FST_PALETTE_DIVERGING : FST_PALETTE_LINE);
+    if (least < 0 && greatest > 0)
+        (void)fprintf(figure->script, "set cbrange [%.9g:%.9g]\n", -both, both);
+    write_cells(figure, m, -1);
+    (void)fputs("set cblabel ", figure->script);
+    fst_figure_quote(figure, label);
+    (void)fputs(" noenhanced\nplot data index 'cells' using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid "
+                "1.0 noborder lc palette notitle, NaN notitle\n",
+                figure->script);
+}
+
+/* Points without a value: they have no row yet, failed, or it is undefined there. */
+static int64_t blank_points(const map *m)
+{
+    int64_t blank = 0;
+    for (int64_t i = 0; i < fst_grid_points(m->table->grid); ++i)
+        blank += !isfinite(m->table->values[i]);
+    return blank;
+}
+
+/* What is shown, and how many points have no value. */
+static void write_title(fst_figure_file *figure, const map *m)
+{
+    const int64_t points = fst_grid_points(m->table->grid);
+    const int64_t blank = blank_points(m);
+    char title[192];
+    int used =
+        snprintf(title, sizeof title, "%s", m->regimes ? "Regimes of motion" : "Sweep over two parameters");
+    if (blank > 0 && used > 0 && (size_t)used < sizeof title)
+        (void)snprintf(title + used, sizeof title - (size_t)used,
+                       "; white: %lld of %lld points without a value", (long long)blank, (long long)points);
+    (void)fputs("set title ", figure->script);
+    fst_figure_quote(figure, title);
+    (void)fputs(" noenhanced\nset tics out nomirror\n", figure->script);
+}
+
+static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *out, fst_error *error)
+{
+    const fst_grid *grid = m->table->grid;
     fst_figure_file figure;
-    const fst_status status = fst_figure_begin(&figure, out, WIDTH, HEIGHT, error);
+    if (blank_points(m) == fst_grid_points(grid))
+        return fst_fail(error, FST_BAD_INPUT, out, "no point of the sweep has a value to draw yet");
+    fst_status status = lay_side(&m->up, grid, &m->axes[0], error);
+    if (status == FST_OK)
+        status = lay_side(&m->right, grid, &m->axes[1], error);
+    if (status == FST_OK)
+        status = fst_figure_begin(&figure, out, WIDTH, HEIGHT, error);
     if (status != FST_OK)
         return status;
-    char label[96];
-    fst_sweep_key_label(key, label, sizeof label);
-    (void)fputs("set title ", figure.script);
-    fst_figure_quote(&figure, m.regimes ? "Regimes of motion" : label);
-    (void)fputs(" noenhanced\nset tics out nomirror\n", figure.script);
-    write_axis(&figure, &m, 1, "x");
-    write_axis(&figure, &m, 0, "y");
-    if (m.regimes) {
-        write_regimes(&figure, &m);
-    } else {
-        write_cells(&figure, &m, -1);
-        fst_figure_palette(&figure, FST_PALETTE_LINE);
-        (void)fputs("set cblabel ", figure.script);
-        fst_figure_quote(&figure, label);
-        (void)fputs(" noenhanced\nplot data index 'cells' using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid "
-                    "1.0 noborder "
-                    "lc palette notitle\n",
-                    figure.script);
-    }
+    write_title(&figure, m);
+    write_axis(&figure, &m->axes[1], &m->right, "x");
+    write_axis(&figure, &m->axes[0], &m->up, "y");
+    if (m->regimes)
+        write_regimes(&figure, m);
+    else
+        write_heat(&figure, m, quantity->label);
     return fst_figure_finish(&figure, error);
+}
+
+fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_quantity *quantity,
+                                const fst_sweep_axis axes[2], const char *out, fst_error *error)
+{
+    map m = {.table = table,
+             .axes = axes,
+             .regimes = strcmp(quantity->key, "regime") == 0,
+             .factor = quantity->factor};
+    if (fst_grid_axis_stride(table->grid, axes[0].index) == fst_grid_axis_stride(table->grid, axes[1].index))
+        return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: festoon export them");
+    const fst_status status = draw(&m, quantity, out, error);
+    free(m.up.places);
+    free(m.up.edges);
+    free(m.right.places);
+    free(m.right.edges);
+    return status;
 }

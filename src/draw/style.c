@@ -1,5 +1,6 @@
 #include "draw/style.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -39,4 +40,21 @@ void fst_figure_palette(fst_figure_file *figure, fst_palette palette)
             "0 '#a8db34', 0.2 '#4ac16d', 0.4 '#1fa187', 0.6 '#2d708e', 0.8 '#414487', 1 '#440154'",
         [FST_PALETTE_MAP] = "0 '#fbfdff', 0.35 '#d3e3f2', 0.7 '#8fbfe0', 1 '#4292c6'"};
     (void)fprintf(figure->script, "set palette defined (%s)\n", definitions[palette]);
+}
+
+void fst_figure_logarithmic(fst_figure_file *figure, const char *axis, double low, double high)
+{
+    static const double mantissas[] = {1.0, 2.0, 5.0};
+    const int first = (int)floor(log10(low)), last = (int)floor(log10(high));
+    (void)fprintf(figure->script, "set logscale %s\nset %stics (", axis, axis);
+    const char *separator = "";
+    for (int decade = first; decade <= last; decade++)
+        for (int i = 0; i < (last - first > 3 ? 1 : 3); i++) {
+            const double tic = mantissas[i] * pow(10.0, decade);
+            if (tic < 0.999999 * low || tic > 1.000001 * high)
+                continue;
+            (void)fprintf(figure->script, "%s%.6g", separator, tic);
+            separator = ", ";
+        }
+    (void)fputs(")\n", figure->script);
 }

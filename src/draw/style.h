@@ -28,4 +28,7 @@ void fst_unit_symbols(const char *unit, char *text, size_t size);
 typedef enum { FST_PALETTE_DIVERGING, FST_PALETTE_LINE, FST_PALETTE_MAP } fst_palette;
 void fst_figure_palette(fst_figure_file *figure, fst_palette palette);
 
+/* Make an axis ("x", "x2", "y") logarithmic, with tics at 1, 2 and 5 times the powers of ten. */
+void fst_figure_logarithmic(fst_figure_file *figure, const char *axis, double low, double high);
+
 #endif

@@ -7,6 +7,7 @@
 #ifndef FST_ENSEMBLE_LANES_H
 #define FST_ENSEMBLE_LANES_H
 
+#include "ensemble/tangents.h"
 #include "ode/flow.h"
 
 enum { FST_MOST_LANES = 8 };
@@ -16,7 +17,8 @@ typedef struct fst_lane_view {
     const double *y, *end;         /* states at the step's start and end */
     double *turns[2];              /* whole turns of Phi and of phi at the end (base/winding.h) */
     const double *turns_before[2]; /* and at the start */
-    double *activity;              /* greatest |component of d(state)/dt| since it was last set */
+    double *activity;              /* greatest |component of d(state)/dt| since it was last set, */
+    const double *speed;           /* and that at the end */
     double *next_mark;             /* time of the next mark; the step that reaches it is eventful */
     double *phi_least, *phi_most; /* directions between which Phi has stayed, two numbers; 0: to be asked for */
     double *total_high, *total_low; /* integrals up to the start of the last observed step, FST_Q_COUNT */
@@ -25,6 +27,15 @@ typedef struct fst_lane_view {
     double *integrands, *tracked; /* at the path's stages: FST_PATH_STAGES times FST_Q_COUNT, FST_TRACK_COUNT */
     double *records;              /* of the tracked quantities, times their signs, FST_RECORD_COUNT */
 } fst_lane_view;
+
+/* Lanes, one bit each: what is to be done after an accepted step. */
+typedef struct fst_lane_events {
+    unsigned ending;    /* the bead may have left the plate: all that have, and a few more */
+    unsigned at_mark;   /* the time of the next mark is reached */
+    unsigned close;     /* to be looked at closely: these, those at their limit of time, those where X has
+                           changed its sign in the window, or where an angle is doubtful */
+    unsigned wandering; /* Phi may have left its bounds */
+} fst_lane_events;
 
 /* Lanes, one bit each. */
 typedef struct fst_lane_tries {
@@ -47,25 +58,25 @@ typedef struct fst_lane_engine {
     /* Try a step in every lane that is in use, and do fst_flow_accept() or fst_flow_reject(). */
     fst_lane_tries (*try_steps)(void *batch);
 
-    /* The lanes whose last step, an accepted one, is to be looked at closely: the bead may have left the plate
-     * (all that have, and a few more), a mark or the limit is reached, X has changed its sign, or an angle is
-     * doubtful; phi counts in the lanes `observed`.  *wandering: those where Phi may have left its bounds. */
-    unsigned (*watch)(void *batch, unsigned accepted, unsigned observed, unsigned *wandering);
+    /* What the last step of the lanes `accepted` may hold; phi counts in the lanes `observed`. */
+    fst_lane_events (*watch)(void *batch, unsigned accepted, unsigned observed, unsigned in_window);
 
     /* The lanes among `accepted` whose last step ends at the time `t` of their own or later. */
     unsigned (*past)(const void *batch, unsigned accepted, const double *t);
 
     /* Take the last step of the lanes `accepted` into their integrals; references are renewed in lanes that are
-     * not in their window yet.  beaten[]: the lanes in which a record may be beaten.  In the fast form the
-     * batch's records are of the stages alone, and go on by themselves in the lanes that are in their window.
-     */
-    void (*observe)(void *batch, unsigned accepted, unsigned in_window, unsigned beaten[FST_RECORD_COUNT]);
+     * not in their window yet.  beaten[]: the lanes among `tracked` in which a record may be beaten.  In the
+     * fast form the records are of the ends of steps alone, and go on by themselves in these lanes. */
+    void (*observe)(void *batch, unsigned accepted, unsigned in_window, unsigned tracked,
+                    unsigned beaten[FST_RECORD_COUNT]);
 
     /* Make the end of the last step the start of the next, and choose its size: fst_flow_plan(). */
     void (*advance)(void *batch, unsigned accepted);
 
-    /* The last step of a lane as the scalar step, stages, derivatives and fields included. */
+    /* The last step of a lane as the scalar step, with the derivatives that the dense output needs; and the
+     * states and fields at its stages. */
     void (*extract)(const void *batch, int lane, fst_bead_step_double *step);
+    void (*extract_stages)(const void *batch, int lane, fst_bead_step_double *step);
 
     /* The fast form locates extremes in lanes too: a step is set aside for one record in a slot of its own, and
      * when the slots are full, sign times the extreme of each is found. */
@@ -75,6 +86,8 @@ typedef struct fst_lane_engine {
 
     /* The time, size and counts of a lane, as its flow has them; the drive does not change in lanes. */
     void (*extract_clock)(const void *batch, int lane, fst_flow *flow);
+
+    fst_tangent_engine tangents; /* of the same width and form */
 } fst_lane_engine;
 
 /* The engine of a form of arithmetic and a width (0: the widest of that form), or NULL where this processor or

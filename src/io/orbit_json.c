@@ -45,6 +45,8 @@ static json_t *orbit_object(const fst_params *params, const fst_orbit *orbit)
     json_object_set_new(object, "multipliers",
                         pairs(orbit->multiplier_re, orbit->multiplier_im, FST_MULTIPLIER_COUNT));
     json_object_set_new(object, "stable", json_boolean(orbit->stable));
+    json_object_set_new(object, "relaxation_time", fst_json_number(orbit->relaxation_time));
+    json_object_set_new(object, "swing_ratio", fst_json_number(orbit->swing_ratio));
     json_object_set_new(object, "residual", fst_json_number(orbit->residual));
     json_object_set_new(object, "trivial_multiplier_error", fst_json_number(orbit->trivial_error));
     json_object_set_new(object, "state", fst_json_numbers(orbit->state, FST_STATE_SIZE));
@@ -109,6 +111,8 @@ static const struct {
     {"min_r", offsetof(fst_branch_point, min_r)},
     {"phi_deg", offsetof(fst_branch_point, phi_deg)},
     {"slip", offsetof(fst_branch_point, slip)},
+    {"relaxation_time", offsetof(fst_branch_point, relaxation_time)},
+    {"swing_ratio", offsetof(fst_branch_point, swing_ratio)},
 };
 enum { NUMBER_COUNT = sizeof NUMBERS / sizeof *NUMBERS };
 
@@ -177,6 +181,7 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
         json_object_set_new(object, "second_from", fst_json_number(branch->second_from));
         json_object_set_new(object, "second_to", fst_json_number(branch->second_to));
     }
+    json_object_set_new(object, "complete", json_boolean(branch->complete));
     json_object_set_new(object, "specials", specials);
     json_object_set_new(object, "ends", ends);
     json_object_set_new(object, "points", points);
@@ -257,7 +262,7 @@ static void read_point(const json_t *object, fst_branch_point *p)
 
 static fst_special_type type_named(const char *name)
 {
-    for (int i = FST_SPECIAL_FOLD; name && i <= FST_SPECIAL_ORIGIN_CROSSING; i++)
+    for (int i = FST_SPECIAL_FOLD; name && i <= FST_SPECIAL_TRANSCRITICAL; i++)
         if (strcmp(name, fst_special_name((fst_special_type)i)) == 0)
             return (fst_special_type)i;
     return FST_SPECIAL_FOLD;

@@ -38,6 +38,17 @@ static fst_status read_grid(sqlite3 *database, const char *path, fst_grid **grid
     return status;
 }
 
+fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *error)
+{
+    *grid = NULL;
+    sqlite3 *database = NULL;
+    fst_status status = fst_database_open(path, 0, &database, error);
+    if (status == FST_OK)
+        status = read_grid(database, path, grid, error);
+    (void)sqlite3_close(database);
+    return status;
+}
+
 static fst_status check_key(const char *key, fst_error *error)
 {
     char names[4096] = "regime|symmetry|rhs_calls", nearest[48];

@@ -12,6 +12,7 @@ typedef struct FN(coefficients) {
     REAL first_line;    /* -(lines - 1)/2: the lines lie at Y = lambda (first_line, first_line + 1, ...) */
     REAL line_strength; /* 5/lines */
     REAL hard;          /* kappa eps^2: force of a hard magnet */
+    REAL hard_over_eps;
     REAL twice_a, twice_b;
     REAL torque;   /* 5/(2 eps^2): from a torque per mass to dW/dt */
     REAL traction; /* 5/(2 eps): from a contact force per mass to dW/dt */
@@ -32,6 +33,7 @@ static inline FN(coefficients) FN(make_coefficients)(const fst_groups *g)
     c.first_line = -(R(0.5) * REAL_OF(g->lines - 1));
     c.line_strength = R(5.0) / REAL_OF(g->lines);
     c.hard = REAL_OF(g->kappa) * (REAL_OF(g->eps) * REAL_OF(g->eps));
+    c.hard_over_eps = c.hard / c.eps;
     c.twice_a = R(2.0) * REAL_OF(g->a);
     c.twice_b = R(2.0) * REAL_OF(g->b);
     c.torque = R(2.5) / (REAL_OF(g->eps) * REAL_OF(g->eps));

@@ -7,8 +7,8 @@ typedef struct FN(seen) {
     REAL r, cos_phi, sin_phi;
     REAL n[3], b[3]; /* local components */
     REAL b2, b_norm;
-    REAL gap2; /* |n - B/|B||^2 = 2 (1 - cos angle), accurate for small angles */
-    REAL v_r, v_alpha;
+    REAL gap2;                      /* |n - B/|B||^2 = 2 (1 - cos angle), accurate for small angles */
+    REAL v_r, v_alpha, centrifugal; /* v_alpha^2/r */
     REAL slip_r, slip_alpha, slip2;
     REAL friction_power;       /* f.V */
     REAL spin;                 /* W.n */
@@ -21,37 +21,44 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
                            FN(seen) * o)
 {
     const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX;
-    const REAL r2 = y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y];
+    const REAL r2 = SUM_2(y[FST_X], y[FST_X], y[FST_Y], y[FST_Y]);
     const REAL inverse_r = REAL_RECIPROCAL_SQRT(r2 + R(1e-290));
     const REAL ex = y[FST_X] * inverse_r, ey = y[FST_Y] * inverse_r;
     o->r = r2 * inverse_r;
     o->cos_phi = ex;
     o->sin_phi = ey;
-    o->n[0] = n[0] * ex + n[1] * ey;
-    o->n[1] = n[1] * ex - n[0] * ey;
+    o->n[0] = SUM_2(n[0], ex, n[1], ey);
+    o->n[1] = REAL_MULSUB(n[1], ex, n[0] * ey);
     o->n[2] = n[2];
-    o->b[0] = p->b[0] * ex + p->b[1] * ey;
-    o->b[1] = p->b[1] * ex - p->b[0] * ey;
+    o->b[0] = SUM_2(p->b[0], ex, p->b[1], ey);
+    o->b[1] = REAL_MULSUB(p->b[1], ex, p->b[0] * ey);
     o->b[2] = p->b[2];
-    o->b2 = p->b[0] * p->b[0] + p->b[1] * p->b[1] + p->b[2] * p->b[2];
+    o->b2 = SUM_3(p->b[0], p->b[0], p->b[1], p->b[1], p->b[2], p->b[2]);
     const REAL inverse_b = REAL_RECIPROCAL_SQRT(o->b2 + R(1e-290));
     o->b_norm = o->b2 * inverse_b;
-    const REAL gap[3] = {n[0] - p->b[0] * inverse_b, n[1] - p->b[1] * inverse_b, n[2] - p->b[2] * inverse_b};
-    o->gap2 = gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2];
-    o->v_r = v[0] * ex + v[1] * ey;
-    o->v_alpha = v[1] * ex - v[0] * ey;
-    const REAL slip_x = v[0] - c->eps * w[1], slip_y = v[1] + c->eps * w[0];
-    o->slip_r = slip_x * ex + slip_y * ey;
-    o->slip_alpha = slip_y * ex - slip_x * ey;
-    o->slip2 = slip_x * slip_x + slip_y * slip_y;
+    const REAL gap[3] = {REAL_NEGMULADD(p->b[0], inverse_b, n[0]), REAL_NEGMULADD(p->b[1], inverse_b, n[1]),
+                         REAL_NEGMULADD(p->b[2], inverse_b, n[2])};
+    o->gap2 = SUM_3(gap[0], gap[0], gap[1], gap[1], gap[2], gap[2]);
+    o->v_r = SUM_2(v[0], ex, v[1], ey);
+    o->v_alpha = REAL_MULSUB(v[1], ex, v[0] * ey);
+#ifdef REAL_FAST_RECIPROCAL_SQRT
+    o->centrifugal = (o->v_alpha * o->v_alpha) * inverse_r;
+#else
+    o->centrifugal = o->v_alpha * o->v_alpha / (o->r + R(1e-290));
+#endif
+    const REAL slip_x = REAL_NEGMULADD(c->eps, w[1], v[0]), slip_y = REAL_MULADD(c->eps, w[0], v[1]);
+    o->slip_r = SUM_2(slip_x, ex, slip_y, ey);
+    o->slip_alpha = REAL_MULSUB(slip_y, ex, slip_x * ey);
+    o->slip2 = SUM_2(slip_x, slip_x, slip_y, slip_y);
     o->friction_power = c->friction * o->slip2;
-    o->spin = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
-    o->force_r = p->force[0] * ex + p->force[1] * ey;
-    o->force_alpha = p->force[1] * ex - p->force[0] * ey;
+    o->spin = SUM_3(w[0], n[0], w[1], n[1], w[2], n[2]);
+    o->force_r = SUM_2(p->force[0], ex, p->force[1], ey);
+    o->force_alpha = REAL_MULSUB(p->force[1], ex, p->force[0] * ey);
     /* Normal load: weight and the magnet's pull, g + dU/dz = g - F_z. */
     o->load = c->gravity - p->force[2];
     /* Drive power dU/dt at fixed x, n, W: omega e.(x x F + tau). */
-    o->drive_power = omega * (o->r * o->force_alpha + p->strength * (n[0] * p->b[1] - n[1] * p->b[0]));
+    const REAL twist = REAL_MULSUB(n[0], p->b[1], n[1] * p->b[0]);
+    o->drive_power = omega * SUM_2(o->r, o->force_alpha, p->strength, twist);
 }
 
 /* Kinetic and magnetic energy per mass. */
@@ -84,18 +91,18 @@ static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, con
     q[FST_Q_SLIP_ALPHA] = o->slip_alpha;
     q[FST_Q_R_SLIP_ALPHA] = o->r * o->slip_alpha;
     q[FST_Q_SPIN_TERM] = c->eps * o->spin * o->n[1]; /* n_alpha = sin(theta) sin(phi) */
-    q[FST_Q_CENTRIFUGAL] = o->v_alpha * o->v_alpha / (o->r + R(1e-290));
+    q[FST_Q_CENTRIFUGAL] = o->centrifugal;
     q[FST_Q_FORCE_R] = o->force_r;
     q[FST_Q_TORQUE_ALPHA] = o->r * o->force_alpha;
     /* Printed Eq. (eq21), (eq23): n = sin(phi) e_alpha - cos(phi) e_z with the actual phi, n_r dropped. */
-    const REAL inverse_sine = REAL_RECIPROCAL_SQRT(o->n[1] * o->n[1] + o->n[2] * o->n[2] + R(1e-290));
+    const REAL inverse_sine = REAL_RECIPROCAL_SQRT(SUM_2(o->n[1], o->n[1], o->n[2], o->n[2]) + R(1e-290));
     const REAL n_alpha = o->n[1] * inverse_sine, n_z = o->n[2] * inverse_sine;
     const REAL ex = o->cos_phi, ey = o->sin_phi;
     const REAL printed[3] = {-(n_alpha * ey), n_alpha * ex, n_z};
     REAL g[3];
     FN(gradient_along)(c, y[FST_X], y[FST_Y], p, printed, g);
-    q[FST_Q_FORCE_R_PRINTED] = c->hard * (g[0] * ex + g[1] * ey);
-    q[FST_Q_EQ23] = c->hard / c->eps * (o->b[2] * n_alpha - o->b[1] * n_z);
+    q[FST_Q_FORCE_R_PRINTED] = c->hard * SUM_2(g[0], ex, g[1], ey);
+    q[FST_Q_EQ23] = c->hard_over_eps * REAL_MULSUB(o->b[2], n_alpha, o->b[1] * n_z);
     for (int i = 0; i < 3; ++i)
         q[FST_Q_N_R + i] = o->n[i];
     q[FST_Q_N_RR] = o->n[0] * o->n[0];

@@ -1,6 +1,8 @@
 /* events.c - zeros and extremes of functions of the state on the dense output. */
 #include "ode/flow.h"
 
+#include "base/bracket.h"
+
 double fst_section_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
     (void)flow;
@@ -26,6 +28,11 @@ double fst_flow_function_at(fst_flow *flow, double x, fst_state_function functio
     if (x == 1.0)
         return function(flow, flow->step.end, &flow->step.context.pull[12]);
     double state[FST_STATE_SIZE];
+    if (function == fst_section_function) { /* all that it looks at; n need not be normalised for that */
+        fst_flow_make_dense(flow);
+        fst_bead_evaluate_dense_double(1, &flow->step.dense[0][FST_X], FST_STATE_SIZE, x, &state[FST_X]);
+        return function(flow, state, NULL);
+    }
     fst_flow_at(flow, x, state);
     fst_pull_double p;
     fst_magnetic_pull_double(&flow->step.context.coefficients, state[FST_X], state[FST_Y], state + FST_NX, &p);
@@ -49,30 +56,18 @@ void fst_flow_stage_range(const fst_flow *flow, fst_state_function function, dou
 double fst_flow_locate(fst_flow *flow, fst_state_function function, double lo, double hi, double f_lo,
                        double f_hi)
 {
-    /* The Illinois variant of regula falsi, with a bisection wherever it does not halve the bracket in time. */
-    int side = 0;
-    for (int i = 0; i < 200 && hi - lo > 1e-16; ++i) {
-        double x = i % 8 == 7 ? 0.5 * (lo + hi) : (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
-        if (!(x > lo && x < hi))
-            x = 0.5 * (lo + hi);
-        if (x == lo || x == hi)
+    /* Illinois' rule, with a bisection now and then, should it be slow. */
+    fst_bracket z = {lo, hi, f_lo, f_hi, 0};
+    for (int i = 0; i < 200 && z.hi - z.lo > 1e-16; ++i) {
+        const double x = i % 8 == 7 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z);
+        if (x == z.lo || x == z.hi)
             break;
         const double f = fst_flow_function_at(flow, x, function);
         if (f == 0)
             return x;
-        if ((f < 0) == (f_lo < 0)) {
-            lo = x, f_lo = f;
-            if (side < 0)
-                f_hi *= 0.5;
-            side = -1;
-        } else {
-            hi = x, f_hi = f;
-            if (side > 0)
-                f_lo *= 0.5;
-            side = 1;
-        }
+        fst_bracket_take(&z, x, f);
     }
-    return fabs(f_lo) < fabs(f_hi) ? lo : hi;
+    return fabs(z.f_lo) < fabs(z.f_hi) ? z.lo : z.hi;
 }
 
 /* A bracketed minimum search: best point x, second best w, third v, in [lo, hi]. */

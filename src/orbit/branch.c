@@ -11,8 +11,8 @@
 
 const char *fst_special_name(fst_special_type type)
 {
-    static const char *const names[] = {"fold", "pitchfork",      "period-doubling",
-                                        "hopf", "neimark-sacker", "origin-crossing"};
+    static const char *const names[] = {"fold",           "pitchfork",       "period-doubling", "hopf",
+                                        "neimark-sacker", "origin-crossing", "transcritical"};
     return (unsigned)type < sizeof names / sizeof *names ? names[type] : "unknown";
 }
 
@@ -98,13 +98,20 @@ void fst_branch_reverse(fst_branch *out, size_t first)
 
 /* ------------------------------------------------------------------ what a curve tells */
 
+/* Nobody knows how long a branch is: forty points are taken for half of one. */
+fst_status fst_tracer_progress(fst_tracer *t, fst_error *error)
+{
+    const fst_branch_options *o = t->options;
+    const double part = (t->done + t->nodes / (t->nodes + 40.0)) / (t->pending_count ? t->pending_count : 1);
+    t->furthest = fmax(t->furthest, t->share[0] + part * (t->share[1] - t->share[0]));
+    return o->progress ? o->progress(o->user, t->furthest, error) : FST_OK;
+}
+
 static fst_status take_node(void *user, const fst_node *node, fst_error *error)
 {
     fst_tracer *t = user;
-    const fst_branch_options *o = t->options;
-    fst_status status = FST_OK;
-    if (o->progress && t->out->point_count % 16 == 0)
-        status = o->progress(o->user, fmin(0.95, (double)t->out->point_count / 400.0), error);
+    t->nodes += 1;
+    const fst_status status = fst_tracer_progress(t, error);
     t->last_value = node->s.value;
     return status == FST_OK ? fst_branch_add_point(t->out, &node->seen, t->branch, error) : status;
 }
@@ -218,9 +225,11 @@ static fst_status follow_branch(fst_tracer *t, const fst_pending *from, fst_erro
 fst_status fst_tracer_run(fst_tracer *t, fst_error *error)
 {
     fst_status status = FST_OK;
-    for (int i = 0; i < t->pending_count && status == FST_OK; ++i)
-        status = follow_branch(t, &t->pending[i], error);
-    t->pending_count = 0;
+    for (t->done = 0; t->done < t->pending_count && status == FST_OK; ++t->done) {
+        t->nodes = 0;
+        status = follow_branch(t, &t->pending[t->done], error);
+    }
+    t->pending_count = t->done = t->nodes = 0;
     t->out->branches = t->branch_count;
     return status;
 }
@@ -348,9 +357,11 @@ static void climb_to_symmetric(const fst_tracer *t, fst_node *start)
     }
 }
 
-/* A counter-rotating orbit to begin with: a symmetric one where there is one, for from it the others are born.
+/* Counter-rotating orbits to begin with: a symmetric one where there is one, for from it the others are born,
+ * and before it the first that was met, in case it lies on none of the branches that are followed from the
+ * other.
  */
-static fst_status first_orbit(fst_tracer *t, fst_node *start, fst_error *error)
+static fst_status first_orbits(fst_tracer *t, fst_node start[2], int *count, fst_error *error)
 {
     enum { TRIALS = 8 };
     static const double part[TRIALS] = {0.5, 0.25, 0.1, 0.75, 0.35, 0.05, 0.9, 0.02};
@@ -358,29 +369,41 @@ static fst_status first_orbit(fst_tracer *t, fst_node *start, fst_error *error)
     const double given = fst_family_value(&t->family);
     fst_error why;
     memset(&why, 0, sizeof why);
-    for (int i = -1; i < TRIALS; ++i) {
+    *count = 0;
+    for (int i = -1; i < TRIALS && *count < 2; ++i) {
         const double value = i < 0 ? given : lo + (hi - lo) * part[i];
-        if (!(value >= lo && value <= hi) || !search_at(t, value, start, &why))
+        if (!(value >= lo && value <= hi) || !search_at(t, value, &start[*count], &why))
             continue;
-        if (!start->s.symmetric)
-            climb_to_symmetric(t, start);
+        if (start[*count].s.symmetric || *count == 0)
+            *count += 1;
+        if (start[*count - 1].s.symmetric)
+            return FST_OK;
+    }
+    if (*count > 0) {
+        climb_to_symmetric(t, start);
         return FST_OK;
     }
+    const char *advice = strstr(why.sentence, ". "); /* what follows is about a single orbit */
+    const int length = advice ? (int)(advice - why.sentence) : (int)strlen(why.sentence);
     return fst_fail(
         error, FST_NO_CONVERGENCE, "branch",
-        "no counter-rotating orbit was found between %.10g and %.10g from the scene's start (the last try: "
-        "%.240s); try another range or start.r",
-        lo, hi, why.sentence);
+        "no counter-rotating orbit was found between %.10g and %.10g from the scene's start; the last try: "
+        "%.*s. Try another range or start.r",
+        lo, hi, length < 400 ? length : 400, why.sentence);
 }
 
 static fst_status follow_counter(fst_tracer *t, fst_error *error)
 {
-    fst_node start;
-    fst_status status = first_orbit(t, &start, error);
-    if (status == FST_OK)
-        status = fst_tracer_add(t, &start, error);
-    if (status == FST_OK)
-        status = fst_tracer_run(t, error);
+    fst_node start[2];
+    int count;
+    fst_status status = first_orbits(t, start, &count, error);
+    for (int i = count - 1; i >= 0 && status == FST_OK; --i) {
+        if (orbit_branch(t->out, &start[i].seen) >= 0)
+            continue;
+        status = fst_tracer_add(t, &start[i], error);
+        if (status == FST_OK)
+            status = fst_tracer_run(t, error);
+    }
     return status;
 }
 
@@ -393,8 +416,8 @@ static fst_status check(const fst_branch_options *o, fst_error *error)
     if (!isfinite(o->from) || !isfinite(o->to) || o->from == o->to)
         return fst_fail(error, FST_BAD_INPUT, where,
                         "a branch needs a range with two different ends, not %g to %g", o->from, o->to);
-    if (!(o->tolerance >= 1e-15 && o->tolerance <= 1e-6))
-        return fst_fail(error, FST_BAD_INPUT, where, "tolerance = %g is out of range: 1e-15 to 1e-6",
+    if (!(o->tolerance >= 1e-14 && o->tolerance <= 1e-6))
+        return fst_fail(error, FST_BAD_INPUT, where, "tolerance = %g is out of range: 1e-14 to 1e-6",
                         o->tolerance);
     if (o->second_key &&
         (!isfinite(o->second_from) || !isfinite(o->second_to) || o->second_from == o->second_to))
@@ -413,6 +436,18 @@ double fst_branch_scale(const char *key, double from, double to)
 {
     /* the states themselves vary by several times omega */
     return strcmp(key, "drive.omega") == 0 ? 1.0 : fmax(fabs(from), fabs(to));
+}
+
+/* The curves' part of the progress, the second half. */
+typedef struct second_half {
+    const fst_branch_options *options;
+    int curve, curves;
+} second_half;
+
+static fst_status progress_of_curve(void *user, double fraction, fst_error *error)
+{
+    const second_half *s = user;
+    return s->options->progress(s->options->user, 0.5 + 0.5 * (s->curve + fraction) / s->curves, error);
 }
 
 /* Over two parameters: the branches over the first were followed for their special points; now the curve of
@@ -443,8 +478,13 @@ static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_e
                         "no %s lies between %s = %.10g and %.10g, so none can be followed over %s: try another "
                         "range",
                         fst_special_name(o->special), o->key, o->from, o->to, o->second_key);
-    for (int i = 0; i < t->start_count && status == FST_OK; ++i)
-        status = fst_special_curve_follow(o, params, &t->starts[i], i, out, error);
+    second_half progress = {o, 0, t->start_count};
+    fst_branch_options of_curve = *o;
+    of_curve.user = &progress;
+    of_curve.progress = o->progress ? progress_of_curve : NULL;
+    for (; progress.curve < t->start_count && status == FST_OK; ++progress.curve)
+        status =
+            fst_special_curve_follow(&of_curve, params, &t->starts[progress.curve], progress.curve, out, error);
     return status;
 }
 
@@ -461,6 +501,7 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     t->options = options;
     t->out = branch;
     t->follow_hopf = options->kind == FST_BRANCH_ALL;
+    t->share[1] = options->second_key ? 0.5 : 1.0;
     branch->kind = options->kind;
     branch->from = options->from;
     branch->to = options->to;
@@ -473,15 +514,16 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     }
     status = fst_family_begin(&t->family, params, options->key, error);
     t->family.scale = fst_branch_scale(options->key, options->from, options->to);
-    t->family.tolerance = options->tolerance;
+    fst_family_tighten(&t->family, options->tolerance);
     if (status == FST_OK)
         status = options->kind == FST_BRANCH_COUNTER ? follow_counter(t, error) : fst_follow_locked(t, error);
     if (status == FST_OK && options->second_key)
         status = follow_specials(t, params, error);
-    if (status == FST_OK)
+    branch->complete = status == FST_OK;
+    if (status == FST_OK || status == FST_INTERRUPTED)
         find_images(branch);
-    free(t);
-    if (status != FST_OK)
+    else
         fst_branch_free(branch);
+    free(t);
     return status;
 }

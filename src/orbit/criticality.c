@@ -93,15 +93,17 @@ static fst_status return_at(void *user, const double *x, double *out, fst_error 
     return FST_OK;
 }
 
-int fst_pair_criticality(const fst_family *family, const fst_solution *s, double frequency)
+fst_status fst_pair_coefficient(const fst_family *family, const fst_solution *s, double frequency,
+                                double *coefficient, double *spread, fst_error *error)
 {
     beside b = {.family = family, .s = s};
-    double matrix[FST_TANGENT_SIZE * FST_TANGENT_SIZE], coefficient, spread;
-    fst_error ignored;
+    double matrix[FST_TANGENT_SIZE * FST_TANGENT_SIZE];
     fst_local_map map = {.user = &b};
-    if (fst_family_setup(family, s->value, &b.setup, &ignored) != FST_OK ||
-        fst_solution_section(family, s, matrix, b.basis, &ignored) != FST_OK)
-        return 0;
+    fst_status status = fst_family_setup(family, s->value, &b.setup, error);
+    if (status == FST_OK)
+        status = fst_solution_section(family, s, matrix, b.basis, error);
+    if (status != FST_OK)
+        return status;
     if (s->segments > 0) {
         for (int k = 0; k < FST_STATE_SIZE; ++k)
             b.flow[k] = b.basis[k][0];
@@ -114,8 +116,14 @@ int fst_pair_criticality(const fst_family *family, const fst_solution *s, double
         map.reach = 2e-3;
         map.at = field_at;
     }
-    if (fst_cubic_coefficient(family->lapack, &map, matrix, frequency, &coefficient, &spread, &ignored) !=
-            FST_OK ||
+    return fst_cubic_coefficient(family->lapack, &map, matrix, frequency, coefficient, spread, error);
+}
+
+int fst_pair_criticality(const fst_family *family, const fst_solution *s, double frequency)
+{
+    double coefficient, spread;
+    fst_error ignored;
+    if (fst_pair_coefficient(family, s, frequency, &coefficient, &spread, &ignored) != FST_OK ||
         !(fabs(coefficient) > 4.0 * spread))
         return 0;
     return coefficient < 0 ? 1 : -1;

@@ -40,6 +40,8 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     p->omega = setup.model.groups.omega;
     p->mean_r = p->mean_alpha_dot = p->mean_nz = p->festoons = p->period = p->min_r = p->phi_deg = p->slip =
         p->second = NAN;
+    p->swing_ratio = NAN;
+    p->relaxation_time = fst_solution_relaxation(&node->s);
     p->stable = fst_solution_is_stable(&node->s);
     p->multipliers = node->s.multipliers;
     memcpy(p->multiplier_re, node->s.re, sizeof p->multiplier_re);
@@ -60,6 +62,7 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     p->mean_nz = d.means.mean_nz;
     p->festoons = d.means.festoons;
     p->period = d.means.period;
+    p->swing_ratio = d.swing_ratio;
     p->symmetry = d.means.symmetry;
     p->turns = d.turns;
     if (d.has_section)
@@ -100,7 +103,9 @@ static fst_status try_step(const fst_curve *curve, const fst_node *last, const f
     predicted.on_section = 0;
     fst_solution_move(&predicted, &way, h);
     fst_solution found = predicted;
-    fst_status status = fst_solution_correct(family, &found, &here->s.tangent, error);
+    fst_status status = fst_solution_approach(family, &found, &here->s.tangent, error);
+    if (status == FST_OK)
+        status = fst_solution_correct(family, &found, &here->s.tangent, error);
     if (status != FST_OK)
         return status;
     fst_direction_between(&predicted, &found, &miss);
@@ -108,7 +113,7 @@ static fst_status try_step(const fst_curve *curve, const fst_node *last, const f
     if (length_of(family, &found, &miss) > 0.25 * h || turn < 0.95)
         return fst_fail(error, FST_NO_CONVERGENCE, "continuation", "a step of %.3g was too long at %.10g", h,
                         here->s.value);
-    const int iterations = found.iterations;
+    const int iterations = found.iterations + (found.segments > 0);
     status = fst_node_make(family, &found, next, error);
     next->s.iterations = iterations;
     fst_direction_between(&here->s, &found, &miss);
@@ -116,38 +121,34 @@ static fst_status try_step(const fst_curve *curve, const fst_node *last, const f
     return status;
 }
 
-/* Cut the step that left the range at its border. */
+/* Cut the step that left the range at its border: where the cubic between its ends crosses it, and then
+ * exactly, the parameter fixed. */
 static fst_status land_on(const fst_curve *curve, const fst_node *here, double border, fst_node *next,
                           fst_error *error)
 {
-    double lo = 0.0, hi = 1.0;
     const fst_node past = *next;
-    fst_node at = past;
-    for (int i = 0; i < 40 && fabs(at.s.value - border) > 1e-3 * fabs(past.s.value - here->s.value); ++i) {
-        const double x = 0.5 * (lo + hi);
-        const fst_status status = fst_node_between(curve->family, here, &past, x, &at, error);
-        if (status != FST_OK)
-            return status;
-        if ((at.s.value > border) == (past.s.value > border))
-            hi = x;
+    fst_direction keep, way;
+    fst_solution s;
+    double inside = 0.0, outside = 1.0;
+    for (int i = 0; i < 40; ++i) {
+        const double x = 0.5 * (inside + outside);
+        fst_solution_between(here, &past, x, &s);
+        if ((s.value > border) == (past.s.value > border))
+            outside = x;
         else
-            lo = x;
+            inside = x;
     }
-    /* Exactly on it: the parameter fixed. */
-    fst_direction keep;
+    s.value = border;
     memset(&keep, 0, sizeof keep);
     keep.value = curve->family->scale;
-    fst_solution s = at.s;
-    const fst_direction tangent = s.tangent;
-    s.value = border;
     fst_status status = fst_solution_correct(curve->family, &s, &keep, error);
     if (status != FST_OK)
         return status;
-    s.tangent = tangent;
+    fst_direction_between(&here->s, &s, &way);
+    if (fst_direction_product(curve->family, &s, &s.tangent, &way) < 0.0)
+        combine(&s.tangent, -1.0, &s.tangent, 0.0, &way);
     s.value = border;
     status = fst_node_make(curve->family, &s, next, error);
-    fst_direction way;
-    fst_direction_between(&here->s, &s, &way);
     next->length = length_of(curve->family, &s, &way);
     return status;
 }
@@ -170,7 +171,7 @@ static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *he
     else if (here->seen.mean_r > LARGEST_RADIUS)
         (void)snprintf(curve->reason, sizeof curve->reason, "it has left the magnet's field: <r> = %.4g",
                        here->seen.mean_r);
-    else if (here->s.segments == 0 && fabs(here->s.y[0][FST_WZ]) > LARGEST_SPIN)
+    else if (here->s.segments == 0 && fabs(here->s.y[0][FST_WZ] - here->seen.omega) > LARGEST_SPIN)
         (void)snprintf(curve->reason, sizeof curve->reason,
                        "its spin grows without bound (W_z = %.4g) while n turns upright", here->s.y[0][FST_WZ]);
     else if (nodes >= MOST_NODES)

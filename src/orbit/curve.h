@@ -53,7 +53,10 @@ fst_status fst_specials_between(fst_curve *curve, const fst_node *a, const fst_n
  * why. */
 fst_status fst_look_for_hopf_end(fst_curve *curve, const fst_node *a, const fst_node *b, fst_error *error);
 
-/* The solution at the fraction x of the way from a to b, along the curve. */
+/* A guess at the fraction x of the way from a to b: the cubic with their tangents. */
+void fst_solution_between(const fst_node *a, const fst_node *b, double x, fst_solution *s);
+
+/* The solution there, corrected across the way. */
 fst_status fst_node_between(const fst_family *family, const fst_node *a, const fst_node *b, double x,
                             fst_node *out, fst_error *error);
 

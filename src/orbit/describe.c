@@ -24,12 +24,43 @@ static double signed_distance(const fst_flow *flow, const double *y)
     return speed > 0 ? (y[FST_Y] * vx - y[FST_X] * vy) / speed : hypot(y[FST_X], y[FST_Y]);
 }
 
+/* The extremes of r in their order; `count` goes on beyond those that are kept. */
+typedef struct extremes {
+    double r[4];
+    int is_top[4];
+    int count;
+} extremes_of_r;
+
+static void note_extreme(extremes_of_r *e, fst_flow *flow, double before, double after)
+{
+    if ((before > 0) == (after > 0))
+        return;
+    if (e->count < 4) {
+        double y[FST_STATE_SIZE];
+        fst_flow_at(flow, fst_flow_locate(flow, fst_radial_function, 0.0, 1.0, before, after), y);
+        e->r[e->count] = hypot(y[FST_X], y[FST_Y]);
+        e->is_top[e->count] = before > 0;
+    }
+    e->count += 1;
+}
+
+/* The larger of two falls, each from a top to the next bottom, over the other one, minus 1. */
+static double swing_ratio(const extremes_of_r *e)
+{
+    if (e->count != 4)
+        return NAN;
+    const int top = e->is_top[0] ? 0 : 1;
+    const double one = e->r[top] - e->r[top + 1], other = e->r[top + 2] - e->r[(top + 3) % 4];
+    return fmax(one, other) / fmin(one, other) - 1.0;
+}
+
 /* Look for the closest approach and the passage of the section in the flow's last step. */
-static void look_at_step(fst_flow *flow, fst_description *out)
+static void look_at_step(fst_flow *flow, extremes_of_r *e, fst_description *out)
 {
     const double *start = flow->step.y, *end = flow->step.end;
     const double before = fst_radial_function(flow, start, NULL), after = fst_radial_function(flow, end, NULL);
     double y[FST_STATE_SIZE];
+    note_extreme(e, flow, before, after);
     if (before < 0 && after >= 0) {
         const double x = fst_flow_locate(flow, fst_radial_function, 0.0, 1.0, before, after);
         fst_flow_at(flow, x, y);
@@ -85,9 +116,10 @@ fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, i
         run->drive_period = TWO_PI / run->model->groups.omega;
         const fst_twofold end = {fst_whole_period(s), 0.0};
         fst_mark mark;
+        extremes_of_r extremes_met = {.count = 0};
         fst_quadrature_begin(&run->q, run->flow);
         fst_marks_begin(&run->section_marks);
-        fst_mark_take(&mark, &run->q, run->flow, 1.0);
+        fst_mark_take(&mark, &run->q, run->flow, 1.0, 1);
         fst_marks_offer(&run->section_marks, &mark);
         while (status == FST_OK && fst_twofold_difference(end, run->flow->t) > 0) {
             status = fst_flow_step(run->flow, end.high, error);
@@ -98,12 +130,15 @@ fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, i
             fst_quadrature_step(&run->q, run->flow);
             if (extremes)
                 fst_quadrature_track(&run->q, run->flow);
-            look_at_step(run->flow, out);
+            look_at_step(run->flow, &extremes_met, out);
         }
         if (status == FST_OK) {
-            fst_mark_take(&mark, &run->q, run->flow, 1.0);
+            fst_mark_take(&mark, &run->q, run->flow, 1.0, 1);
             fst_marks_offer(&run->section_marks, &mark);
             conclude(run, s, out);
+            out->swing_ratio = out->turns == 0                           ? NAN
+                               : s->symmetric && extremes_met.count == 4 ? 0.0
+                                                                         : swing_ratio(&extremes_met);
             out->least_load = run->q.extreme[FST_TRACK_LOAD].least;
         }
     }
@@ -143,6 +178,8 @@ fst_status fst_orbit_from_solution(const fst_family *family, const fst_solution 
     orbit->turns = d.turns;
     orbit->stable = fst_solution_is_stable(&at);
     orbit->residual = at.residual;
+    orbit->relaxation_time = fst_solution_relaxation(&at);
+    orbit->swing_ratio = d.swing_ratio;
     orbit->trivial_error = at.trivial_error;
     memcpy(orbit->multiplier_re, at.re, sizeof orbit->multiplier_re);
     memcpy(orbit->multiplier_im, at.im, sizeof orbit->multiplier_im);

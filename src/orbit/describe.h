@@ -11,6 +11,7 @@ typedef struct fst_description {
                            * sign where the orbit passes through r = 0 */
     int has_section;      /* the orbit passes Phi = pi/2 downward ... */
     double section[FST_STATE_SIZE]; /* ... here */
+    double swing_ratio;             /* of the two falls of r, minus 1; NAN: there are not two */
     double least_load;              /* least normal load per mass */
 } fst_description;
 

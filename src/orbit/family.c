@@ -150,7 +150,7 @@ fst_status fst_family_begin(fst_family *family, const fst_params *params, const 
     family->params = *params;
     family->key = -1;
     family->scale = 1.0;
-    family->tolerance = 1e-13;
+    fst_family_tighten(family, 1e-13);
     if (key) {
         family->key = fst_param_find(key);
         const fst_param_info *info = fst_param_at(family->key);
@@ -174,6 +174,13 @@ fst_status fst_family_begin(fst_family *family, const fst_params *params, const 
         }
     }
     return fst_lapack_load(&family->lapack, error);
+}
+
+void fst_family_tighten(fst_family *family, double tolerance)
+{
+    family->tolerance = tolerance;
+    family->residual = fmin(1e-12, fmax(10.0 * tolerance, 1e-13));
+    family->location = fmin(1e-13, 0.1 * tolerance);
 }
 
 fst_params fst_family_params(const fst_family *family, double value)

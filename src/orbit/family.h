@@ -17,6 +17,8 @@ typedef struct fst_family {
     int key;          /* row of params.def that is free; -1: none */
     double scale;     /* of the parameter, for the length of arcs */
     double tolerance; /* of integration, relative and absolute */
+    double residual;  /* at which a solution counts as found */
+    double location;  /* value of a test at which a special point counts as found */
     const fst_lapack *lapack;
 } fst_family;
 
@@ -34,6 +36,11 @@ typedef struct fst_setup {
 /* A family over `key` (NULL: none free); clears the other forms of the quantity.  FST_BAD_INPUT: no such key,
  * or one that is no real number; FST_UNAVAILABLE: no LAPACK. */
 fst_status fst_family_begin(fst_family *family, const fst_params *params, const char *key, fst_error *error);
+
+/* Every tolerance from that of the integration: residuals of 1e-12, or down to 1e-13 where the integration is
+ * more exact than that; tests of special points down to a tenth of it.  (A residual of 1e-14 is what rounding
+ * leaves.) */
+void fst_family_tighten(fst_family *family, double tolerance);
 
 /* The parameters and the setup at a value of the free parameter. */
 fst_params fst_family_params(const fst_family *family, double value);

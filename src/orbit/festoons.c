@@ -1,70 +1,109 @@
 /* festoons.c - the patterns that close in the laboratory after a whole number of festoons. */
-#include "orbit/describe.h"
+#include "orbit/curve.h"
 #include "orbit/search.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bracket.h"
 #include "base/error.h"
 
 #define TWO_PI 6.283185307179586476925287
 
-/* N of a counter-rotating orbit from its period alone: N = a (1 + omega/|<alpha'>|), alpha' = omega - 2 pi/T.
+/* N of a counter-rotating orbit from its whole period alone: N = a (1 + omega/|<alpha'>|), alpha' = omega - 2
+ * pi/T.
  */
-static double festoons_of(const fst_solution *s)
+static double festoons_at(double omega, double period, int symmetric)
 {
-    const double alpha_dot = s->value - TWO_PI / fst_whole_period(s);
-    return (s->symmetric ? 2.0 : 1.0) * (1.0 + s->value / fabs(alpha_dot));
+    const double alpha_dot = omega - TWO_PI / period;
+    return (symmetric ? 2.0 : 1.0) * (1.0 + omega / fabs(alpha_dot));
 }
 
-/* A branch point as a solution of the family over omega. */
-static fst_status solution_at(const fst_family *family, const fst_branch_point *p, fst_solution *s,
-                              fst_error *error)
+static double festoons_of(const fst_solution *s)
+{
+    return festoons_at(s->value, fst_whole_period(s), s->symmetric);
+}
+
+static int is_symmetric(const fst_branch_point *p)
+{
+    return p->symmetry == FST_SYMMETRY_S2;
+}
+
+static double festoons_at_point(const fst_branch_point *p)
+{
+    return festoons_at(p->value, p->period, is_symmetric(p));
+}
+
+/* A branch point as a guess at a solution of the family over omega. */
+static fst_status chain_at(const fst_family *family, const fst_branch_point *p, fst_solution *s,
+                           fst_error *error)
 {
     memset(s, 0, sizeof *s);
-    s->symmetric = p->symmetry == FST_SYMMETRY_S2;
+    s->symmetric = is_symmetric(p);
     s->value = p->value;
     s->period = s->symmetric ? 0.5 * p->period : p->period;
     memcpy(s->y[0], p->state, sizeof s->y[0]);
-    const fst_status status = fst_solution_chain(family, s, s->symmetric ? 1 : 2, error);
-    return status == FST_OK ? fst_solution_correct(family, s, NULL, error) : status;
+    return fst_solution_chain(family, s, s->symmetric ? 1 : 2, error);
 }
 
-/* The omega between two neighbours on a branch at which N is reached, by the Illinois rule. */
-static fst_status locate(const fst_family *family, const fst_branch_point *a, const fst_branch_point *b,
-                         double target, fst_solution *s, fst_error *error)
+static void turn_tangent(const fst_family *family, fst_solution *s, const fst_direction *way)
 {
-    double lo = a->value, hi = b->value, f_lo = a->festoons - target, f_hi = b->festoons - target;
-    fst_status status = solution_at(family, a, s, error);
-    int side = 0;
-    for (int i = 0; i < 60 && status == FST_OK; ++i) {
-        double x = i % 6 == 5 ? 0.5 * (lo + hi) : (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
-        if (fabs(x - s->value) < 1e-13)
-            break;
-        /* Move from the last one in steps small enough for Newton's method. */
-        const int pieces = 1 + (int)(fabs(x - s->value) / 0.01);
-        const double from = s->value;
-        for (int k = 1; k <= pieces && status == FST_OK; ++k) {
-            fst_direction step = s->tangent;
-            const double length = (from + (x - from) * k / pieces - s->value) / step.value;
-            fst_solution_move(s, &step, length);
-            s->value = from + (x - from) * k / pieces;
-            status = fst_solution_correct(family, s, NULL, error);
-        }
-        const double f = festoons_of(s) - target;
-        if (status != FST_OK || fabs(f) < 1e-13 * target)
-            break;
-        if ((f < 0) == (f_lo < 0)) {
-            lo = x, f_lo = f;
-            f_hi *= side < 0 ? 0.5 : 1.0;
-            side = -1;
-        } else {
-            hi = x, f_hi = f;
-            f_lo *= side > 0 ? 0.5 : 1.0;
-            side = 1;
-        }
+    if (fst_direction_product(family, s, &s->tangent, way) < 0)
+        fst_direction_scale(&s->tangent, -1.0);
+}
+
+/* The ends of a piece of the branch, with their tangents and the way between.  A point at which branches meet
+ * cannot be corrected: its state is exact, and the way stands for its tangent. */
+static fst_status piece_of(const fst_family *family, const fst_branch_point *from, const fst_branch_point *to,
+                           int to_meeting, fst_node *a, fst_node *b, fst_error *error)
+{
+    fst_direction way;
+    fst_status status = chain_at(family, from, &a->s, error);
+    if (status == FST_OK)
+        status = fst_solution_correct(family, &a->s, NULL, error);
+    if (status == FST_OK)
+        status = chain_at(family, to, &b->s, error);
+    if (status == FST_OK && !to_meeting)
+        status = fst_solution_correct(family, &b->s, NULL, error);
+    if (status != FST_OK)
+        return status;
+    fst_direction_between(&a->s, &b->s, &way);
+    b->length = sqrt(fst_direction_product(family, &a->s, &way, &way));
+    if (!(b->length > 0))
+        return fst_fail(error, FST_NO_CONVERGENCE, "festoons", "two points of the branch are one");
+    if (to_meeting) {
+        b->s.tangent = way;
+        fst_direction_scale(&b->s.tangent, 1.0 / b->length);
     }
-    return status;
+    turn_tangent(family, &a->s, &way);
+    turn_tangent(family, &b->s, &way);
+    return FST_OK;
+}
+
+/* The orbit between the ends of a piece that has `target` festoons. */
+static fst_status locate(const fst_family *family, const fst_node *a, const fst_node *b, double target,
+                         fst_solution *s, fst_error *error)
+{
+    fst_bracket z = {0.0, 1.0, festoons_of(&a->s) - target, festoons_of(&b->s) - target, 0};
+    fst_direction way;
+    fst_direction_between(&a->s, &b->s, &way);
+    double f = INFINITY;
+    for (int i = 0; i < 60 && fabs(f) > 1e-13 * target; ++i) {
+        const double x = i % 6 == 5 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z), before = s->value;
+        fst_solution_between(a, b, x, s);
+        const fst_status status = fst_solution_correct(family, s, &way, error);
+        if (status != FST_OK)
+            return status;
+        f = festoons_of(s) - target;
+        if (i > 0 && fabs(s->value - before) < 1e-14 * s->value)
+            break;
+        fst_bracket_take(&z, x, f);
+    }
+    return fabs(f) < 1e-9 * target
+               ? FST_OK
+               : fst_fail(error, FST_NO_CONVERGENCE, "festoons",
+                          "%.10g festoons were not reached near omega = %.10g", target, s->value);
 }
 
 static fst_status add(fst_festoon_list *list, const fst_orbit *orbit, fst_error *error)
@@ -77,6 +116,10 @@ static fst_status add(fst_festoon_list *list, const fst_orbit *orbit, fst_error 
         list->omegas = omegas;
     if (!orbits || !omegas)
         return fst_fail(error, FST_NO_MEMORY, "festoons", "out of memory");
+    for (size_t i = 0; i < list->count; ++i) /* met from both sides of a branch point */
+        if (fabs(list->omegas[i] - orbit->means.omega) < 1e-11 &&
+            list->orbits[i].means.symmetry == orbit->means.symmetry)
+            return FST_OK;
     size_t place = list->count;
     while (place > 0 && list->omegas[place - 1] > orbit->means.omega)
         --place;
@@ -88,35 +131,122 @@ static fst_status add(fst_festoon_list *list, const fst_orbit *orbit, fst_error 
     return FST_OK;
 }
 
-/* Note the reach of the stable branch, and find N between its neighbouring points a and b. */
-static fst_status look_between(const fst_family *family, const fst_branch_point *a, const fst_branch_point *b,
-                               double target, fst_festoon_list *list, fst_error *error)
+static int counter_rotates(const fst_branch_point *p)
 {
-    if (a->stable && a->turns < 0) {
-        list->least = fmin(list->least, a->festoons);
-        list->greatest = fmax(list->greatest, a->festoons);
-        list->from = fmin(list->from, a->value);
-        list->to = fmax(list->to, a->value);
-    }
-    if (a->branch != b->branch || !(a->stable || b->stable) || a->turns >= 0 || b->turns >= 0 ||
-        (a->festoons < target) == (b->festoons < target))
+    return p->stable && p->turns < 0;
+}
+
+static void note_reach(fst_festoon_list *list, const fst_branch_point *p)
+{
+    const int part = is_symmetric(p);
+    list->least[part] = fmin(list->least[part], festoons_at_point(p));
+    list->greatest[part] = fmax(list->greatest[part], festoons_at_point(p));
+    list->from = fmin(list->from, p->value);
+    list->to = fmax(list->to, p->value);
+}
+
+/* Find N between the neighbouring points a and b of a branch, at the second of which branches may meet. */
+static fst_status look_between(const fst_family *family, const fst_branch_point *a, const fst_branch_point *b,
+                               int meeting, double target, fst_festoon_list *list, fst_error *error)
+{
+    if (a->branch != b->branch || is_symmetric(a) != is_symmetric(b) ||
+        !(counter_rotates(a) || counter_rotates(b)) ||
+        (festoons_at_point(a) < target) == (festoons_at_point(b) < target))
         return FST_OK;
+    fst_node from, to;
     fst_solution s;
     fst_orbit orbit;
-    fst_error ignored;
-    if (locate(family, a, b, target, &s, &ignored) != FST_OK ||
-        fst_orbit_from_solution(family, &s, &orbit, &ignored) != FST_OK || !orbit.stable)
+    fst_status status = piece_of(family, a, b, meeting, &from, &to, error);
+    if (status == FST_OK)
+        status = locate(family, &from, &to, target, &s, error);
+    if (status == FST_OK)
+        status = fst_orbit_from_solution(family, &s, &orbit, error);
+    return status == FST_OK && orbit.stable && orbit.means.regime == FST_REGIME_COUNTER_ROTATING
+               ? add(list, &orbit, error)
+               : status;
+}
+
+/* The counter-rotating orbit on a branch that is nearest to a special point. */
+static const fst_branch_point *nearest_to(const fst_branch *branch, int number, const fst_branch_point *at)
+{
+    const fst_branch_point *best = NULL;
+    double least = 0.1; /* a special point of unstable orbits has none beside it */
+    for (size_t i = 0; i < branch->point_count; ++i) {
+        const fst_branch_point *p = &branch->points[i];
+        const double distance = fabs(p->value - at->value) + fabs(p->mean_r - at->mean_r);
+        if (p->branch == number && counter_rotates(p) && distance < least)
+            best = p, least = distance;
+    }
+    return best;
+}
+
+/* The stable orbits end at special points, beyond the last one that was followed: through a fold and through
+ * r = 0 the branch goes on, where a symmetric orbit splits, the S1 branch begins. */
+static fst_status look_beside(const fst_family *family, const fst_branch *branch, const fst_special *special,
+                              double target, fst_festoon_list *list, fst_error *error)
+{
+    const int splits =
+        special->type == FST_SPECIAL_PITCHFORK && special->born >= 0 && special->at.symmetry == FST_SYMMETRY_S2;
+    if (!splits && special->type != FST_SPECIAL_FOLD && special->type != FST_SPECIAL_ORIGIN_CROSSING)
         return FST_OK;
-    return add(list, &orbit, error);
+    fst_branch_point end = special->at;
+    if (nearest_to(branch, special->branch, &end))
+        note_reach(list, &end);
+    const fst_branch_point *born = splits ? nearest_to(branch, special->born, &end) : NULL;
+    if (!born)
+        return FST_OK;
+    end.branch = special->born;
+    end.symmetry = born->symmetry;
+    note_reach(list, &end);
+    return look_between(family, born, &end, 1, target, list, error);
+}
+
+/* The branch has a gap in N: where the period halves, N doubles. */
+static fst_status none_closes(const fst_festoon_list *list, double festoons, fst_error *error)
+{
+    static const char *const names[2] = {"S1", "S2"};
+    char reach[2][80] = {"", ""};
+    for (int part = 0; part < 2; ++part)
+        if (list->least[part] <= list->greatest[part])
+            (void)snprintf(reach[part], sizeof reach[part], "; N is from %.6g to %.6g on its %s orbits",
+                           list->least[part], list->greatest[part], names[part]);
+    return fst_fail(error, FST_NO_CONVERGENCE, "festoons",
+                    "no stable pattern closes after %.10g festoons: the stable counter-rotating branch reaches "
+                    "from omega = %.8g to %.8g%s%s",
+                    festoons, list->from, list->to, reach[0], reach[1]);
+}
+
+fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
+                           fst_festoon_list *list, fst_error *error)
+{
+    memset(list, 0, sizeof *list);
+    if (!(festoons > 1) || !(festoons < 1e6))
+        return fst_fail(error, FST_BAD_INPUT, "festoons", "%g festoons: give a number above 1", festoons);
+    if (branch->kind != FST_BRANCH_COUNTER || strcmp(branch->key, "drive.omega") != 0 || branch->second_key[0])
+        return fst_fail(error, FST_BAD_INPUT, "festoons",
+                        "the branch is none of counter-rotation over drive.omega");
+    fst_family family;
+    fst_status status = fst_family_begin(&family, params, "drive.omega", error);
+    list->least[0] = list->least[1] = list->from = INFINITY;
+    list->greatest[0] = list->greatest[1] = list->to = -INFINITY;
+    for (size_t i = 0; i < branch->point_count; ++i)
+        if (counter_rotates(&branch->points[i]))
+            note_reach(list, &branch->points[i]);
+    for (size_t i = 0; i + 1 < branch->point_count && status == FST_OK; ++i)
+        status = look_between(&family, &branch->points[i], &branch->points[i + 1], 0, festoons, list, error);
+    for (size_t i = 0; i < branch->special_count && status == FST_OK; ++i)
+        status = look_beside(&family, branch, &branch->specials[i], festoons, list, error);
+    if (status == FST_OK && list->count == 0)
+        status = none_closes(list, festoons, error);
+    if (status != FST_OK)
+        fst_festoons_free(list);
+    return status;
 }
 
 fst_status fst_festoons_find(const fst_params *params, double festoons, fst_festoon_list *list,
                              fst_error *error)
 {
     memset(list, 0, sizeof *list);
-    if (!(festoons > 1) || !(festoons < 1e6))
-        return fst_fail(error, FST_BAD_INPUT, "festoons", "%g festoons: give a number above 1", festoons);
-    fst_family family;
     fst_branch branch;
     fst_branch_options o = fst_default_branch_options();
     o.from = 0.02;
@@ -124,26 +254,8 @@ fst_status fst_festoons_find(const fst_params *params, double festoons, fst_fest
     fst_status status = fst_branch_follow(params, &o, &branch, error);
     if (status != FST_OK)
         return status;
-    status = fst_family_begin(&family, params, "drive.omega", error);
-    list->least = list->from = INFINITY;
-    list->greatest = list->to = -INFINITY;
-    for (size_t i = 0; i + 1 < branch.point_count && status == FST_OK; ++i)
-        status = look_between(&family, &branch.points[i], &branch.points[i + 1], festoons, list, error);
-    for (size_t i = 0; i < branch.special_count; ++i) { /* where the turning begins, and where it ends */
-        if (branch.specials[i].type == FST_SPECIAL_ORIGIN_CROSSING && branch.specials[i].at.stable)
-            list->from = fmin(list->from, branch.specials[i].value);
-        if (branch.specials[i].type == FST_SPECIAL_FOLD && branch.specials[i].at.mean_r > 1.0)
-            list->to = fmax(list->to, branch.specials[i].value);
-    }
+    status = fst_festoons_on(params, &branch, festoons, list, error);
     fst_branch_free(&branch);
-    if (status == FST_OK && list->count == 0)
-        status = fst_fail(
-            error, FST_NO_CONVERGENCE, "festoons",
-            "no stable pattern closes after %.10g festoons: the stable counter-rotating branch reaches "
-            "from omega = %.8g to %.8g, and N from %.6g to %.6g on it",
-            festoons, list->from, list->to, list->least, list->greatest);
-    if (status != FST_OK)
-        fst_festoons_free(list);
     return status;
 }
 

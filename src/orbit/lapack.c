@@ -8,6 +8,12 @@
 
 #define MODULE_FILE "festoon-lapack.so"
 
+int fst_lapack_present(void)
+{
+    const fst_lapack *lapack;
+    return fst_lapack_load(&lapack, NULL) == FST_OK;
+}
+
 /* The module is found along the RUNPATH of this library, and stays loaded. */
 fst_status fst_lapack_load(const fst_lapack **lapack, fst_error *error)
 {

@@ -199,11 +199,18 @@ fst_status fst_follow_locked(fst_tracer *t, fst_error *error)
 {
     enum { SLICES = 12, FEWER_STARTS = 900 };
     const double lo = fmin(t->options->from, t->options->to), hi = fmax(t->options->from, t->options->to);
+    const double whole = t->share[1], first = 0.75; /* most branches are met in the first slice */
     fst_status status = FST_OK;
     for (int slice = 0; slice < SLICES && status == FST_OK; ++slice) {
         finder f;
         const double part = (slice + 0.5) / SLICES; /* most states live at the low end of omega */
-        status = find_all(&t->family, lo + (hi - lo) * (part * part), FEWER_STARTS, &f, error);
+        t->share[0] = slice ? whole * (first + (1.0 - first) * (slice - 1) / (SLICES - 1)) : 0.0;
+        t->share[1] = whole * (first + (1.0 - first) * slice / (SLICES - 1));
+        status = fst_tracer_progress(t, error);
+        if (status == FST_OK)
+            status = find_all(&t->family, lo + (hi - lo) * (part * part), FEWER_STARTS, &f, error);
+        if (status != FST_OK)
+            break;
         for (int i = 0; i < f.count && status == FST_OK; ++i) {
             fst_node node;
             fst_solution s = f.found[i].s;

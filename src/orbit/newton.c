@@ -6,6 +6,9 @@
 
 #include "base/error.h"
 
+#define LONGEST_CORRECTION                                                                                     \
+    0.3 /* of an orbit; a longer one leaves the range in which the linear system means anything */
+
 static double dot(const double *a, const double *b, int n)
 {
     double sum = 0.0;
@@ -50,6 +53,15 @@ static void normalise(double *y)
     const double length = sqrt(dot(n, n, 3));
     for (int i = 0; i < 3; ++i)
         n[i] /= length;
+}
+
+void fst_direction_scale(fst_direction *direction, double factor)
+{
+    for (int i = 0; i < FST_SEGMENTS; ++i)
+        for (int k = 0; k < FST_STATE_SIZE; ++k)
+            direction->y[i][k] *= factor;
+    direction->period *= factor;
+    direction->value *= factor;
 }
 
 void fst_solution_move(fst_solution *s, const fst_direction *direction, double length)
@@ -258,13 +270,31 @@ static fst_status find_tangent(const fst_family *family, fst_solution *s, fst_ne
     const fst_status status = solve(family, s, l, across, 1, &s->tangent, error);
     if (status != FST_OK)
         return status;
-    const double length = sqrt(fst_direction_product(family, s, &s->tangent, &s->tangent));
-    fst_direction *t = &s->tangent;
-    for (int i = 0; i < fst_states_of(s); ++i)
-        for (int k = 0; k < FST_STATE_SIZE; ++k)
-            t->y[i][k] /= length;
-    t->period /= length;
-    t->value /= length;
+    fst_direction_scale(&s->tangent, 1.0 / sqrt(fst_direction_product(family, s, &s->tangent, &s->tangent)));
+    return FST_OK;
+}
+
+/* One iteration of an orbit whose guess is far from exact, integrated no more exactly than that deserves. */
+fst_status fst_solution_approach(const fst_family *family, fst_solution *s, const fst_direction *across,
+                                 fst_error *error)
+{
+    const double rough = 1e-8;
+    if (s->segments == 0 || family->tolerance >= rough)
+        return FST_OK;
+    fst_family eased = *family;
+    fst_newton_system l;
+    fst_direction step;
+    eased.tolerance = rough;
+    fst_status status = fst_newton_equations(&eased, s, &l, error);
+    if (status == FST_OK)
+        status = solve(family, s, &l, across, 0, &step, error);
+    if (status != FST_OK)
+        return status;
+    const double size = sqrt(fst_direction_product(family, s, &step, &step));
+    if (!(size < LONGEST_CORRECTION))
+        return fst_fail(error, FST_NO_CONVERGENCE, "Newton's method", "the guess at %.10g is too far off: %.3g",
+                        s->value, size);
+    fst_solution_move(s, &step, 1.0);
     return FST_OK;
 }
 
@@ -280,7 +310,7 @@ fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const
         fst_status status = fst_newton_equations(family, s, &l, error);
         if (status != FST_OK)
             return status;
-        if (s->residual < FST_RESIDUAL_TINY || (s->residual < FST_RESIDUAL_GOOD && s->residual > 0.1 * before))
+        if (fst_newton_is_done(family, s->residual, before))
             return family->key >= 0 ? find_tangent(family, s, &l, across, error) : FST_OK;
         if (!isfinite(s->residual) || (s->iterations > patience && s->residual > before))
             break;
@@ -292,8 +322,7 @@ fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const
         const double size = sqrt(fst_direction_product(family, s, &step, &step));
         if (!isfinite(size))
             break;
-        const double limit =
-            far ? 1.0 : 0.3; /* a longer step leaves the range in which the linear system means anything */
+        const double limit = far ? 1.0 : LONGEST_CORRECTION;
         fst_solution_move(s, &step, size > limit ? limit / size : 1.0);
         if (s->segments > 0 && !(s->period > 1e-3 && s->period < 1e4))
             break;

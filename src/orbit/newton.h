@@ -4,9 +4,12 @@
 
 #include "orbit/solution.h"
 
-/* Residuals at which Newton's method has nothing left to do, and at which a solution counts as found. */
-#define FST_RESIDUAL_TINY 1e-13
-#define FST_RESIDUAL_GOOD 1e-12
+/* Whether Newton's method has nothing left to do, or has found a solution and stands still; `before` is the
+ * residual an iteration earlier. */
+static inline int fst_newton_is_done(const fst_family *family, double residual, double before)
+{
+    return residual < 0.1 * family->residual || (residual < family->residual && residual > 0.1 * before);
+}
 
 /* The linear system of one iteration.  Columns: the states in their tangent bases, the period of an orbit, the
  * free parameter. */

@@ -23,7 +23,12 @@ typedef struct fst_local_map {
 fst_status fst_cubic_coefficient(const fst_lapack *lapack, const fst_local_map *map, const double *matrix,
                                  double frequency, double *coefficient, double *spread, fst_error *error);
 
-/* 1 supercritical, -1 subcritical, 0 undecided, of a Hopf point or a Neimark-Sacker point. */
+/* That coefficient of a Hopf point or of a Neimark-Sacker point: of the field in the tangent space, or of the
+ * return to the section across the flow. */
+fst_status fst_pair_coefficient(const fst_family *family, const fst_solution *s, double frequency,
+                                double *coefficient, double *spread, fst_error *error);
+
+/* Its sign: 1 supercritical, -1 subcritical, 0 undecided. */
 int fst_pair_criticality(const fst_family *family, const fst_solution *s, double frequency);
 
 #endif

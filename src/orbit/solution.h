@@ -53,6 +53,8 @@ double fst_direction_product(const fst_family *family, const fst_solution *of, c
 /* From one solution to another (tangent components alone matter). */
 void fst_direction_between(const fst_solution *from, const fst_solution *to, fst_direction *out);
 
+void fst_direction_scale(fst_direction *direction, double factor);
+
 /* s moved by `length` along a direction, n kept on the unit sphere. */
 void fst_solution_move(fst_solution *s, const fst_direction *direction, double length);
 
@@ -61,6 +63,11 @@ void fst_solution_move(fst_solution *s, const fst_direction *direction, double l
  * guess was not good enough; s is then undefined. */
 fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const fst_direction *across,
                                 fst_error *error);
+
+/* One iteration of it by a rough integration, for a guess that is no better; an equilibrium is left as it is.
+ */
+fst_status fst_solution_approach(const fst_family *family, fst_solution *s, const fst_direction *across,
+                                 fst_error *error);
 
 /* Multipliers (or eigenvalues) of a corrected solution, the flow direction of an orbit split off. */
 fst_status fst_solution_spectrum(const fst_family *family, fst_solution *s, fst_error *error);
@@ -79,6 +86,9 @@ fst_status fst_solution_eigenvector(const fst_family *family, const fst_solution
 
 /* Whether it attracts: multipliers within the unit circle, eigenvalues on the left. */
 int fst_solution_is_stable(const fst_solution *s);
+
+/* The time in which a small disturbance falls by e; NAN: it does not. */
+double fst_solution_relaxation(const fst_solution *s);
 
 /* Fill in the states of a chain of `segments` from the first one and the period. */
 fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int segments, fst_error *error);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/bracket.h"
 #include "base/error.h"
 #include "orbit/normal_form.h"
 
@@ -16,22 +17,29 @@ static double hermite(double a, double ta, double b, double tb, double h, double
     return a + x * d + x * rest * (rest * (h * ta - d) - x * (h * tb - d));
 }
 
-fst_status fst_node_between(const fst_family *family, const fst_node *a, const fst_node *b, double x,
-                            fst_node *out, fst_error *error)
+void fst_solution_between(const fst_node *a, const fst_node *b, double x, fst_solution *s)
 {
-    fst_solution s = a->s;
     const fst_direction *ta = &a->s.tangent, *tb = &b->s.tangent;
-    fst_direction way, step;
-    fst_direction_between(&a->s, &b->s, &way);
     const double h = b->length;
+    fst_direction step;
     memset(&step, 0, sizeof step);
-    for (int i = 0; i < fst_states_of(&s); ++i)
+    *s = a->s;
+    for (int i = 0; i < fst_states_of(s); ++i)
         for (int k = 0; k < FST_STATE_SIZE; ++k)
             step.y[i][k] = hermite(a->s.y[i][k], ta->y[i][k], b->s.y[i][k], tb->y[i][k], h, x) - a->s.y[i][k];
     step.period = hermite(a->s.period, ta->period, b->s.period, tb->period, h, x) - a->s.period;
     step.value = hermite(a->s.value, ta->value, b->s.value, tb->value, h, x) - a->s.value;
-    s.on_section = 0;
-    fst_solution_move(&s, &step, 1.0);
+    s->on_section = 0;
+    fst_solution_move(s, &step, 1.0);
+}
+
+fst_status fst_node_between(const fst_family *family, const fst_node *a, const fst_node *b, double x,
+                            fst_node *out, fst_error *error)
+{
+    fst_solution s;
+    fst_direction way;
+    fst_direction_between(&a->s, &b->s, &way);
+    fst_solution_between(a, b, x, &s);
     const fst_status status = fst_solution_correct(family, &s, &way, error);
     return status == FST_OK ? fst_node_make(family, &s, out, error) : status;
 }
@@ -164,17 +172,15 @@ static int narrow_to_one_pair(const fst_family *family, const fst_node *a, const
 fst_status fst_locate_special(const fst_family *family, const fst_node *a, const fst_node *b, int test,
                               fst_node *out, fst_error *error)
 {
-    double lo = 0.0, hi = 1.0, f_lo = fst_test_value(a, test), f_hi = fst_test_value(b, test);
-    int side = 0;
-    const double least = test == FST_TEST_PAIR ? 1e-12 : 1e-13 * fmin(1.0, fmax(fabs(f_lo), fabs(f_hi)));
-    *out = fabs(f_lo) < fabs(f_hi) ? *a : *b;
-    if (test == FST_TEST_PAIR && !narrow_to_one_pair(family, a, b, &lo, &hi, &f_lo, &f_hi))
+    fst_bracket z = {0.0, 1.0, fst_test_value(a, test), fst_test_value(b, test), 0};
+    const double least =
+        family->location * (test == FST_TEST_PAIR ? 10.0 : fmin(1.0, fmax(fabs(z.f_lo), fabs(z.f_hi))));
+    *out = fabs(z.f_lo) < fabs(z.f_hi) ? *a : *b;
+    if (test == FST_TEST_PAIR && !narrow_to_one_pair(family, a, b, &z.lo, &z.hi, &z.f_lo, &z.f_hi))
         return fst_fail(error, FST_NO_CONVERGENCE, "special point", "no single pair crosses at %.10g",
                         a->s.value);
-    for (int i = 0; i < 60 && (hi - lo) * b->length > 1e-13; ++i) {
-        double x = i % 6 == 5 ? 0.5 * (lo + hi) : (lo * f_hi - hi * f_lo) / (f_hi - f_lo);
-        if (!(x > lo && x < hi))
-            x = 0.5 * (lo + hi);
+    for (int i = 0; i < 60 && (z.hi - z.lo) * b->length > 1e-13; ++i) {
+        const double x = i % 6 == 5 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z);
         fst_node node;
         const fst_status status = fst_node_between(family, a, b, x, &node, error);
         if (status != FST_OK)
@@ -185,17 +191,9 @@ fst_status fst_locate_special(const fst_family *family, const fst_node *a, const
         if (!isfinite(f))
             return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test is undefined at %.10g",
                             node.s.value);
-        if (fabs(f) <= least || (i > 1 && fabs(f) < 100.0 * least && moved < 1e-13 * family->scale))
+        if (fabs(f) <= least || (i > 1 && fabs(f) < 100.0 * least && moved < family->location * family->scale))
             break;
-        if ((f < 0) == (f_lo < 0)) {
-            lo = x, f_lo = f;
-            f_hi *= side < 0 ? 0.5 : 1.0;
-            side = -1;
-        } else {
-            hi = x, f_hi = f;
-            f_lo *= side > 0 ? 0.5 : 1.0;
-            side = 1;
-        }
+        fst_bracket_take(&z, x, f);
     }
     if (!(fabs(fst_test_value(out, test)) < 1e-8))
         return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test jumps at %.10g", out->s.value);
@@ -277,6 +275,15 @@ static int meets_symmetric(const fst_node *a, const fst_node *b)
         size += at_a[k] * at_a[k] + at_b[k] * at_b[k];
     }
     return product_ab < -0.01 * size;
+}
+
+/* Whether it is an equilibrium that S2 maps onto itself, on the axis: there the symmetry can break.  Elsewhere
+ * nothing is broken where an eigenvalue passes 0: a family that slips changes places with one that rolls. */
+static int is_own_image(const fst_solution *s)
+{
+    double image[FST_STATE_SIZE];
+    fst_apply_s2(s->y[0], image);
+    return s->segments == 0 && greatest_difference(image, s->y[0]) < 1e-6;
 }
 
 /* How large an orbit is: the way between its states half a period apart. */
@@ -419,6 +426,21 @@ static int is_branch_point(const fst_family *family, const fst_solution *s)
     return fabs(along) < 1e-3 * fmax(greatest, 0.01 * sqrt(size));
 }
 
+/* A curve of orbits went through the equilibrium on which they shrink, from a to b, and comes back on itself:
+ * what happens on the way down belongs to it, up to an orbit a twentieth as large as that at a. */
+static fst_status look_before_hopf_end(fst_curve *curve, const fst_node *a, const fst_node *b, fst_error *error)
+{
+    const double x = 0.95 * extent(&a->s) / (extent(&a->s) + extent(&b->s));
+    fst_node last;
+    fst_error ignored;
+    int ends = 0;
+    if (fst_node_between(curve->family, a, b, x, &last, &ignored) != FST_OK)
+        return FST_OK;
+    last.length = x * b->length;
+    const fst_status status = fst_specials_between(curve, a, &last, &ends, error);
+    return status == FST_OK && !ends ? curve->sink.node(curve->sink.user, &last, error) : status;
+}
+
 /* A turn of the parameter between a and b.  The curve of S1 orbits also turns where it meets the symmetric one,
  * and that of librations where they shrink to nothing: there it would only come back on itself. */
 static fst_status report_turn(fst_curve *curve, const fst_node *a, const fst_node *b, int *ends,
@@ -434,8 +456,9 @@ static fst_status report_turn(fst_curve *curve, const fst_node *a, const fst_nod
         return FST_OK;
     }
     if (find_hopf(curve->family, a, b, frequency, &at)) {
+        const fst_status status = look_before_hopf_end(curve, a, b, error);
         *ends = 1;
-        return report_hopf_end(curve, a, &at, frequency, error);
+        return status == FST_OK ? report_hopf_end(curve, a, &at, frequency, error) : status;
     }
     if (fst_locate_special(curve->family, a, b, FST_TEST_FOLD, &at, &why) != FST_OK) {
         if (a->s.segments == 0) { /* Newton's matrix is singular where two curves meet */
@@ -473,15 +496,25 @@ static fst_status report_other(fst_curve *curve, const fst_node *a, const fst_no
         if (!orbit)
             switched = fst_switch_at_hopf(curve->family, at, frequency, &born, &ignored);
     } else if (test == FST_TEST_PLUS) {
-        type = FST_SPECIAL_PITCHFORK;
+        type = is_own_image(&at->s) ? FST_SPECIAL_PITCHFORK : FST_SPECIAL_TRANSCRITICAL;
         if (!orbit)
             switched = fst_switch_at_pitchfork(curve->family, at, &born, &ignored);
     }
     const int found = switched == FST_OK;
-    if (found && !criticality)
+    if (found && !criticality && type != FST_SPECIAL_TRANSCRITICAL)
         criticality = criticality_of(a, b, at, &born);
     return curve->sink.special(curve->sink.user, type, at, criticality, found && curve->follow ? &born : NULL,
                                error);
+}
+
+/* Whether more became unstable, or stable, between two nodes than the tests that change sign account for: as
+ * where a pair crosses the border and meets on the real axis right after. */
+static int hides_something(const fst_node *a, const fst_node *b)
+{
+    const int change = abs(unstable(&a->s) - unstable(&b->s));
+    const int pairs = abs(unstable_pairs(&a->s) - unstable_pairs(&b->s));
+    return change > 2 ||
+           change > 2 * pairs + changes_sign(a, b, FST_TEST_MINUS) + changes_sign(a, b, FST_TEST_PLUS);
 }
 
 fst_status fst_specials_between(fst_curve *curve, const fst_node *a, const fst_node *b, int *ends,
@@ -490,7 +523,7 @@ fst_status fst_specials_between(fst_curve *curve, const fst_node *a, const fst_n
     fst_node at;
     fst_error why;
     /* Several crossings in one step may hide each other: look at its halves. */
-    if (abs(unstable(&a->s) - unstable(&b->s)) > 2 && b->length > 1e-4 &&
+    if (hides_something(a, b) && b->length > 1e-4 &&
         fst_node_between(curve->family, a, b, 0.5, &at, &why) == FST_OK) {
         fst_node last = *b;
         at.length = last.length = 0.5 * b->length;

@@ -386,8 +386,8 @@ static fst_status walk_on(walk *w, int branch, fst_branch *out, fst_error *error
             return FST_OK;
         remember(w, &next);
         fst_status status = report(w, &next, branch, out, error);
-        if (status == FST_OK && w->options->progress && places % 4 == 0)
-            status = w->options->progress(w->options->user, fmin(0.95, places / 100.0), error);
+        if (status == FST_OK && w->options->progress)
+            status = w->options->progress(w->options->user, places / (places + 20.0), error);
         if (status != FST_OK || left || has_ended(w, &start, places, h))
             return status;
         h *= tries <= 3 ? 1.5 : tries > 5 ? 0.6 : 1.0;
@@ -409,7 +409,8 @@ static fst_status begin_surface(walk *w, const fst_params *params, fst_error *er
     w->surface.first.params = w->surface.second.params; /* the other forms of both are cleared */
     w->surface.first.scale = fst_branch_scale(o->key, o->from, o->to);
     w->surface.second.scale = fst_branch_scale(o->second_key, o->second_from, o->second_to);
-    w->surface.first.tolerance = w->surface.second.tolerance = o->tolerance;
+    fst_family_tighten(&w->surface.first, o->tolerance);
+    fst_family_tighten(&w->surface.second, o->tolerance);
     return FST_OK;
 }
 

@@ -151,6 +151,16 @@ int fst_solution_is_stable(const fst_solution *s)
     return 1;
 }
 
+double fst_solution_relaxation(const fst_solution *s)
+{
+    double slowest = -INFINITY;
+    if (!fst_solution_is_stable(s))
+        return NAN;
+    for (int i = 0; i < s->multipliers; ++i)
+        slowest = fmax(slowest, s->segments > 0 ? log(hypot(s->re[i], s->im[i])) / s->period : s->re[i]);
+    return -1.0 / slowest;
+}
+
 /* ------------------------------------------------------------------ along the orbit */
 
 fst_status fst_solution_flow(const fst_family *family, double value, const double *state, double tolerance,

@@ -1,32 +1,38 @@
-/* exponent.c - largest Lyapunov exponent across the flow, by the variational equations. */
-#include "study/run_state.h"
+/* exponent.c - largest Lyapunov exponents across the flow, by the variational equations.
+ *
+ * The vector that is followed is made short again after each piece of a block, and the logarithms of what it
+ * had grown to add up to the block's growth.
+ */
+#include "study/exponent.h"
 
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
-#include "model/jacobian.inl"
+#include "ensemble/lanes.h"
 
-/* State and one tangent vector; the tangent's derivative is the Jacobian times it. */
-#define STEP_DIM (2 * FST_STATE_SIZE)
-#define STEP_NAME(name) fst_tangent_##name##_double
-#define STEP_CONTEXT fst_coefficients_double
-#define STEP_RHS(s, drive, j) tangent_rhs(&(s)->context, drive, (s)->stage[(j)-1], (s)->k[(j)-1])
+enum { BLOCKS = 22, ALIGNING = 2, PIECES = 16 }; /* the first blocks turn the vector into place */
 
-static void tangent_rhs(const fst_coefficients_double *c, double omega, const double *y, double *dy)
-{
-    fst_pull_double p;
-    double jacobian[FST_STATE_SIZE][FST_STATE_SIZE];
-    fst_rhs_double(c, omega, y, dy, &p);
-    fst_jacobian_double(c, omega, y, jacobian);
-    for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        double sum = 0.0;
-        for (int k = 0; k < FST_STATE_SIZE; ++k)
-            sum += jacobian[i][k] * y[FST_STATE_SIZE + k];
-        dy[FST_STATE_SIZE + i] = sum;
-    }
-}
+/* One bead and its vector on their way. */
+typedef struct follower {
+    fst_exponent *asked;
+    double h, t, piece; /* the step size carried along; the time in the present piece, and a piece's length */
+    double attempt;     /* size of the present try */
+    int lands;          /* it ends the piece */
+    int pieces, blocks; /* done; pieces of the present block */
+    double growth, sum, sum2;
+    int over;
+} follower;
 
-#include "ode/dop853.inl"
+typedef struct crew {
+    const fst_tangent_engine *engine;
+    void *memory;
+    double *y;
+    const double *slope;
+    follower followers[FST_MOST_LANES];
+    int count;
+} crew;
 
 static double dot(const double *a, const double *b, int n)
 {
@@ -57,71 +63,129 @@ static double project(double *y, const double *flow_direction)
     return length;
 }
 
-/* Adaptive steps from s->y to the time `duration` later; *h is the step size carried along. */
-static fst_status integrate(fst_tangent_step_double *s, double duration, double rtol, const double *atol,
-                            double *h, uint64_t *rhs_calls, fst_error *error)
+static double project_lane(crew *c, int l)
 {
-    double t = 0.0;
-    while (t < duration) {
-        const int lands = *h * 1.01 >= duration - t;
-        s->h = lands ? duration - t : *h;
-        fst_tangent_try_step_double(s);
-        *rhs_calls += 12;
-        const double e = fst_tangent_step_error_double(s, rtol, atol);
-        if (!(e <= 1.0)) {
-            *h = s->h * (isfinite(e) ? fst_step_factor_double(e) : 0.1);
-            if (!(*h > 1e-12))
-                return fst_fail(
-                    error, FST_STEP_UNDERFLOW, "Lyapunov exponent",
-                    "the step size underflowed while the Lyapunov exponent was computed; try a larger "
-                    "run.rtol");
-            continue;
-        }
-        t = lands ? duration : t + s->h;
-        (void)fst_renormalise_double(s->end);
-        memcpy(s->y, s->end, sizeof s->y);
-        tangent_rhs(&s->context, s->omega, s->y, s->k[0]);
-        const double proposal = s->h * fst_step_factor_double(e);
-        *h = lands && proposal < *h ? *h : proposal;
-    }
-    return FST_OK;
+    const int width = c->engine->width;
+    double y[FST_TANGENT_DIM], flow_direction[FST_STATE_SIZE];
+    for (int i = 0; i < FST_TANGENT_DIM; ++i)
+        y[i] = c->y[i * width + l];
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        flow_direction[i] = c->slope[i * width + l];
+    const double length = project(y, flow_direction);
+    for (int i = FST_STATE_SIZE; i < FST_TANGENT_DIM; ++i)
+        c->y[i * width + l] = y[i];
+    return length;
 }
 
-fst_status fst_largest_exponent(const fst_run_state *run, const double state[FST_STATE_SIZE], double duration,
-                                double *exponent, double *standard_error, uint64_t *rhs_calls, fst_error *error)
+/* Put what is asked into a lane. */
+static void begin(crew *c, int l, fst_exponent *asked)
 {
-    enum { BLOCKS = 22, ALIGNING = 2, PIECES = 16 }; /* the first blocks turn the vector into place */
-    fst_tangent_step_double s;
-    memset(&s, 0, sizeof s);
-    s.context = run->flow->step.context.coefficients;
-    s.omega = s.context.omega;
-    memcpy(s.y, state, FST_STATE_SIZE * sizeof *state);
-    for (int i = 0; i < FST_STATE_SIZE; ++i) /* any direction will do; this one is nothing special */
-        s.y[FST_STATE_SIZE + i] = 1.0 / (1.0 + i);
-    double atol[STEP_DIM], h = 0.1, sum = 0.0, sum2 = 0.0;
-    const double rtol = run->params->run_rtol > 1e-9 ? run->params->run_rtol : 1e-9;
-    for (int i = 0; i < STEP_DIM; ++i)
-        atol[i] = i < FST_STATE_SIZE ? rtol : 1e-6;
-    tangent_rhs(&s.context, s.omega, s.y, s.k[0]);
-    (void)project(s.y, s.k[0]);
-    const double block = duration / BLOCKS;
-    for (int b = 0; b < BLOCKS; ++b) {
-        double growth = 0.0;
-        for (int piece = 0; piece < PIECES; ++piece) {
-            tangent_rhs(&s.context, s.omega, s.y, s.k[0]);
-            const fst_status status = integrate(&s, block / PIECES, rtol, atol, &h, rhs_calls, error);
-            if (status != FST_OK)
-                return status;
-            growth += log(project(s.y, s.k[0]));
-        }
-        if (b >= ALIGNING) {
-            sum += growth / block;
-            sum2 += (growth / block) * (growth / block);
-        }
+    double y[FST_TANGENT_DIM], atol[FST_TANGENT_DIM];
+    const double rtol = asked->rtol > 1e-9 ? asked->rtol : 1e-9;
+    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+        y[i] = asked->state[i];
+        y[FST_STATE_SIZE + i] = 1.0 / (1.0 + i); /* any direction will do; this one is nothing special */
+        atol[i] = rtol;
+        atol[FST_STATE_SIZE + i] = 1e-6;
     }
+    c->engine->load(c->memory, l, asked->coefficients, y, rtol, atol);
+    if (l >= c->count)
+        return;
+    asked->rhs_calls = 0;
+    asked->failed = 0;
+    c->followers[l] = (follower){.asked = asked, .h = 0.1, .piece = asked->duration / BLOCKS / PIECES};
+}
+
+static void plan(follower *f)
+{
+    f->lands = f->h * 1.01 >= f->piece - f->t;
+    f->attempt = f->over ? 0.0 : f->lands ? f->piece - f->t : f->h;
+}
+
+/* What became of a try; 1 if it is accepted. */
+static int judge(follower *f, double error, double factor)
+{
+    f->asked->rhs_calls += 12;
+    if (!(error <= 1.0)) {
+        f->h = f->attempt * (isfinite(error) ? factor : 0.1);
+        f->over = f->asked->failed = !(f->h > 1e-12);
+        return 0;
+    }
+    f->t = f->lands ? f->piece : f->t + f->attempt;
+    const double proposal = f->attempt * factor;
+    f->h = f->lands && proposal < f->h ? f->h : proposal;
+    return 1;
+}
+
+/* The end of a piece, over which the vector has grown to `length`. */
+static void end_piece(follower *f, double length)
+{
+    f->growth += log(length);
+    f->t = 0.0;
+    if (++f->pieces < PIECES)
+        return;
+    const double rate = f->growth / (f->asked->duration / BLOCKS);
+    if (f->blocks >= ALIGNING) {
+        f->sum += rate;
+        f->sum2 += rate * rate;
+    }
+    f->pieces = 0;
+    f->growth = 0.0;
+    if (++f->blocks < BLOCKS)
+        return;
     const int n = BLOCKS - ALIGNING;
-    *exponent = sum / n;
-    const double variance = (sum2 - sum * sum / n) / (n - 1);
-    *standard_error = variance > 0 ? sqrt(variance / n) : 0.0;
+    const double variance = (f->sum2 - f->sum * f->sum / n) / (n - 1);
+    f->asked->value = f->sum / n;
+    f->asked->standard_error = variance > 0 ? sqrt(variance / n) : 0.0;
+    f->over = 1;
+}
+
+/* One try in every lane; 0 if all are over. */
+static int step(crew *c)
+{
+    double h[FST_MOST_LANES] = {0}, errors[FST_MOST_LANES], factors[FST_MOST_LANES];
+    unsigned accepted = 0;
+    int at_work = 0, projected = 0;
+    for (int l = 0; l < c->count; ++l) {
+        plan(&c->followers[l]);
+        h[l] = c->followers[l].attempt;
+    }
+    c->engine->try_steps(c->memory, h, errors, factors);
+    for (int l = 0; l < c->count; ++l)
+        if (!c->followers[l].over && judge(&c->followers[l], errors[l], factors[l]))
+            accepted |= 1u << l;
+    c->engine->accept(c->memory, accepted);
+    for (int l = 0; l < c->count; ++l) {
+        follower *f = &c->followers[l];
+        if (accepted & 1u << l && f->lands) {
+            end_piece(f, project_lane(c, l));
+            projected = 1;
+        }
+        at_work |= !f->over;
+    }
+    if (projected)
+        c->engine->evaluate(c->memory);
+    return at_work;
+}
+
+fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
+                                 fst_error *error)
+{
+    crew c = {.engine = engine, .count = count};
+    const size_t bytes = (engine->bytes + 63) / 64 * 64;
+    c.memory = aligned_alloc(64, bytes);
+    if (!c.memory)
+        return fst_fail(error, FST_NO_MEMORY, "Lyapunov exponent", "out of memory");
+    memset(c.memory, 0, bytes);
+    engine->view(c.memory, &c.y, &c.slope);
+    for (int l = 0; l < engine->width; ++l)
+        begin(&c, l, asked[l < count ? l : 0]);
+    engine->evaluate(c.memory);
+    for (int l = 0; l < count; ++l)
+        (void)project_lane(&c, l);
+    engine->evaluate(c.memory);
+    while (step(&c))
+        ;
+    free(c.memory);
     return FST_OK;
 }

@@ -13,12 +13,10 @@
 #include "base/error.h"
 #include "base/number.h"
 
-typedef enum { SPACING_LINEAR, SPACING_LOG, SPACING_LIST, SPACING_RANDOM } spacing;
-
 typedef struct axis {
     const fst_param_info *info;
     int param;
-    spacing spaced;
+    fst_spacing spaced;
     double least, greatest;
     int64_t count;
     double *list;   /* of a list: its values in SI, or the indices of choices */
@@ -54,8 +52,11 @@ static fst_status read_value(const fst_params *base, const axis *a, const char *
 {
     fst_params trial = *base;
     const fst_status status = fst_params_set(&trial, a->info->key, text, error);
-    if (status != FST_OK)
+    if (status != FST_OK) {
+        if (error)
+            (void)snprintf(error->where, sizeof error->where, "--over");
         return status;
+    }
     if (a->info->kind == FST_KIND_REAL) {
         memcpy(value, (const char *)&trial + a->info->offset, sizeof *value);
     } else {
@@ -98,7 +99,7 @@ static int split(const char *text, char separator, char parts[][PART_SIZE], int 
 
 static fst_status read_list(const fst_params *base, axis *a, const char *text, fst_error *error)
 {
-    a->spaced = SPACING_LIST;
+    a->spaced = FST_SPACING_LIST;
     a->count = 1;
     for (const char *c = text; *c; ++c)
         a->count += *c == ',';
@@ -125,12 +126,12 @@ static fst_status check_range(const axis *a, fst_error *error)
     if (a->info->kind == FST_KIND_CHOICE)
         return fst_fail(error, FST_BAD_INPUT, "--over", "%s is a choice: list its values, as in %s=A,B",
                         a->info->key, a->info->key);
-    if (a->spaced == SPACING_LOG && !(a->least > 0 && a->greatest > 0))
+    if (a->spaced == FST_SPACING_LOG && !(a->least > 0 && a->greatest > 0))
         return fst_fail(error, FST_BAD_INPUT, "--over", "a logarithmic axis needs positive ends: \"%.100s\"",
                         a->text);
     if (a->info->kind == FST_KIND_INT && a->count > 1) {
         const double step = (a->greatest - a->least) / (double)(a->count - 1);
-        if (a->spaced != SPACING_LINEAR || step != floor(step))
+        if (a->spaced != FST_SPACING_LINEAR || step != floor(step))
             return fst_fail(error, FST_BAD_INPUT, "--over",
                             "%s is an integer, and \"%.100s\" has values between the integers: list the values",
                             a->info->key, a->text);
@@ -150,9 +151,9 @@ static fst_status read_spaced(const fst_params *base, axis *a, const char *text,
         word = parts[2];
     }
     if (strcmp(word, "log") == 0)
-        a->spaced = SPACING_LOG;
+        a->spaced = FST_SPACING_LOG;
     else if (strcmp(word, "random") == 0)
-        a->spaced = SPACING_RANDOM;
+        a->spaced = FST_SPACING_RANDOM;
     else if (word[0] && strcmp(word, "linear") != 0)
         return fst_fail(error, FST_BAD_INPUT, "--over",
                         "unknown spacing \"%.40s\" in \"%.100s\": linear, log or random", word, a->text);
@@ -178,7 +179,10 @@ static fst_status read_axis(fst_grid *grid, const char *text, fst_error *error)
     a->param = fst_param_find(key);
     if (a->param < 0) {
         fst_params trial = grid->base;
-        return fst_params_set(&trial, key, "0", error); /* its sentence names the nearest key */
+        (void)fst_params_set(&trial, key, "0", error); /* its sentence names the nearest key */
+        if (error)
+            (void)snprintf(error->where, sizeof error->where, "--over");
+        return FST_BAD_INPUT;
     }
     a->info = fst_param_at(a->param);
     for (int i = 0; i + 1 < grid->axis_count; ++i) {
@@ -192,6 +196,32 @@ static fst_status read_axis(fst_grid *grid, const char *text, fst_error *error)
                                : read_list(&grid->base, a, values, error);
 }
 
+static const axis *axis_over(const fst_grid *grid, const char *key)
+{
+    for (int i = 0; i < grid->axis_count; ++i)
+        if (strcmp(grid->axes[i].info->key, key) == 0)
+            return &grid->axes[i];
+    return NULL;
+}
+
+/* Axes along which all rows would be alike are mistakes. */
+static fst_status check_effects(const fst_grid *grid, fst_error *error)
+{
+    const fst_material material = (fst_material)grid->base.bead_material;
+    const char *wanted = axis_over(grid, "bead.material")                              ? NULL
+                         : axis_over(grid, "bead.b") && material != FST_MATERIAL_MIXED ? "bead.b"
+                         : axis_over(grid, "bead.a") && material == FST_MATERIAL_HARD  ? "bead.a"
+                                                                                       : NULL;
+    if (axis_over(grid, "run.samples"))
+        return fst_fail(error, FST_BAD_INPUT, "--over",
+                        "run.samples concerns written trajectories only and changes nothing in a row");
+    if (wanted)
+        return fst_fail(error, FST_BAD_INPUT, "--over",
+                        "%s has no effect on a bead of this bead.material: choose %smixed", wanted,
+                        strcmp(wanted, "bead.a") == 0 ? "paramagnetic or " : "");
+    return FST_OK;
+}
+
 /* ------------------------------------------------------------------ the grid */
 
 /* Strides of the axes, the last one fastest; random axes share the stride of the last of them. */
@@ -201,7 +231,7 @@ static fst_status lay_out(fst_grid *grid, fst_error *error)
     grid->points = 1;
     for (int i = grid->axis_count - 1; i >= 0; --i) {
         axis *a = &grid->axes[i];
-        if (a->spaced == SPACING_RANDOM && drawn) {
+        if (a->spaced == FST_SPACING_RANDOM && drawn) {
             if (a->count != drawn->count)
                 return fst_fail(
                     error, FST_BAD_INPUT, "--over",
@@ -210,7 +240,7 @@ static fst_status lay_out(fst_grid *grid, fst_error *error)
             a->stride = drawn->stride;
             continue;
         }
-        if (a->spaced == SPACING_RANDOM)
+        if (a->spaced == FST_SPACING_RANDOM)
             drawn = a;
         a->stride = grid->points;
         if (a->count > MOST_POINTS / grid->points)
@@ -238,6 +268,8 @@ fst_status fst_grid_new(const fst_params *base, const char *const *axes, int cou
     fst_status status = FST_OK;
     for (int i = 0; i < count && status == FST_OK; ++i)
         status = read_axis(made, axes[i], error);
+    if (status == FST_OK)
+        status = check_effects(made, error);
     if (status == FST_OK)
         status = lay_out(made, error);
     if (status != FST_OK) {
@@ -289,6 +321,11 @@ int64_t fst_grid_axis_stride(const fst_grid *grid, int index)
     return grid->axes[index].stride;
 }
 
+fst_spacing fst_grid_axis_spacing(const fst_grid *grid, int index)
+{
+    return grid->axes[index].spaced;
+}
+
 const fst_params *fst_grid_base(const fst_grid *grid)
 {
     return &grid->base;
@@ -319,15 +356,15 @@ double fst_grid_value(const fst_grid *grid, int axis_index, int64_t point)
 {
     const axis *a = &grid->axes[axis_index];
     const int64_t index = point / a->stride % a->count;
-    if (a->spaced == SPACING_LIST)
+    if (a->spaced == FST_SPACING_LIST)
         return a->list[index];
-    if (a->spaced == SPACING_RANDOM)
+    if (a->spaced == FST_SPACING_RANDOM)
         return a->least + (a->greatest - a->least) * uniform(grid->seed, axis_index, index);
     if (index == 0)
         return a->least;
     if (index == a->count - 1)
         return a->greatest;
-    if (a->spaced == SPACING_LOG)
+    if (a->spaced == FST_SPACING_LOG)
         return logarithmic(a, index);
     return a->least + (a->greatest - a->least) * ((double)index / (double)(a->count - 1));
 }

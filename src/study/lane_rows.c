@@ -31,14 +31,19 @@ typedef struct crew {
     lane lanes[FST_MOST_LANES];
     double observe_from[FST_MOST_LANES]; /* steps that end later are taken into the integrals */
     unsigned observed, in_window;        /* lanes whose steps are, and those in their window */
+    unsigned tracked;                    /* those in which extremes are looked for */
     void *slots;                         /* the fast form: steps that were set aside, */
     struct {
         int lane, record;
     } set_aside[FST_MOST_LANES]; /* and for what */
     int aside;
     int occupied;
-    fst_row_job waiting; /* a job whose model shares no batch with those at work */
-    int has_waiting, no_more;
+    lane parked[2 * FST_MOST_LANES]; /* runs to their ends whose exponents are wanted: less than a batch, and */
+    int parked_count;                /* those of one step, in which all lanes may end */
+    fst_row_job waiting[3 * FST_MOST_LANES]; /* jobs for lanes to come: as many as were in lanes or parked */
+    int waiting_count;
+    int misfit; /* one of them shares no batch with those at work */
+    int no_more;
 } crew;
 
 static unsigned bit(int l)
@@ -48,18 +53,23 @@ static unsigned bit(int l)
 
 /* ------------------------------------------------------------------ beginning and ending */
 
-static void forget(crew *c, int l)
+static void free_run(lane *at)
 {
-    lane *at = &c->lanes[l];
     if (!at->run)
         return;
     fst_flow_free(at->run->flow);
     fst_model_free(at->run->model);
     free(at->run);
     at->run = NULL;
+}
+
+/* The run of a lane is no longer there. */
+static void vacate(crew *c, int l)
+{
     c->engine->release(c->batch, l);
     c->observed &= ~bit(l);
     c->in_window &= ~bit(l);
+    c->tracked &= ~bit(l);
     c->occupied -= 1;
 }
 
@@ -105,6 +115,8 @@ static beginning begin(crew *c, int l, fst_status *status, fst_error *error)
     }
     at->run = run;
     run->extremes_elsewhere = c->engine->fused;
+    run->exponent_elsewhere = 1;
+    run->sparse_marks = 1;
     c->occupied += 1;
     c->engine->load(c->batch, l, run->flow, run->t_end);
     c->view.next_mark[l] = next_mark(run);
@@ -113,19 +125,18 @@ static beginning begin(crew *c, int l, fst_status *status, fst_error *error)
     return BEGUN;
 }
 
-/* Hand over the result of a lane's job; 1 if another one follows in its place. */
-static int hand_over(crew *c, int l, fst_status status, const fst_run_result *result, const fst_error *error)
+/* Hand over the result of a job; 1 if another one follows in its place. */
+static int hand_over(crew *c, lane *at, fst_status status, const fst_run_result *result, const fst_error *error)
 {
-    return c->work->done(c->work->user, &c->lanes[l].job, status, result, error);
+    return c->work->done(c->work->user, &at->job, status, result, error);
 }
 
 static void occupy(crew *c, int l, int has_job)
 {
     lane *at = &c->lanes[l];
     for (;;) {
-        if (!has_job && c->has_waiting) {
-            at->job = c->waiting;
-            c->has_waiting = 0;
+        if (!has_job && c->waiting_count > 0) {
+            at->job = c->waiting[--c->waiting_count];
         } else if (!has_job && (c->no_more || !c->work->next(c->work->user, &at->job))) {
             c->no_more = 1;
             return;
@@ -136,23 +147,24 @@ static void occupy(crew *c, int l, int has_job)
         case BEGUN:
             return;
         case REFUSED:
-            c->waiting = at->job;
-            c->has_waiting = 1;
+            c->waiting[c->waiting_count++] = at->job;
+            c->misfit = 1;
             return;
         case FAILED:
             break;
         }
         fst_run_result nothing;
         fst_result_clear(&nothing);
-        has_job = hand_over(c, l, status, &nothing, &error);
+        has_job = hand_over(c, at, status, &nothing, &error);
     }
 }
 
-/* Idle lanes take new jobs, but for those that wait for the batch to empty. */
+/* Idle lanes take new jobs; where one fits not in, not before the batch is empty. */
 static void occupy_idle(crew *c)
 {
+    c->misfit &= c->occupied > 0;
     for (int l = 0; l < c->engine->width; ++l)
-        if (!c->lanes[l].run && (!c->has_waiting || c->occupied == 0))
+        if (!c->lanes[l].run && !c->misfit)
             occupy(c, l, 0);
 }
 
@@ -172,19 +184,59 @@ static void locate(crew *c)
     c->aside = 0;
 }
 
+/* Put the run of a lane where those are whose exponents are wanted. */
+static void park(crew *c, int l)
+{
+    lane *to = &c->parked[c->parked_count++], *from = &c->lanes[l];
+    *to = *from;
+    from->run = NULL;
+    to->run->params = &to->job.params;
+    to->run->options = &to->options;
+    vacate(c, l);
+}
+
 /* The run of a lane is over; `status` other than FST_OK: it failed. */
 static void finish(crew *c, int l, fst_status status, fst_error *error)
 {
-    fst_run_state *run = c->lanes[l].run;
+    lane *at = &c->lanes[l];
     fst_run_result result;
     fst_result_clear(&result);
     if (c->aside > 0)
         locate(c);
     if (status == FST_OK)
-        status = fst_run_conclude(run, &result, error);
-    forget(c, l);
-    if (hand_over(c, l, status, &result, error))
+        status = fst_run_conclude(at->run, &result, error);
+    if (status == FST_OK && at->run->exponent_is == FST_EXPONENT_WANTED) {
+        park(c, l);
+        return;
+    }
+    free_run(at);
+    vacate(c, l);
+    if (hand_over(c, at, status, &result, error))
         occupy(c, l, 1);
+}
+
+/* The exponents of runs that are parked, side by side too: the last ones, as many as there are lanes. */
+static fst_status conclude_parked(crew *c, fst_error *error)
+{
+    fst_exponent *asked[FST_MOST_LANES] = {NULL};
+    const int count = c->parked_count < c->engine->width ? c->parked_count : c->engine->width;
+    lane *last = c->parked + (c->parked_count - count);
+    for (int i = 0; i < count; ++i)
+        asked[i] = &last[i].run->exponent;
+    const fst_status status = fst_largest_exponents(&c->engine->tangents, asked, count, error);
+    for (int i = 0; status == FST_OK && i < count; ++i) {
+        lane *at = &last[i];
+        fst_run_result result;
+        fst_error own = {FST_OK, "", ""};
+        fst_result_clear(&result);
+        at->run->exponent_is = FST_EXPONENT_KNOWN;
+        const fst_status concluded = fst_run_conclude(at->run, &result, &own);
+        free_run(at);
+        if (hand_over(c, at, concluded, &result, &own))
+            c->waiting[c->waiting_count++] = at->job;
+    }
+    c->parked_count -= status == FST_OK ? count : 0;
+    return status;
 }
 
 /* ------------------------------------------------------------------ steps */
@@ -220,21 +272,20 @@ static void keep_records(crew *c, int l, const fst_quadrature *q)
 }
 
 /* Whether the orbit repeats itself so closely that later returns can raise no record by what counts (1e-6 after
- * hundreds of returns): the fast form then looks for extremes no more. */
+ * hundreds of returns, or what the integration's errors make of them at loose tolerances): the fast form then
+ * looks for extremes no more. */
 static int repeats(const fst_run_state *run)
 {
-    return run->section_marks.offered >= 3 && run->section_marks.latest.full_distance < 1e-9;
+    const fst_mark_series *marks = &run->section_marks;
+    return marks->offered >= 3 && marks->latest.full_distance < fmax(1e-9, 10.0 * run->params->run_rtol);
 }
 
 /* The fast form: set the steps aside in which a record may be beaten. */
-static void set_aside(crew *c, unsigned lanes, const unsigned *beaten)
+static void set_aside(crew *c, const unsigned *beaten)
 {
-    for (int l = 0; l < c->engine->width; ++l)
-        if (lanes & bit(l) && repeats(c->lanes[l].run))
-            lanes &= ~bit(l);
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
-        for (int l = 0; (beaten[i] & lanes) != 0 && l < c->engine->width; ++l)
-            if (beaten[i] & lanes & bit(l)) {
+        for (int l = 0; (beaten[i] & c->tracked) != 0 && l < c->engine->width; ++l)
+            if (beaten[i] & c->tracked & bit(l)) {
                 c->engine->set_aside(c->batch, l, i, c->slots, c->aside);
                 c->set_aside[c->aside].lane = l;
                 c->set_aside[c->aside].record = i;
@@ -278,14 +329,12 @@ static void watch_phi(crew *c, int l)
     keep_phi_range(c, l);
 }
 
-/* Look closely at a lane's accepted step; 1 if its run is over. */
-static int watch(crew *c, int l)
+/* A lane's step as the run's own flow has it, and Phi and phi at its end. */
+static void extract_step(crew *c, int l, int observed)
 {
     fst_run_state *run = c->lanes[l].run;
     fst_flow *flow = run->flow;
-    const int observed = (c->observed & bit(l)) != 0;
     c->engine->extract(c->batch, l, &flow->step);
-    c->engine->extract_clock(c->batch, l, flow);
     const double *y = flow->step.y;
     flow->phi_start = (fst_winding){(int64_t)c->view.turns_before[0][l], y[FST_X], y[FST_Y]};
     flow->phi = flow->phi_start;
@@ -295,18 +344,76 @@ static int watch(crew *c, int l)
         run->q.small_phi.turns = (int64_t)c->view.turns_before[1][l];
         fst_quadrature_follow(&run->q, flow, flow->step.end);
     }
-    extract_quadrature(c, l, &run->q);
+}
+
+/* Whether a step that is looked at is wanted with its integrals. */
+static int needs_integrals(const crew *c, int l, int at_mark)
+{
+    const fst_run_state *run = c->lanes[l].run;
+    return !c->engine->fused || fst_returns_need_integrals(run) ||
+           (at_mark && fst_run_period_needs_integrals(run));
+}
+
+/* Look closely at a lane's accepted step; 1 if its run is over. */
+static int watch(crew *c, int l, fst_lane_events events)
+{
+    fst_run_state *run = c->lanes[l].run;
+    fst_flow *flow = run->flow;
+    c->engine->extract_clock(c->batch, l, flow);
+    extract_step(c, l, (c->observed & bit(l)) != 0);
+    if (events.ending & bit(l)) {
+        c->engine->extract_stages(c->batch, l, &flow->step);
+        if (fst_run_watch_end(run))
+            return 1;
+    }
+    if (needs_integrals(c, l, (events.at_mark & bit(l)) != 0))
+        extract_quadrature(c, l, &run->q);
+    if (!run->in_window) /* crossings before it were not looked at */
+        fst_returns_begin(run);
     run->activity = c->view.activity[l];
-    const int over = fst_run_watch_step(run);
+    fst_run_watch_step(run);
     c->view.activity[l] = run->activity;
     c->view.turns[0][l] = (double)flow->phi.turns;
     c->view.turns[1][l] = (double)run->q.small_phi.turns;
     c->view.next_mark[l] = next_mark(run);
     c->in_window |= run->in_window ? bit(l) : 0;
+    c->tracked &= ~bit(l);
+    if (run->in_window && !(c->engine->fused && repeats(run)))
+        c->tracked |= bit(l);
     if (!c->engine->fused)
         keep_records(c, l, &run->q);
     keep_phi_range(c, l);
-    return over || flow->t.high >= run->t_end;
+    return flow->t.high >= run->t_end;
+}
+
+/* A step that ends a period whose mark is not needed, and holds nothing else. */
+static void pass_mark(crew *c, int l)
+{
+    fst_run_state *run = c->lanes[l].run;
+    run->activity = c->view.activity[l];
+    fst_run_mark_periods(run);
+    c->view.activity[l] = c->view.speed[l] > run->activity ? c->view.speed[l] : run->activity;
+    c->view.next_mark[l] = next_mark(run);
+}
+
+/* Look at the accepted steps that may hold something; the lanes whose runs are over. */
+static unsigned look_at_steps(crew *c, fst_lane_events events)
+{
+    unsigned over = 0;
+    for (int l = 0; l < c->engine->width; ++l) {
+        int close = (events.close & bit(l)) != 0;
+        if (!close && events.at_mark & bit(l)) {
+            c->engine->extract_clock(c->batch, l, c->lanes[l].run->flow);
+            close = fst_run_period_needs_integrals(c->lanes[l].run);
+            if (!close)
+                pass_mark(c, l);
+        }
+        if (close)
+            over |= watch(c, l, events) ? bit(l) : 0;
+        else if (events.wandering & c->in_window & bit(l))
+            watch_phi(c, l);
+    }
+    return over;
 }
 
 static void conclude(crew *c, int l)
@@ -324,26 +431,27 @@ static void give_up(crew *c, int l)
     finish(c, l, fst_flow_fail(flow, &error), &error);
 }
 
+/* In the fast form the first step that is observed is the one in which the window begins. */
+static unsigned tracked_soon(const crew *c)
+{
+    return c->engine->fused ? c->observed & ~c->in_window : 0;
+}
+
 static void step(crew *c)
 {
     const fst_lane_tries tries = c->engine->try_steps(c->batch);
     const unsigned accepted = tries.accepted;
     c->observed |= c->engine->past(c->batch, accepted & ~c->observed, c->observe_from);
     const unsigned observed = accepted & c->observed;
-    unsigned wandering, over = 0;
-    unsigned eventful = c->engine->watch(c->batch, accepted, observed, &wandering);
+    fst_lane_events events = c->engine->watch(c->batch, accepted, observed, c->in_window);
     unsigned beaten[FST_RECORD_COUNT] = {0};
     if (observed)
-        c->engine->observe(c->batch, observed, c->in_window, beaten);
+        c->engine->observe(c->batch, observed, c->in_window, c->tracked | tracked_soon(c), beaten);
     for (int i = 0; !c->engine->fused && i < FST_RECORD_COUNT; ++i)
-        eventful |= beaten[i] & c->in_window;
-    for (int l = 0; l < c->engine->width; ++l)
-        if (eventful & bit(l))
-            over |= watch(c, l) ? bit(l) : 0;
-        else if (wandering & c->in_window & bit(l))
-            watch_phi(c, l);
+        events.close |= beaten[i];
+    const unsigned over = look_at_steps(c, events);
     if (c->engine->fused)
-        set_aside(c, observed & c->in_window, beaten);
+        set_aside(c, beaten);
     c->engine->advance(c->batch, accepted & ~over);
     for (int l = 0; (over | tries.failed) != 0 && l < c->engine->width; ++l) {
         if (over & bit(l))
@@ -377,11 +485,18 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine
     for (unsigned steps = 1; status == FST_OK && c->occupied > 0; ++steps) {
         step(c);
         occupy_idle(c);
-        if (steps % 64 == 0 && work->stopped(work->user))
+        while (status == FST_OK &&
+               (c->parked_count >= engine->width || (c->occupied == 0 && c->parked_count > 0))) {
+            status = conclude_parked(c, error);
+            occupy_idle(c);
+        }
+        if (status == FST_OK && steps % 64 == 0 && work->stopped(work->user))
             status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
     }
     for (int l = 0; c && l < engine->width; ++l)
-        forget(c, l);
+        free_run(&c->lanes[l]);
+    for (int i = 0; c && i < c->parked_count; ++i)
+        free_run(&c->parked[i]);
     free(slots);
     free(batch);
     free(c);

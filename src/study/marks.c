@@ -25,7 +25,15 @@ void fst_marks_offer(fst_mark_series *series, const fst_mark *mark)
     series->stride *= 2;
 }
 
-void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x)
+int64_t fst_marks_stride(int64_t total)
+{
+    int64_t stride = 1;
+    while ((total - 1) / stride + 1 > FST_MARKS)
+        stride *= 2;
+    return stride;
+}
+
+void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, int whole)
 {
     memset(mark, 0, sizeof *mark);
     mark->t = fst_flow_time(flow, x);
@@ -33,6 +41,8 @@ void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x)
         memcpy(mark->state, flow->step.end, sizeof mark->state);
     else
         fst_flow_at(flow, x, mark->state);
+    if (!whole)
+        return;
     fst_quadrature_at(q, flow, x, mark->integrals, &mark->small_phi);
     const fst_winding phi = fst_flow_phi(flow, x);
     mark->big_phi = fst_winding_angle(&phi);

@@ -29,10 +29,13 @@ typedef struct fst_mark_series {
 
 void fst_marks_begin(fst_mark_series *series);
 
+/* When `total` marks have been offered, those are kept whose index is a multiple of this. */
+int64_t fst_marks_stride(int64_t total);
+
 /* Offer the next mark of an evenly spaced series. */
 void fst_marks_offer(fst_mark_series *series, const fst_mark *mark);
 
-/* Snapshot at the fraction x of the flow's last step. */
-void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x);
+/* Snapshot at the fraction x of the flow's last step; `whole`: else without integrals, angles and energy. */
+void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, int whole);
 
 #endif

@@ -26,7 +26,7 @@ fst_status fst_ramp_step(fst_run_state *run, fst_error *error)
         if (x > 1.0 + 1e-12)
             return FST_OK;
         fst_mark end;
-        fst_mark_take(&end, &run->q, run->flow, x > 1.0 - 1e-12 ? 1.0 : x);
+        fst_mark_take(&end, &run->q, run->flow, x > 1.0 - 1e-12 ? 1.0 : x, 1);
         const fst_status status = end_piece(run, &end, error);
         if (status != FST_OK)
             return status;

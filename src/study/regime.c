@@ -2,6 +2,9 @@
 #include "study/regime.h"
 
 #include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
 
 #define TWO_PI 6.283185307179586476925287
 
@@ -40,18 +43,42 @@ const fst_mark_series *fst_window_of(const fst_run_state *run)
 
 #define REASON(...) (void)snprintf(result->reason, sizeof result->reason, __VA_ARGS__)
 
+/* The exponent over the window, unless it is known or left to someone else. */
+static fst_status find_exponent(fst_run_state *run, fst_error *error)
+{
+    fst_exponent *asked = &run->exponent;
+    if (run->exponent_is == FST_EXPONENT_UNASKED) {
+        memset(asked, 0, sizeof *asked);
+        asked->coefficients = &run->flow->step.context.coefficients;
+        memcpy(asked->state, run->window_start, sizeof asked->state);
+        asked->duration = fst_twofold_difference(run->flow->t, run->period_marks.kept[0].t);
+        asked->rtol = run->params->run_rtol;
+        run->exponent_is = FST_EXPONENT_WANTED;
+        if (!run->exponent_elsewhere) {
+            const fst_status status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, error);
+            if (status != FST_OK)
+                return status;
+            run->exponent_is = FST_EXPONENT_KNOWN;
+        }
+    }
+    if (asked->failed)
+        return fst_fail(error, FST_STEP_UNDERFLOW, "Lyapunov exponent",
+                        "the step size underflowed while the Lyapunov exponent was computed; try a larger "
+                        "run.rtol");
+    return FST_OK;
+}
+
 /* Chaotic if the exponent across the flow is positive beyond its error; *positive tells. */
 static fst_status test_chaos(fst_run_state *run, fst_run_result *result, int *positive, fst_error *error)
 {
-    const double duration = fst_twofold_difference(run->flow->t, run->period_marks.kept[0].t);
-    double exponent, standard_error;
-    const fst_status status = fst_largest_exponent(run, run->window_start, duration, &exponent, &standard_error,
-                                                   &result->rhs_calls, error);
+    const fst_status status = find_exponent(run, error);
     if (status != FST_OK)
         return status;
+    const double exponent = run->exponent.value, standard_error = run->exponent.standard_error;
+    result->rhs_calls += run->exponent.rhs_calls;
     result->largest_exponent = exponent;
     result->largest_exponent_error = standard_error;
-    *positive = exponent > SIGNIFICANT * standard_error && exponent * duration > GROWTH;
+    *positive = exponent > SIGNIFICANT * standard_error && exponent * run->exponent.duration > GROWTH;
     if (*positive) {
         result->regime = FST_REGIME_CHAOTIC;
         REASON("the largest Lyapunov exponent is positive: %.4g +- %.2g", exponent, standard_error);

@@ -32,6 +32,28 @@ static void judge_alternation(fst_returns *r, int half, int direction)
     r->since_break += 1;
 }
 
+void fst_returns_begin(fst_run_state *run)
+{
+    const int side = sign_of(run->flow->step.y[FST_X]);
+    run->returns.side = side ? side : run->returns.side;
+}
+
+/* Whether a return that ends by the end of the flow's last step is needed whole: it may be kept, or be the last
+ * of a regular turning (turns_regularly() asks for no more than two returns' time after it). */
+static int is_needed(const fst_run_state *run)
+{
+    const fst_mark_series *marks = &run->section_marks;
+    if (!run->sparse_marks || marks->offered % marks->stride == 0)
+        return 1;
+    const double turning = fst_twofold_difference(run->flow->t, marks->kept[0].t);
+    return (run->t_end - run->flow->t.high) * (double)marks->offered <= 2.01 * turning;
+}
+
+int fst_returns_need_integrals(const fst_run_state *run)
+{
+    return run->returns.crossings % 2 == 0 && is_needed(run);
+}
+
 void fst_returns_step(fst_run_state *run)
 {
     fst_returns *r = &run->returns;
@@ -51,7 +73,8 @@ void fst_returns_step(fst_run_state *run)
     if (fst_twofold_difference(fst_flow_time(run->flow, x), discard) < 0)
         return;
     fst_mark mark;
-    fst_mark_take(&mark, &run->q, run->flow, x);
+    const int whole = !run->sparse_marks || fst_returns_need_integrals(run);
+    fst_mark_take(&mark, &run->q, run->flow, x, whole);
     const int half = sign_of(mark.state[FST_Y]);
     judge_alternation(r, half, half > 0 ? -side : side);
     double image[FST_STATE_SIZE];

@@ -1,6 +1,7 @@
 /* run.c - fst_run(): simulate, watch, and describe. */
 #include "study/run_state.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,17 +99,33 @@ static fst_status push_samples(fst_run_state *run, double until, fst_error *erro
 
 /* ------------------------------------------------------------------ the steps */
 
-/* Whole drive periods after the discard: marks, and the beginning of the window. */
-static void mark_periods(fst_run_state *run)
+/* Whether the mark of a whole period is needed whole: it will be kept, or is the last. */
+static int is_period_needed(const fst_run_state *run, int64_t period)
 {
-    for (;;) {
-        const double t_high = run->t_discard + (double)run->next_period * run->drive_period;
-        const fst_twofold t = {t_high > run->t_end * (1 - 1e-15) ? run->t_end : t_high, 0.0};
-        const double x = fst_flow_fraction(run->flow, t);
-        if (x > 1.0 + 1e-12 || t_high > run->t_end * (1.0 + 1e-12))
-            return;
+    if (!run->sparse_marks)
+        return 1;
+    const double last = floor((run->t_end * (1.0 + 1e-12) - run->t_discard) / run->drive_period);
+    return period >= (int64_t)last || period % fst_marks_stride((int64_t)last + 1) == 0;
+}
+
+/* Whether a whole period, counted from the discard, ends by the end of the last step; its fraction *x there. */
+static int period_ends(const fst_run_state *run, int64_t period, double *x)
+{
+    const double t_high = run->t_discard + (double)period * run->drive_period;
+    const fst_twofold t = {t_high > run->t_end * (1 - 1e-15) ? run->t_end : t_high, 0.0};
+    *x = fst_flow_fraction(run->flow, t);
+    return *x <= 1.0 + 1e-12 && t_high <= run->t_end * (1.0 + 1e-12);
+}
+
+void fst_run_mark_periods(fst_run_state *run)
+{
+    double x;
+    while (period_ends(run, run->next_period, &x)) {
         fst_mark mark;
-        fst_mark_take(&mark, &run->q, run->flow, x < 0 ? 0.0 : x > 1.0 - 1e-12 ? 1.0 : x);
+        if (is_period_needed(run, run->next_period))
+            fst_mark_take(&mark, &run->q, run->flow, x < 0 ? 0.0 : x > 1.0 - 1e-12 ? 1.0 : x, 1);
+        else
+            memset(&mark, 0, sizeof mark);
         mark.activity = run->activity;
         run->activity = 0.0;
         if (run->next_period == 0) {
@@ -121,8 +138,16 @@ static void mark_periods(fst_run_state *run)
     }
 }
 
-/* Whether the bead has left the plate in the last step, sideways or upwards. */
-static void watch_end(fst_run_state *run)
+int fst_run_period_needs_integrals(const fst_run_state *run)
+{
+    double x;
+    int needed = 0;
+    for (int64_t period = run->next_period; !needed && period_ends(run, period, &x); ++period)
+        needed = is_period_needed(run, period);
+    return needed;
+}
+
+int fst_run_watch_end(fst_run_state *run)
 {
     double x;
     run->end_fraction = 2.0;
@@ -136,6 +161,7 @@ static void watch_end(fst_run_state *run)
         run->end_regime = FST_REGIME_LIFTED;
         run->end_fraction = x;
     }
+    return run->ended;
 }
 
 /* Phi's range, which decides whether it is bounded: beyond a whole turn it no longer matters by how much. */
@@ -155,12 +181,9 @@ void fst_run_watch_quietly(fst_run_state *run, double activity)
         watch_phi(run);
 }
 
-int fst_run_watch_step(fst_run_state *run)
+void fst_run_watch_step(fst_run_state *run)
 {
-    watch_end(run);
-    if (run->ended)
-        return 1;
-    mark_periods(run);
+    fst_run_mark_periods(run);
     fst_returns_step(run);
     const double *k = run->flow->step.k[12];
     double activity = 0.0;
@@ -169,7 +192,6 @@ int fst_run_watch_step(fst_run_state *run)
     if (run->in_window && !run->extremes_elsewhere)
         fst_quadrature_track(&run->q, run->flow);
     fst_run_watch_quietly(run, activity);
-    return 0;
 }
 
 static fst_status report_progress(fst_run_state *run, fst_error *error)
@@ -188,8 +210,9 @@ static fst_status one_step(fst_run_state *run, double t_limit, fst_error *error)
     if (!run->in_window)
         fst_quadrature_set_references(&run->q, run->flow);
     fst_quadrature_step(&run->q, run->flow);
-    if (fst_run_watch_step(run))
+    if (fst_run_watch_end(run))
         return push_samples(run, run->end_fraction, error);
+    fst_run_watch_step(run);
     status = push_samples(run, 1.0, error);
     if (status == FST_OK && run->is_ramp)
         status = fst_ramp_step(run, error);

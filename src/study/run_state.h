@@ -2,6 +2,7 @@
 #ifndef FST_STUDY_RUN_STATE_H
 #define FST_STUDY_RUN_STATE_H
 
+#include "study/exponent.h"
 #include "study/marks.h"
 
 /* Returns of the bead to the section X = 0 (Phi = pi/2 or -pi/2). */
@@ -32,7 +33,11 @@ typedef struct fst_run_state {
     double window_start[FST_STATE_SIZE]; /* state at the first period mark, for the exponent */
     int in_window;
     int extremes_elsewhere; /* someone else looks for them */
-    int ended;              /* an event ended the run: ejected or lifted */
+    int sparse_marks;       /* those that no conclusion needs are left out: the run is not interrupted */
+    int exponent_elsewhere; /* someone else computes it, and asks for the conclusion once more */
+    enum { FST_EXPONENT_UNASKED, FST_EXPONENT_WANTED, FST_EXPONENT_KNOWN } exponent_is;
+    fst_exponent exponent;
+    int ended; /* an event ended the run: ejected or lifted */
     fst_regime end_regime;
     double end_fraction; /* where in the last step */
     /* a ramp; its rate is 0 where both ends are the same */
@@ -46,17 +51,32 @@ typedef struct fst_run_state {
 /* Model, start state, flow and times of a run whose params and options are set. */
 fst_status fst_run_begin(fst_run_state *run, fst_error *error);
 
-/* Look at the flow's last step, whose integrals are taken in: has the bead left the plate (then 1), marks,
- * returns, extremes.  The quiet form is for a step of which it is known that it holds none of these; `activity`
- * is the greatest component of |d(state)/dt| at its end. */
-int fst_run_watch_step(fst_run_state *run);
+/* Look at the flow's last step, whose integrals are taken in: has the bead left the plate (then 1)? */
+int fst_run_watch_end(fst_run_state *run);
+
+/* If it has not: marks, returns, extremes.  The quiet form is for a step of which it is known that it holds
+ * none of these; `activity` is the greatest component of |d(state)/dt| at its end. */
+void fst_run_watch_step(fst_run_state *run);
 void fst_run_watch_quietly(fst_run_state *run, double activity);
+
+/* The whole drive periods that end in the flow's last step: marks, and the beginning of the window.  Where no
+ * integrals are needed, the flow's clock is all that is looked at. */
+void fst_run_mark_periods(fst_run_state *run);
+
+/* Whether the integrals are needed of a mark in the flow's last step: of a period that ends in it, of a return.
+ */
+int fst_run_period_needs_integrals(const fst_run_state *run);
+int fst_returns_need_integrals(const fst_run_state *run);
+
+/* The side of the section where the bead is, before a step of which more will be asked. */
+void fst_returns_begin(fst_run_state *run);
 
 /* Crossings of the section in the last step: marks and statistics of the returns. */
 void fst_returns_step(fst_run_state *run);
 
 /* Decide regime and symmetry and fill in the result from what the run carries; reads docs/regimes.md's
- * criteria. */
+ * criteria.  Where the exponent is computed elsewhere and is wanted (exponent_is), the result means nothing
+ * until it is known. */
 fst_status fst_run_conclude(fst_run_state *run, fst_run_result *result, fst_error *error);
 
 /* Means between the first and the latest mark of a series, and the extremes met. */
@@ -68,12 +88,6 @@ void fst_result_clear(fst_run_result *result);
 /* Means over [first, last]: what both the result and a ramp's pieces need. */
 void fst_means_between(const fst_run_state *run, const fst_mark *first, const fst_mark *last,
                        fst_ramp_point *means);
-
-/* Largest Lyapunov exponent across the flow over `duration` from `state`: mean over blocks and its standard
- * error. Tangent vectors along the flow and along |n| are projected out. */
-fst_status fst_largest_exponent(const fst_run_state *run, const double state[FST_STATE_SIZE], double duration,
-                                double *exponent, double *standard_error, uint64_t *rhs_calls,
-                                fst_error *error);
 
 /* A ramp's bookkeeping after each step, and the piece that ends with the run. */
 fst_status fst_ramp_step(fst_run_state *run, fst_error *error);

@@ -1,0 +1,21 @@
+/* tangents_scalar.c - one bead and its tangent vector */
+#include "ensemble/tangents.h"
+
+#include <string.h>
+
+#include "ode/flow.h"
+
+#include "model/jacobian.inl"
+#include "ode/tangent_step.inl"
+
+#define TANGENT_WIDTH 1
+
+static void load_coefficients(fst_coefficients_double *to, int lane, const fst_coefficients_double *from)
+{
+    (void)lane;
+    *to = *from;
+}
+
+#include "ensemble/tangents.inl"
+
+const fst_tangent_engine fst_tangents_scalar = TANGENT_ENGINE;

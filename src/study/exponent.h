@@ -1,0 +1,24 @@
+/* exponent.h - the largest Lyapunov exponent across the flow. */
+#ifndef FST_STUDY_EXPONENT_H
+#define FST_STUDY_EXPONENT_H
+
+#include <festoon/festoon.h>
+
+#include "ensemble/tangents.h"
+
+/* What is asked, and the answer. */
+typedef struct fst_exponent {
+    const fst_coefficients_double *coefficients;
+    double state[FST_STATE_SIZE]; /* where to begin */
+    double duration, rtol;
+    double value, standard_error; /* mean over blocks of the duration, and its standard error */
+    uint64_t rhs_calls;
+    int failed; /* the step size underflowed */
+} fst_exponent;
+
+/* The largest exponents of `count` beads, at most as many as the engine is wide.  Tangent vectors along the
+ * flow and along |n| are projected out.  FST_NO_MEMORY. */
+fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
+                                 fst_error *error);
+
+#endif

@@ -1,0 +1,133 @@
+"""The command branch under way and in trouble: progress, interruption, and what it says about bad input."""
+
+import json
+import os
+import pty
+import signal
+import subprocess
+import tempfile
+import unittest
+
+FESTOON = os.environ["FESTOON"]
+
+
+def branch(*words):
+    done = subprocess.run([FESTOON, "branch", *words], capture_output=True, text=True, timeout=300,
+                          stdin=subprocess.DEVNULL)
+    return done.returncode, done.stdout, done.stderr
+
+
+def interrupted(*words):
+    """Start a branch with a terminal as standard error, and interrupt it once its progress line says something."""
+    leader, follower = pty.openpty()
+    with subprocess.Popen([FESTOON, "branch", *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=follower) as child:
+        os.close(follower)
+        seen = b""
+        while b"s left" not in seen:
+            seen += os.read(leader, 1000)
+        child.send_signal(signal.SIGINT)
+        while True:
+            try:
+                more = os.read(leader, 1000)
+            except OSError:  # the other end is closed
+                break
+            if not more:
+                break
+            seen += more
+        out = child.stdout.read()
+        child.wait()
+    os.close(leader)
+    return child.returncode, out, seen.decode()
+
+
+class Interruption(unittest.TestCase):
+    def check(self, *words):
+        with tempfile.TemporaryDirectory() as directory:
+            path = os.path.join(directory, "branch.json")
+            status, out, said = interrupted(*words, "-o", path)
+            self.assertEqual((status, out), (130, b""), said)
+            self.assertRegex(said, r"\d\.\d %  \d+ s left")
+            self.assertIn("marked incomplete", said)
+            with open(path, encoding="utf-8") as text:
+                kept = json.load(text)
+            self.assertIs(kept["complete"], False)
+            self.assertEqual(os.listdir(directory), ["branch.json"])
+            return kept
+
+    def test_branch(self):
+        kept = self.check("--kind", "counter", "--over", "drive.omega=0.02:5", "--tolerance", "1e-14", "--step", "0.02")
+        self.assertGreater(len(kept["points"]), 0)
+
+    def test_follow(self):
+        self.check("--kind", "counter", "--over", "drive.omega=0.25:0.3", "--follow", "pitchfork",
+                   "--with", "model.kappa=0.8:3", "--tolerance", "1e-14", "--step", "0.01")
+
+    def test_nothing_is_kept_without_a_file(self):
+        status, out, said = interrupted("--kind", "all", "--over", "drive.omega=0.02:5", "--step", "0.05")
+        self.assertEqual((status, out), (130, b""))
+        self.assertIn("-o FILE.json would have kept", said)
+
+
+class BadInput(unittest.TestCase):
+    def refused(self, status, *words):
+        code, out, err = branch(*words)
+        self.assertEqual((code, out), (status, ""), err)
+        self.assertEqual(err.count("\n"), 1, err)
+        return err
+
+    def test_usage(self):
+        counter = ("--kind", "counter")
+        for words, part in (
+                (("--over", "drive.omega=0.2:0.3"), "tell which"),
+                (("--kind", "countr", "--over", "drive.omega=0.2:0.3"), "the nearest is counter"),
+                (counter, "tell over what"),
+                ((*counter, "--over", "drive.omega=0.2"), "must be KEY=LO:HI"),
+                ((*counter, "--over", "drive.omgea=0.2:0.3"), "the nearest is drive.omega"),
+                ((*counter, "--over", "model.dynamics=0:1"), "no parameter with real values"),
+                ((*counter, "--over", "drive.omega=0.3:0.2"), "must rise"),
+                ((*counter, "--over", "drive.omega=0.2:0.2"), "must rise"),
+                ((*counter, "--over", "drive.omega=a:b"), "--over: \"a\" is no decimal number"),
+                ((*counter, "--over", "drive.omega=0.2:inf"), "no decimal number"),
+                ((*counter, "--over", "drive.omega=0.2:0.3", "--tolerance", "1"), "out of range"),
+                ((*counter, "--over", "drive.omega=0.2:0.3", "--step", "0"), "longest_step"),
+                ((*counter, "--over", "drive.omega=0.2:0.3", "--follow", "fold"), "need both"),
+                ((*counter, "--over", "drive.omega=0.2:0.3", "--follow", "foldd", "--with", "model.kappa=1:2"),
+                 "the nearest is fold"),
+                ((*counter, "--over", "drive.omega=0.2:0.3", "--follow", "fold", "--with", "drive.omega=1:2"), "again"),
+                (("--kind", "locked", "--over", "model.kappa=-1:1"), "must be 0 to")):
+            self.assertIn(part, self.refused(2, *words), words)
+
+    def test_a_place_that_cannot_be_written_costs_no_work(self):
+        said = self.refused(1, "--kind", "all", "--over", "drive.omega=0.02:5", "-o", "/nonexistent/branch.json")
+        self.assertIn("cannot write here", said)
+
+    def test_where_no_such_orbit_is(self):
+        """What happened to the bead instead, and a whole sentence."""
+        locks = self.refused(1, "--kind", "counter", "--over", "drive.omega=0.04:0.06")
+        self.assertRegex(locks, r"the bead locks to the magnet at omega = [0-9.]+ \(after .* r = .*\. Try another range")
+        ejected = self.refused(1, "--kind", "counter", "--over", "drive.omega=5:6", "--set", "drive.omega=5",
+                               "--set", "start.r=3")
+        self.assertRegex(ejected, r"the bead flies away at omega = [0-9.]+ .*\. Try another range")
+        none = self.refused(1, "--kind", "counter", "--over", "drive.omega=0.28:0.3", "--follow", "fold",
+                            "--with", "model.kappa=1:2")
+        self.assertIn("no fold lies between", none)
+
+
+class Orbit(unittest.TestCase):
+    def test_where_newton_does_not_converge(self):
+        """Beyond the fold the bead spirals outward: returns come close to each other, and no orbit is there."""
+        done = subprocess.run([FESTOON, "orbit", "--set", "drive.omega=4"], capture_output=True, text=True, timeout=300,
+                              check=False)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertRegex(done.stderr, r"settled on no stable orbit .* last returns differ by [0-9.e-]+ .* was tried \d+")
+
+    def test_a_start_that_is_ejected(self):
+        done = subprocess.run([FESTOON, "orbit", "--set", "drive.omega=5", "--set", "start.r=3"], capture_output=True,
+                              text=True, timeout=300, check=False)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertRegex(done.stderr, r"flies away at omega = 5 \(after [0-9.]+ drive periods")
+
+
+if __name__ == "__main__":
+    unittest.main()

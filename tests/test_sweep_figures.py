@@ -1,0 +1,186 @@
+"""Figures of sweeps: what is drawn where, in which units, on which scale; looked up in the data beside the figure.
+
+Environment: FESTOON is the program, SOURCE_DIR the source tree.
+"""
+
+import csv
+import io
+import math
+import shutil
+import sys
+import unittest
+
+from sweep_tools import SHORT, Case, content_of, festoon
+
+GAMMA, HALF_LENGTH = 312.5, 23e-3
+
+
+class Figures(Case):
+    def sweep(self, name, *over):
+        words = [word for axis in over for word in ("--over", axis)]
+        self.good("sweep", *SHORT, *words, "-o", self.path(name))
+        return list(csv.DictReader(io.StringIO(self.rows(name))))
+
+    def plot(self, name, *words):
+        """The script and the data blocks, {name: [[number]]}."""
+        self.good("plot", self.path(name), *words, "-o", self.path("figure.svg"))
+        self.assertIn("<svg", content_of(self.path("figure.svg"), "r")[:2000])
+        blocks = {}
+        for text in content_of(self.path("figure.dat"), "r").split("\n\n\n"):
+            name, _, *lines = text.strip("\n").split("\n")
+            blocks[name[2:]] = [[float(word) for word in line.split()] for line in lines if line]
+        return content_of(self.path("figure.gp"), "r"), blocks
+
+    def cells(self, name, *words):
+        """Each cell of a heat map: x, y, x_low, x_high, y_low, y_high, value."""
+        script, blocks = self.plot(name, *words)
+        return script, blocks["cells"]
+
+
+class Maps(Figures):
+    def test_cells_of_an_even_map(self):
+        rows = self.sweep("a.db", "drive.frequency=9Hz:12Hz:4", "model.kappa=1:2:3")
+        script, cells = self.cells("a.db", "--key", "mean_r")
+        self.assertEqual(len(cells), 12)
+        for row, cell in zip(rows, cells):
+            kappa, frequency = float(row["model.kappa"]), float(row["drive.frequency"])
+            self.assertAlmostEqual(cell[0], kappa, 6)
+            self.assertAlmostEqual(cell[1], frequency, 6)
+            self.assertAlmostEqual(cell[2], kappa - 0.25, 6)
+            self.assertAlmostEqual(cell[4], frequency - 0.5, 6)
+            self.assertTrue(0 <= cell[3] - (kappa + 0.25) < 0.005)  # boxes overlap by a pixel
+            self.assertTrue(0 <= cell[5] - (frequency + 0.5) < 0.01)
+            self.assertAlmostEqual(cell[6], float(row["mean_r"]), 6)
+        self.assertIn("set xrange [0.75:2.25]", script)
+        self.assertIn("set ylabel 'drive frequency (Hz)'", script)
+        self.assertIn("set cblabel 'mean r (l)'", script)
+        self.assertNotIn("logscale", script)
+
+    def test_logarithmic_cells_meet_at_geometric_means(self):
+        self.sweep("a.db", "drive.frequency=8Hz:32Hz:3:log", "model.kappa=0.5:2:3:log")
+        script, cells = self.cells("a.db", "--key", "max_r")
+        self.assertIn("set logscale x", script)
+        self.assertIn("set logscale y", script)
+        for x, y, x_low, x_high, y_low, y_high, _ in cells:
+            self.assertAlmostEqual(x_low / (x / math.sqrt(2)), 1, 6)
+            self.assertAlmostEqual(y_low / (y / math.sqrt(2)), 1, 6)
+            self.assertTrue(1 - 1e-6 < x_high / (x * math.sqrt(2)) < 1.004)
+            self.assertTrue(1 - 1e-6 < y_high / (y * math.sqrt(2)) < 1.004)
+
+    def test_lists_are_sorted_and_repeated_values_drawn_once(self):
+        rows = self.sweep("a.db", "start.r=0.9,0.5,0.7,0.5", "model.kappa=3,1,2")
+        _, cells = self.cells("a.db", "--key", "mean_b")
+        wanted = {(float(row["model.kappa"]), float(row["start.r"])): float(row["mean_b"]) for row in rows}
+        self.assertEqual(len(cells), 9)
+        self.assertEqual([cell[0] for cell in cells], [1, 2, 3] * 3)
+        self.assertEqual([cell[1] for cell in cells], [0.5] * 3 + [0.7] * 3 + [0.9] * 3)
+        for cell in cells:
+            self.assertAlmostEqual(cell[6], wanted[cell[0], cell[1]], 6)
+
+    def test_falling_axes_are_drawn_rising(self):
+        self.sweep("a.db", "drive.frequency=12Hz:9Hz:4", "model.kappa=2:1:3")
+        script, cells = self.cells("a.db", "--key", "mean_b")
+        self.assertIn("set xrange [0.75:2.25]\n", script)
+        self.assertTrue(all(cell[2] < cell[3] and cell[4] < cell[5] for cell in cells))
+
+    def test_both_signs_get_a_palette_about_zero(self):
+        self.sweep("a.db", "drive.frequency=3Hz:20Hz:2", "model.kappa=1,2")
+        script, cells = self.cells("a.db", "--key", "mean_alpha_dot")
+        greatest = max(abs(cell[6]) for cell in cells)
+        low, high = script.split("set cbrange [")[1].split("]")[0].split(":")
+        self.assertEqual(float(low), -float(high))
+        self.assertAlmostEqual(float(high), greatest, 6)
+        self.assertNotIn("cbrange", self.cells("a.db", "--key", "mean_r")[0])
+
+    def test_regimes(self):
+        rows = self.sweep("a.db", "drive.frequency=1Hz:20Hz:3", "model.kappa=1:2:4")
+        script, blocks = self.plot("a.db")
+        drawn = {name for name in blocks if name.startswith("cells-")}
+        found = {row["regime"] for row in rows}
+        self.assertEqual(len(drawn), len(found))
+        for regime in found:
+            self.assertIn(f"title '{regime}'", script)
+        # Neighbours of one regime are one box: together the boxes cover the map once.
+        area = sum((round(box[3], 2) - box[2]) * (round(box[5], 2) - box[4]) for name in drawn for box in blocks[name])
+        self.assertLess(abs(area / (28.5 * 4 / 3) - 1), 0.02)
+
+    def test_choices_are_named(self):
+        self.sweep("a.db", "model.dynamics=rigid,farago2020", "drive.frequency=10,12")
+        script, _ = self.cells("a.db", "--key", "mean_r")
+        self.assertIn("set ytics ('rigid' 0, 'farago2020' 1)", script)
+
+    def test_points_without_a_value_are_counted(self):
+        self.sweep("a.db", "drive.frequency=3Hz:20Hz:3", "model.kappa=1,2")
+        script, cells = self.cells("a.db", "--key", "largest_exponent")
+        self.assertIn(f"white: {6 - len(cells)} of 6 points", script)
+
+    def test_what_is_refused(self):
+        self.sweep("r.db", "start.r=0.5:1:random:4", "start.phi=0:90:random:4")
+        self.assertIn("random points", self.refused("plot", self.path("r.db"), "-o", self.path("f.svg")))
+        self.sweep("g.db", "friction.gamma=300,310", "drive.frequency=10,12")
+        for words in (["--units", "scaled"], ["--units", "lab", "--key", "mean_alpha_dot"]):
+            self.assertIn("friction.gamma", self.refused("plot", self.path("g.db"), *words, "-o", self.path("f.svg")))
+        self.good("plot", self.path("g.db"), "--units", "lab", "--key", "mean_r", "-o", self.path("f.svg"))
+        self.refused("plot", self.path("g.db"), "--units", "imperial", "-o", self.path("f.svg"))
+        self.sweep("one.db", "drive.frequency=10,10,10")
+        self.plot("one.db")  # an abscissa without extent
+
+
+class Units(Figures):
+    def test_drive_and_lengths(self):
+        self.sweep("f.db", "drive.frequency=10Hz:12Hz:3", "start.r=0.5,0.9")
+        self.sweep("o.db", "drive.omega=0.2:0.24:3", "start.r=0.5,0.9")
+        hertz = GAMMA / (2 * math.pi)
+        script, cells = self.cells("f.db", "--key", "mean_r", "--units", "scaled")
+        self.assertIn("set ylabel 'drive ω (scaled)'", script)
+        self.assertAlmostEqual(cells[0][1], 10 / hertz, 6)
+        self.assertAlmostEqual(cells[1][0], 0.9, 6)
+        length = cells[0][6]
+        script, cells = self.cells("f.db", "--key", "mean_r", "--units", "lab")
+        self.assertIn("set xlabel 'start r (mm)'", script)
+        self.assertIn("set cblabel 'mean r (mm)'", script)
+        self.assertAlmostEqual(cells[1][0], 0.9 * 1e3 * HALF_LENGTH, 5)
+        self.assertAlmostEqual(cells[0][6], length * 1e3 * HALF_LENGTH, 4)
+        script, cells = self.cells("o.db", "--key", "mean_alpha_dot", "--units", "lab")
+        self.assertIn("set ylabel 'drive frequency (Hz)'", script)
+        self.assertAlmostEqual(cells[0][1], 0.2 * hertz, 5)
+        self.assertIn("(1/s)", script)
+        self.assertAlmostEqual(cells[0][6] / self.cells("o.db", "--key", "mean_alpha_dot")[1][0][6], GAMMA, 3)
+        for key, unit, factor in (("max_slip", "mm/s", 1e3 * HALF_LENGTH * GAMMA), ("end_time", "s", 1 / GAMMA)):
+            script, cells = self.cells("o.db", "--key", key, "--units", "lab")
+            self.assertIn(f"({unit})", script)
+            self.assertLess(abs(cells[0][6] / self.cells("o.db", "--key", key)[1][0][6] / factor - 1), 1e-6)
+
+    def test_metres_become_half_lengths(self):
+        self.sweep("m.db", "magnet.depth=15mm:17mm:3", "bead.radius=2mm,3mm")
+        self.assertEqual([round(cell[0], 6) for cell in self.cells("m.db", "--key", "mean_r")[1]], [2, 3] * 3)
+        cells = self.cells("m.db", "--key", "mean_r", "--units", "scaled")[1]
+        self.assertAlmostEqual(cells[0][0], 2 / 23, 6)
+        self.assertAlmostEqual(cells[0][1], 15 / 23, 6)
+
+    def test_curves(self):
+        rows = self.sweep("c.db", "drive.omega=0.2:0.8:5:log")
+        script, blocks = self.plot("c.db", "--key", "mean_r,rms_slip", "--units", "lab")
+        self.assertIn("set logscale x\n", script)
+        self.assertIn("set logscale x2\n", script)
+        for row, (x, y) in zip(rows, blocks["panel1-curve1"]):
+            self.assertLess(abs(x / (float(row["drive.omega"]) * GAMMA / (2 * math.pi)) - 1), 1e-6)
+            self.assertLess(abs(y / (float(row["mean_r"]) * 23) - 1), 1e-6)
+
+    def test_keys_without_values(self):
+        self.sweep("c.db", "drive.frequency=10,11,12")
+        script, blocks = self.plot("c.db", "--key", "mean_r,largest_exponent,min_b")
+        self.assertIn("no value of: largest exponent (gamma)", script)
+        self.assertEqual(sorted(blocks), ["panel1-curve1", "panel2-curve1"])
+        self.assertIn("no point", self.refused("plot", self.path("c.db"), "--key", "largest_exponent", "-o",
+                                               self.path("f.svg")))
+        self.sweep("m.db", "drive.frequency=19,20", "model.kappa=1.5,1.6")
+        self.assertIn("no point", self.refused("plot", self.path("m.db"), "--key", "largest_exponent", "-o",
+                                               self.path("f.svg")))
+
+
+if __name__ == "__main__":
+    if not shutil.which("gnuplot"):
+        print("skipped: no gnuplot (gnuplot-nox)")
+        sys.exit(77)
+    unittest.main()

@@ -1,0 +1,102 @@
+"""The memory of a sweep, of going on with it and of its exports does not grow with the number of points.
+
+What is measured is the greatest resident size of the program (wait4), in which that of this interpreter before exec()
+counts as well; it lies close to the program's own.  Environment: FESTOON is the program, BUILD_DIR
+the build tree.
+"""
+
+import os
+import signal
+import sqlite3
+import sys
+import time
+import unittest
+
+from sweep_tools import FESTOON, Case, festoon
+
+FEW, MANY = 1000, 200000
+MEBIBYTES = 2  # may differ: pages of SQLite's cache, stacks of threads
+VERY_SHORT = ["--set", "run.periods=0.01", "--set", "run.discard=0.001", "--threads", "2"]
+
+
+def peak(*words, interrupted_after=None):
+    """Status and greatest resident size in MiB."""
+    child = os.fork()
+    if child == 0:
+        nothing = os.open(os.devnull, os.O_RDWR)
+        for descriptor in range(3):
+            os.dup2(nothing, descriptor)
+        os.execv(FESTOON, [FESTOON, *words])
+    if interrupted_after is not None:
+        time.sleep(interrupted_after)
+        os.kill(child, signal.SIGINT)
+    _, status, usage = os.wait4(child, 0)
+    return os.waitstatus_to_exitcode(status), usage.ru_maxrss / 1024
+
+
+class Memory(Case):
+    def command(self, count, *words):
+        return ["sweep", *VERY_SHORT, "--over", f"drive.frequency=5Hz:20Hz:{count}", *words, "-o",
+                self.path(f"{count}.db")]
+
+    def begun(self, count):
+        """A database in which every thousandth point is missing; rows without numbers, but for the radius."""
+        status, _, err = festoon(*self.command(2))
+        self.assertEqual(status, 0, err)
+        peak(*self.command(count), interrupted_after=0.2)  # its identity, and maybe rows
+        base = sqlite3.connect(self.path(f"{count}.db"))
+        base.execute("DELETE FROM rows")
+        base.execute("WITH RECURSIVE c(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM c WHERE i < ?) "
+                     "INSERT INTO rows(point, status, regime, mean_r) SELECT i, 'done', 'locked', 0.001 * i FROM c "
+                     "WHERE i % 1000 != 999", (count - 1,))
+        base.commit()
+        base.close()
+
+    def test_from_a_thousand_points_to_a_thousand_million(self):
+        """Interrupted after a second: what was done until then is not much less than in a whole sweep."""
+        status, small = peak(*self.command(FEW))
+        self.assertEqual(status, 0)
+        for count in (1000000, 1000000000):
+            status, large = peak(*self.command(count), interrupted_after=1.0)
+            self.assertEqual(status, 130)
+            base = sqlite3.connect(self.path(f"{count}.db"))
+            self.assertGreater(base.execute("SELECT count(*) FROM rows").fetchone()[0], 0)
+            base.close()
+            self.assertLess(large - small, MEBIBYTES, (small, large))
+
+    def test_chains(self):
+        words = ["--over", "model.kappa=1,2", "--carry", "up"]
+        status, small = peak(*self.command(FEW, *words))
+        self.assertEqual(status, 0)
+        status, large = peak(*self.command(1000000, *words), interrupted_after=1.0)
+        self.assertEqual(status, 130)
+        self.assertLess(large - small, MEBIBYTES, (small, large))
+
+    def test_going_on_and_exports(self):
+        sizes = {}
+        for count in (FEW, MANY):
+            self.begun(count)
+            for name, words in (("go on", self.command(count)),
+                                ("nothing to do", self.command(count)),
+                                ("csv", ["export", self.path(f"{count}.db"), "--csv"]),
+                                ("json", ["export", self.path(f"{count}.db"), "--json", "-o", self.path("out.json")]),
+                                ("hdf5", ["export", self.path(f"{count}.db"), "--hdf5", "-o", self.path("out.h5")])):
+                status, size = peak(*words)
+                if name == "hdf5" and status == 1:
+                    continue  # built without HDF5
+                self.assertEqual(status, 0, name)
+                sizes[name, count] = size
+            base = sqlite3.connect(self.path(f"{count}.db"))
+            self.assertEqual(base.execute("SELECT count(*) FROM rows").fetchone()[0], count)
+            base.close()
+        for name, count in sizes:
+            # HDF5 keeps an index of the chunks of each data set: some 7 bytes a row.
+            allowed = 3 * MEBIBYTES if name == "hdf5" else MEBIBYTES
+            self.assertLess(sizes[name, MANY] - sizes[name, FEW], allowed, (name, sizes))
+
+
+if __name__ == "__main__":
+    if not os.path.exists(os.path.join(os.environ["BUILD_DIR"], "tests", "far_away.so")):
+        print("skipped: sanitizers keep what is freed")
+        sys.exit(77)
+    unittest.main()
