@@ -42,6 +42,9 @@ static void refusals(void **state)
     o.second_key = "drive.omega";
     assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
     o.second_key = "bead.moment"; /* follows from others here, so it has no value of its own */
+    o.special = FST_SPECIAL_TRANSCRITICAL;
+    assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "transcritical points are not followed");
     o.special = FST_SPECIAL_PITCHFORK;
     o.from = 0.26;
     assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);

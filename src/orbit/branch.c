@@ -424,6 +424,9 @@ static fst_status check(const fst_branch_options *o, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, where,
                         "the second parameter needs a range with two different ends, not %g to %g",
                         o->second_from, o->second_to);
+    if (o->second_key && (unsigned)o->special > FST_SPECIAL_ORIGIN_CROSSING)
+        return fst_fail(error, FST_BAD_INPUT, where, "curves of %s points are not followed over two parameters",
+                        fst_special_name(o->special));
     if (o->second_key && strcmp(o->second_key, o->key) == 0)
         return fst_fail(error, FST_BAD_INPUT, where, "the second parameter must not be %s again", o->key);
     if (!(o->longest_step > 1e-5))
