@@ -65,6 +65,11 @@ class Orbits(unittest.TestCase):
         self.assertEqual([s["stable"] for s in states].count(True), 2)
         self.assertIn(None, [s["phi_deg"] for s in states])  # on the axis
 
+    def test_families_that_cross_are_no_special_points(self):
+        branch = document("branch", "--kind", "locked", "--over", "drive.omega=0.08:0.1")
+        self.assertEqual([special["type"] for special in branch["specials"]], ["hopf"])
+        self.assertEqual({crossing["type"] for crossing in branch["crossings"]}, {"transcritical"})
+
     def test_branch_and_figures(self):
         with tempfile.TemporaryDirectory() as directory:
             path = os.path.join(directory, "branch.json")

@@ -152,11 +152,13 @@ static json_t *special_object(const fst_branch *branch, const fst_special *s)
 
 char *fst_branch_json(const fst_params *params, const fst_branch *branch)
 {
-    json_t *object = json_object(), *points = json_array(), *specials = json_array(), *ends = json_array();
+    json_t *object = json_object(), *points = json_array(), *specials = json_array(), *ends = json_array(),
+           *crossings = json_array();
     for (size_t i = 0; i < branch->point_count; i++)
         json_array_append_new(points, point_object(&branch->points[i]));
-    for (size_t i = 0; i < branch->special_count; i++)
-        json_array_append_new(specials, special_object(branch, &branch->specials[i]));
+    for (size_t i = 0; i < branch->special_count; i++) /* nothing is born or lost where families only cross */
+        json_array_append_new(branch->specials[i].type == FST_SPECIAL_TRANSCRITICAL ? crossings : specials,
+                              special_object(branch, &branch->specials[i]));
     for (size_t i = 0; i < branch->end_count; i++) {
         const fst_branch_end *e = &branch->ends[i];
         json_t *end = json_object();
@@ -183,6 +185,7 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
     }
     json_object_set_new(object, "complete", json_boolean(branch->complete));
     json_object_set_new(object, "specials", specials);
+    json_object_set_new(object, "crossings", crossings);
     json_object_set_new(object, "ends", ends);
     json_object_set_new(object, "points", points);
     json_object_set_new(object, "scene", fst_json_scene(params));
@@ -293,7 +296,7 @@ fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *erro
     memset(branch, 0, sizeof *branch);
     json_t *object = json_load_file(path, 0, &why);
     const json_t *points = json_object_get(object, "points"), *specials = json_object_get(object, "specials"),
-                 *ends = json_object_get(object, "ends");
+                 *crossings = json_object_get(object, "crossings"), *ends = json_object_get(object, "ends");
     const char *key = json_string_value(json_object_get(object, "parameter"));
     if (!object || !json_is_array(points) || !json_is_array(specials) || !key) {
         const fst_status status =
@@ -317,7 +320,8 @@ fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *erro
         branch->followed = type_named(json_string_value(json_object_get(object, "followed")));
     }
     branch->points = calloc(json_array_size(points) + 1, sizeof *branch->points);
-    branch->specials = calloc(json_array_size(specials) + 1, sizeof *branch->specials);
+    branch->specials =
+        calloc(json_array_size(specials) + json_array_size(crossings) + 1, sizeof *branch->specials);
     branch->ends = calloc(json_array_size(ends) + 1, sizeof *branch->ends);
     fst_status status = FST_OK;
     if (!branch->points || !branch->specials || !branch->ends) {
@@ -328,6 +332,8 @@ fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *erro
             read_point(json_array_get(points, i), &branch->points[branch->point_count++]);
         for (size_t i = 0; i < json_array_size(specials); i++)
             read_special(json_array_get(specials, i), &branch->specials[branch->special_count++]);
+        for (size_t i = 0; i < json_array_size(crossings); i++)
+            read_special(json_array_get(crossings, i), &branch->specials[branch->special_count++]);
         for (size_t i = 0; i < json_array_size(ends); i++)
             read_end(json_array_get(ends, i), &branch->ends[branch->end_count++]);
     }
