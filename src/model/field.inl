@@ -82,9 +82,11 @@ static inline FN(moments) FN(moments_of_five)(const FN(line) lines[5], int end, 
     return sum;
 }
 
-/* B and the gradient at (x, y), at the height of the bead's centre. */
-static inline void FN(field_and_gradient)(const FN(coefficients) * c, REAL x, REAL y, REAL b[3],
-                                          FN(gradient) * g)
+/* B and the gradient at (x, y), at the height of the bead's centre; by no call, since most of a step's time is
+ * here.
+ */
+static inline __attribute__((always_inline)) void FN(field_and_gradient)(const FN(coefficients) * c, REAL x,
+                                                                         REAL y, REAL b[3], FN(gradient) * g)
 {
     const REAL h = c->height, zero = R(0.0), dx[2] = {x - R(1.0), x + R(1.0)};
     const REAL across2[2] = {REAL_MULADD(dx[0], dx[0], h * h), REAL_MULADD(dx[1], dx[1], h * h)};
