@@ -19,12 +19,6 @@ def run(*arguments, **more):
                           stdin=subprocess.DEVNULL, **more)
 
 
-# fontconfig keeps what it read of the fonts until the process ends; under a leak checker that is its affair.
-SUPPRESSIONS = tempfile.NamedTemporaryFile("w", suffix=".supp")
-SUPPRESSIONS.write("leak:libfontconfig\nleak:libcairo\n")
-SUPPRESSIONS.flush()
-os.environ["LSAN_OPTIONS"] = f"suppressions={SUPPRESSIONS.name}:print_suppressions=0"
-
 if "cairo yes" not in run("--version").stdout:
     sys.exit(77)
 

@@ -164,8 +164,40 @@ static void festoon_numbers_are_exact(void **state)
     (void)snprintf(omega, sizeof omega, "%.17g", list.omegas[0]);
     CHECK_CLOSE(orbit_at(omega, "rigid").means.festoons, 12.0, 1e-9); /* from the start, by another way */
     fst_festoons_free(&list);
-    assert_int_equal(fst_festoons_find(&params, 1e5, &list, &error), FST_NO_CONVERGENCE);
-    CHECK_CONTAINS(error.sentence, "reaches");
+}
+
+/* Beside the origin, the period halving and the fold, beyond the last orbit that was followed. */
+static void festoons_up_to_the_ends_of_the_branch(void **state)
+{
+    (void)state;
+    static const struct {
+        double festoons, low, high;
+        fst_symmetry symmetry;
+    } near[] = {{3.1036, 0.178891159, 0.17890, FST_SYMMETRY_S1},
+                {5.7593, 0.26884, 0.268853034, FST_SYMMETRY_S1},
+                {11.5189, 0.268853034, 0.26886, FST_SYMMETRY_S2},
+                {136.1, 3.3895, 3.389510252, FST_SYMMETRY_S2}};
+    const fst_params params = scene("0.352", "rigid");
+    fst_branch_options options = fst_default_branch_options();
+    options.from = 0.17;
+    options.to = 4.0;
+    fst_branch branch;
+    fst_festoon_list list;
+    fst_error error;
+    assert_int_equal(fst_branch_follow(&params, &options, &branch, &error), FST_OK);
+    for (size_t i = 0; i < sizeof near / sizeof *near; ++i) {
+        assert_int_equal(fst_festoons_on(&params, &branch, near[i].festoons, &list, &error), FST_OK);
+        assert_int_equal(list.count, 1);
+        assert_int_equal(list.orbits[0].symmetry, near[i].symmetry);
+        CHECK_CLOSE(list.orbits[0].means.festoons, near[i].festoons, 1e-8);
+        assert_true(list.omegas[0] > near[i].low && list.omegas[0] < near[i].high);
+        fst_festoons_free(&list);
+    }
+    assert_int_equal(fst_festoons_on(&params, &branch, 6.0, &list, &error), FST_NO_CONVERGENCE);
+    CHECK_CONTAINS(
+        error.sentence,
+        "N is from 3.10358 to 5.7594 on its S1 orbits; N is from 11.5188 to 136.167 on its S2 orbits");
+    fst_branch_free(&branch);
 }
 
 static void a_locked_bead_has_no_orbit(void **state)
@@ -276,6 +308,7 @@ int main(void)
         cmocka_unit_test(orbits_close),
         cmocka_unit_test(leading_multiplier_is_the_rate_of_return),
         cmocka_unit_test(festoon_numbers_are_exact),
+        cmocka_unit_test(festoons_up_to_the_ends_of_the_branch),
         cmocka_unit_test(a_locked_bead_has_no_orbit),
         cmocka_unit_test(a_libration_is_an_orbit_without_turns),
         cmocka_unit_test(locked_states),

@@ -41,15 +41,6 @@ class Orbits(unittest.TestCase):
         self.assertEqual((status, out), (1, ""))
         self.assertIn("N is from 3.10358 to 5.7594 on its S1 orbits; N is from 11.5188 to 136.167 on its S2 orbits", err)
 
-    def test_festoons_up_to_the_ends_of_the_branch(self):
-        """Beside the origin, the period halving and the fold, beyond the last orbit that was followed."""
-        for festoons, symmetry, low, high in (("3.1036", "S1", 0.178891159, 0.17890), ("5.7593", "S1", 0.26884, 0.268853034),
-                                              ("11.5189", "S2", 0.268853034, 0.26886), ("136.1", "S2", 3.3895, 3.389510252)):
-            orbit = document("orbit", "--festoons", festoons)
-            self.assertEqual(orbit["symmetry"], symmetry)
-            self.assertAlmostEqual(orbit["festoons"], float(festoons), 8)
-            self.assertTrue(low < orbit["omega"] < high, orbit["omega"])
-
     def test_no_orbit(self):
         status, out, err = festoon("orbit", "--set", "drive.omega=0.05")
         self.assertEqual((status, out), (1, ""))
