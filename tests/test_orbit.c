@@ -200,14 +200,31 @@ static void festoons_up_to_the_ends_of_the_branch(void **state)
     fst_branch_free(&branch);
 }
 
+/* Shooting alone is content with an equilibrium, and takes any time for its period.  The stable locked state
+ * loses its stability at omega = 0.15264: swings about it decay slowly below. */
 static void a_locked_bead_has_no_orbit(void **state)
 {
     (void)state;
-    const fst_params params = scene("0.05", "rigid");
-    fst_orbit orbit;
-    fst_error error;
-    assert_int_equal(fst_orbit_find(&params, &orbit, &error), FST_NO_CONVERGENCE);
-    CHECK_CONTAINS(error.sentence, "locks");
+    static const struct {
+        const char *key, *value;
+    } locked[] = {{"drive.omega", "0.05"},
+                  {"drive.omega", "0.149"},
+                  {"drive.omega", "0.15"},
+                  {"drive.omega", "0.1525"},
+                  {"model.kappa", "100"}};
+    for (size_t i = 0; i < sizeof locked / sizeof *locked; ++i) {
+        fst_params params = fst_default_params();
+        fst_orbit orbit;
+        fst_locked_list list;
+        fst_error error;
+        assert_int_equal(fst_params_set(&params, locked[i].key, locked[i].value, &error), FST_OK);
+        if (fst_orbit_find(&params, &orbit, &error) != FST_NO_CONVERGENCE)
+            fail_msg("%s = %s: an orbit of period %g", locked[i].key, locked[i].value, orbit.means.period);
+        CHECK_CONTAINS(error.sentence, "locks to the magnet");
+        assert_int_equal(fst_locked_find(&params, &list, &error), FST_OK);
+        assert_true(list.states[0].stable);
+        fst_locked_free(&list);
+    }
 }
 
 static void a_libration_is_an_orbit_without_turns(void **state)

@@ -14,6 +14,9 @@
 
 #define SEARCH_TOLERANCE 1e-8 /* of the way to the orbit, which Newton's method then finds exactly */
 
+/* The speed that is taken for rest: what the errors of the steps leave of it. */
+#define REST (10.0 * SEARCH_TOLERANCE)
+
 enum { PEAKS = 48 };
 
 /* A trajectory that is watched for returns. */
@@ -31,6 +34,7 @@ typedef struct search {
     double half_distance, full_distance; /* of the latest returns */
     double drive_period;
     int attempts;
+    int at_rest; /* the latest guess ended at an equilibrium that attracts */
 } search;
 
 static double distance(const double *a, const double *b)
@@ -39,6 +43,25 @@ static double distance(const double *a, const double *b)
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         greatest = fabs(a[i] - b[i]) > greatest ? fabs(a[i] - b[i]) : greatest;
     return greatest;
+}
+
+/* Whether the bead comes to rest: an equilibrium that attracts lies near a state where the search stands, and
+ * the swings about it decay. */
+static int comes_to_rest(const search *s, const double *near)
+{
+    const int kept = s->peaks < PEAKS ? s->peaks : PEAKS;
+    fst_solution rest;
+    fst_error ignored;
+    if (kept < 2)
+        return 0;
+    memset(&rest, 0, sizeof rest);
+    memcpy(rest.y[0], near, sizeof rest.y[0]);
+    if (fst_solution_correct(s->family, &rest, NULL, &ignored) != FST_OK ||
+        fst_solution_spectrum(s->family, &rest, &ignored) != FST_OK || !fst_solution_is_stable(&rest))
+        return 0;
+    const double first = distance(s->peak[(s->peaks - kept) % PEAKS], rest.y[0]);
+    const double last = distance(s->peak[(s->peaks - 1) % PEAKS], rest.y[0]);
+    return last < first && last < 0.1;
 }
 
 /* Newton's method from a guess.  The orbit is the one that the bead approaches if it attracts, and if the bead
@@ -50,9 +73,16 @@ static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
     const double period = guess->period;
     memcpy(start, guess->y[0], sizeof start);
     s->attempts += 1;
+    s->at_rest = 0;
     if (fst_solution_chain(s->family, guess, guess->symmetric ? 1 : 2, error) != FST_OK ||
         fst_solution_correct(s->family, guess, NULL, error) != FST_OK ||
-        fst_solution_spectrum(s->family, guess, error) != FST_OK || !fst_solution_is_stable(guess))
+        fst_solution_spectrum(s->family, guess, error) != FST_OK)
+        return 0;
+    if (!fst_solution_moves(s->family, guess)) { /* equilibria solve the equations of orbits, with any period */
+        s->at_rest = comes_to_rest(s, guess->y[0]);
+        return 0;
+    }
+    if (!fst_solution_is_stable(guess))
         return 0;
     for (int i = 0; i < guess->multipliers; ++i)
         greatest = fmax(greatest, hypot(guess->re[i], guess->im[i]));
@@ -157,7 +187,7 @@ static int is_locked(const search *s)
     double greatest = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         greatest = fmax(greatest, fabs(s->flow->step.k[12][i]));
-    return greatest < 1e-8;
+    return greatest < REST;
 }
 
 static fst_status went_elsewhere(const search *s, const char *how, fst_error *error)
@@ -195,6 +225,8 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
                 return went_elsewhere(s, "locks to the magnet", error);
             if (peaks % 16 == 0 && try_librating(s, out, &ignored))
                 return FST_OK;
+            if (peaks % 16 == 0 && s->at_rest)
+                return went_elsewhere(s, "locks to the magnet", error);
         }
         if (s->flow->accepted % 64 == 0 && is_locked(s))
             return went_elsewhere(s, "locks to the magnet", error);

@@ -87,6 +87,10 @@ fst_status fst_solution_eigenvector(const fst_family *family, const fst_solution
 /* Whether it attracts: multipliers within the unit circle, eigenvalues on the left. */
 int fst_solution_is_stable(const fst_solution *s);
 
+/* Whether a chain with its spectrum is an orbit: an equilibrium, too, comes back to itself after any time, but
+ * has no flow direction. */
+int fst_solution_moves(const fst_family *family, const fst_solution *s);
+
 /* The time in which a small disturbance falls by e; NAN: it does not. */
 double fst_solution_relaxation(const fst_solution *s);
 
