@@ -237,6 +237,25 @@ static void a_libration_is_an_orbit_without_turns(void **state)
     CHECK_CLOSE(orbit.means.mean_alpha_dot, 0.16, 1e-15);
 }
 
+/* Before it is caught the bead turns for a while; a long run ends on the same libration. */
+static void a_libration_that_catches_a_turning_bead(void **state)
+{
+    (void)state;
+    static const char *const omegas[] = {"0.164", "0.17", "0.176"};
+    for (size_t i = 0; i < sizeof omegas / sizeof *omegas; ++i) {
+        const fst_params params = scene(omegas[i], "rigid");
+        const fst_orbit orbit = orbit_at(omegas[i], "rigid");
+        const fst_run_options options = fst_default_run_options();
+        fst_run_result result;
+        assert_int_equal(fst_run(&params, &options, &result, NULL), FST_OK);
+        assert_int_equal(result.regime, FST_REGIME_LIBRATING);
+        assert_true(orbit.stable);
+        assert_int_equal(orbit.turns, 0);
+        CHECK_CLOSE(orbit.means.min_r, result.min_r, 1e-9);
+        CHECK_CLOSE(orbit.means.max_r, result.max_r, 1e-9);
+    }
+}
+
 /* Every listed state stands still, has its image in the list, and the sum of the indices is the same at every
  * omega: states come and go in pairs of opposite index. */
 static void locked_states(void **state)
@@ -328,6 +347,7 @@ int main(void)
         cmocka_unit_test(festoons_up_to_the_ends_of_the_branch),
         cmocka_unit_test(a_locked_bead_has_no_orbit),
         cmocka_unit_test(a_libration_is_an_orbit_without_turns),
+        cmocka_unit_test(a_libration_that_catches_a_turning_bead),
         cmocka_unit_test(locked_states),
         cmocka_unit_test(the_stable_locked_state_is_where_a_run_ends),
         cmocka_unit_test(exponents),

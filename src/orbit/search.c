@@ -26,7 +26,8 @@ typedef struct search {
     fst_flow *flow;
     double section[3][FST_STATE_SIZE]; /* the latest passages of X = 0, on the side Y > 0 (images under S2) */
     double section_time[3];
-    int passages; /* since the turning was last irregular */
+    int passages;    /* since the turning was last irregular */
+    int peaks_since; /* the latest passage: a bead that turns has one or two to a half turn */
     int last_half;
     double peak[PEAKS][FST_STATE_SIZE]; /* the latest places where r was greatest */
     double peak_time[PEAKS];
@@ -155,6 +156,7 @@ static int note_passage(search *s)
                          : fst_flow_locate(s->flow, fst_section_function, 0.0, 1.0, start[FST_X], end[FST_X]);
     fst_flow_at(s->flow, x, y);
     const int half = y[FST_Y] > 0 ? 1 : -1, downward = (end[FST_X] >= 0) == (half > 0);
+    s->peaks_since = 0;
     s->passages = downward && half != s->last_half ? s->passages + 1 : 1;
     s->last_half = downward ? half : 0;
     if (half < 0)
@@ -178,6 +180,10 @@ static int note_peak(search *s)
     fst_flow_at(s->flow, x, s->peak[s->peaks % PEAKS]);
     s->peak_time[s->peaks % PEAKS] = fst_flow_time(s->flow, x).high;
     s->peaks += 1;
+    if (++s->peaks_since >= 4) { /* it turned for a while, and was caught */
+        s->passages = s->last_half = 0;
+        s->half_distance = s->full_distance = INFINITY;
+    }
     return s->peaks > 2;
 }
 
