@@ -1,4 +1,4 @@
-"""The command branch under way and in trouble: progress, interruption, and what it says about bad input."""
+"""The commands branch, orbit and lyapunov under way and in trouble: progress, interruption, and what it says about bad input."""
 
 import json
 import os
@@ -18,13 +18,13 @@ def branch(*words):
 
 
 def interrupted(*words):
-    """Start a branch with a terminal as standard error, and interrupt it once its progress line says something."""
+    """Start a command with a terminal as standard error, and interrupt it once its progress line says something."""
     leader, follower = pty.openpty()
-    with subprocess.Popen([FESTOON, "branch", *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+    with subprocess.Popen([FESTOON, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=follower) as child:
         os.close(follower)
         seen = b""
-        while b"s left" not in seen:
+        while b" left" not in seen:
             seen += os.read(leader, 1000)
         child.send_signal(signal.SIGINT)
         while True:
@@ -45,7 +45,7 @@ class Interruption(unittest.TestCase):
     def check(self, *words):
         with tempfile.TemporaryDirectory() as directory:
             path = os.path.join(directory, "branch.json")
-            status, out, said = interrupted(*words, "-o", path)
+            status, out, said = interrupted("branch", *words, "-o", path)
             self.assertEqual((status, out), (130, b""), said)
             self.assertRegex(said, r"\d\.\d %  \d+ s left")
             self.assertIn("marked incomplete", said)
@@ -64,9 +64,19 @@ class Interruption(unittest.TestCase):
                    "--with", "model.kappa=0.8:3", "--tolerance", "1e-14", "--step", "0.01")
 
     def test_nothing_is_kept_without_a_file(self):
-        status, out, said = interrupted("--kind", "all", "--over", "drive.omega=0.02:5", "--step", "0.05")
+        status, out, said = interrupted("branch", "--kind", "all", "--over", "drive.omega=0.02:5", "--step", "0.05")
         self.assertEqual((status, out), (130, b""))
         self.assertIn("-o FILE.json would have kept", said)
+
+
+    def test_what_keeps_nothing(self):
+        """They end at the first signal, within the long computation and not after it."""
+        for words in (("lyapunov", "--set", "run.periods=100000"),
+                      ("lyapunov", "--set", "run.periods=1e6", "--set", "run.discard=9e5"),
+                      ("orbit", "--festoons", "12")):
+            status, out, said = interrupted(*words)
+            self.assertEqual((status, out), (130, b""), (words, said))
+            self.assertIn("interrupted after", said)
 
 
 class BadInput(unittest.TestCase):

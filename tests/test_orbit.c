@@ -20,7 +20,7 @@ static fst_orbit orbit_at(const char *omega, const char *dynamics)
     const fst_params params = scene(omega, dynamics);
     fst_orbit orbit;
     fst_error error;
-    const fst_status status = fst_orbit_find(&params, &orbit, &error);
+    const fst_status status = fst_orbit_find(&params, NULL, &orbit, &error);
     if (status != FST_OK)
         fail_msg("omega = %s: %s", omega, error.sentence);
     return orbit;
@@ -157,7 +157,7 @@ static void festoon_numbers_are_exact(void **state)
     const fst_params params = scene("0.352", "rigid");
     fst_festoon_list list;
     fst_error error;
-    assert_int_equal(fst_festoons_find(&params, 12.0, &list, &error), FST_OK);
+    assert_int_equal(fst_festoons_find(&params, 12.0, NULL, &list, &error), FST_OK);
     assert_int_equal(list.count, 1);
     CHECK_CLOSE(list.orbits[0].means.festoons, 12.0, 1e-10);
     char omega[32];
@@ -218,7 +218,7 @@ static void a_locked_bead_has_no_orbit(void **state)
         fst_locked_list list;
         fst_error error;
         assert_int_equal(fst_params_set(&params, locked[i].key, locked[i].value, &error), FST_OK);
-        if (fst_orbit_find(&params, &orbit, &error) != FST_NO_CONVERGENCE)
+        if (fst_orbit_find(&params, NULL, &orbit, &error) != FST_NO_CONVERGENCE)
             fail_msg("%s = %s: an orbit of period %g", locked[i].key, locked[i].value, orbit.means.period);
         CHECK_CONTAINS(error.sentence, "locks to the magnet");
         assert_int_equal(fst_locked_find(&params, &list, &error), FST_OK);
@@ -312,7 +312,7 @@ static void exponents(void **state)
     params.run_periods = 150;
     params.run_discard = 100;
     fst_lyapunov l;
-    assert_int_equal(fst_lyapunov_find(&params, &l, NULL), FST_OK);
+    assert_int_equal(fst_lyapunov_find(&params, NULL, &l, NULL), FST_OK);
     double sum = 0.0;
     for (int i = 0; i < FST_EIGENVALUE_COUNT; ++i)
         sum += l.exponents[i];
@@ -326,7 +326,7 @@ static void exponents(void **state)
     params.run_periods = 90;
     params.run_discard = 60;
     fst_locked_list list;
-    assert_int_equal(fst_lyapunov_find(&params, &l, NULL), FST_OK);
+    assert_int_equal(fst_lyapunov_find(&params, NULL, &l, NULL), FST_OK);
     assert_int_equal(fst_locked_find(&params, &list, NULL), FST_OK);
     double greatest = -INFINITY;
     for (int i = 0; i < FST_EIGENVALUE_COUNT; ++i)

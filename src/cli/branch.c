@@ -178,11 +178,6 @@ static void print_branch(FILE *out, const fst_branch *b)
                       b->ends[i].reason);
 }
 
-static fst_status show(void *user, double fraction, fst_error *error)
-{
-    return progress_show(user, fraction, NULL, error);
-}
-
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
@@ -200,7 +195,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     progress_line line;
     progress_begin(&line);
     o.user = &line;
-    o.progress = show;
+    o.progress = progress_tell;
     status = fst_branch_follow(&params, &o, &branch, error);
     progress_end(&line);
     if (status != FST_OK && status != FST_INTERRUPTED)

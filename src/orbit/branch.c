@@ -305,7 +305,7 @@ static int search_at(const fst_tracer *t, double value, fst_node *start, fst_err
     fixed.params = fst_family_params(&t->family, value);
     fixed.params.run_periods = fmin(fixed.params.run_periods, 200.0);
     fixed.params.run_discard = 0.0;
-    if (fst_search_orbit(&fixed, &s, why) != FST_OK)
+    if (fst_search_orbit(&fixed, NULL, &s, why) != FST_OK)
         return 0;
     s.value = value;
     s.on_section = 0;

@@ -243,18 +243,21 @@ fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, d
     return status;
 }
 
-fst_status fst_festoons_find(const fst_params *params, double festoons, fst_festoon_list *list,
-                             fst_error *error)
+fst_status fst_festoons_find(const fst_params *params, double festoons, const fst_progress *progress,
+                             fst_festoon_list *list, fst_error *error)
 {
     memset(list, 0, sizeof *list);
     fst_branch branch;
     fst_branch_options o = fst_default_branch_options();
     o.from = 0.02;
     o.to = 10.0;
+    if (progress) {
+        o.user = progress->user;
+        o.progress = progress->tell;
+    }
     fst_status status = fst_branch_follow(params, &o, &branch, error);
-    if (status != FST_OK)
-        return status;
-    status = fst_festoons_on(params, &branch, festoons, list, error);
+    if (status == FST_OK)
+        status = fst_festoons_on(params, &branch, festoons, list, error);
     fst_branch_free(&branch);
     return status;
 }

@@ -208,11 +208,14 @@ static fst_status went_elsewhere(const search *s, const char *how, fst_error *er
         atan2(y[FST_Y], y[FST_X]) * 360.0 / TWO_PI);
 }
 
-static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *error)
+static fst_status follow(search *s, double t_end, const fst_progress *progress, fst_solution *out,
+                         fst_error *error)
 {
     int turns = 0, peaks = 0;
     while (s->flow->t.high < t_end) {
-        const fst_status status = fst_flow_step(s->flow, t_end, error);
+        fst_status status = fst_flow_step(s->flow, t_end, error);
+        if (status == FST_OK && s->flow->accepted % 64 == 0)
+            status = fst_tell(progress, s->flow->t.high / t_end, error);
         if (status != FST_OK)
             return status;
         const double r = hypot(s->flow->step.end[FST_X], s->flow->step.end[FST_Y]);
@@ -245,7 +248,8 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
         t_end / s->drive_period, s->model->groups.omega, s->full_distance, s->half_distance, s->attempts);
 }
 
-fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_error *error)
+fst_status fst_search_orbit(const fst_family *family, const fst_progress *progress, fst_solution *out,
+                            fst_error *error)
 {
     search *s = calloc(1, sizeof *s);
     if (!s)
@@ -261,7 +265,7 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_err
         status = fst_solution_flow(family, 0.0, start, SEARCH_TOLERANCE, &s->model, &s->flow, error);
     if (status == FST_OK) {
         s->drive_period = TWO_PI / model->groups.omega;
-        status = follow(s, family->params.run_periods * s->drive_period, out, error);
+        status = follow(s, family->params.run_periods * s->drive_period, progress, out, error);
     }
     fst_flow_free(s->flow);
     fst_model_free(s->model);
@@ -270,7 +274,8 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_err
     return status;
 }
 
-fst_status fst_orbit_find(const fst_params *params, fst_orbit *orbit, fst_error *error)
+fst_status fst_orbit_find(const fst_params *params, const fst_progress *progress, fst_orbit *orbit,
+                          fst_error *error)
 {
     fst_family family;
     fst_solution solution;
@@ -278,7 +283,7 @@ fst_status fst_orbit_find(const fst_params *params, fst_orbit *orbit, fst_error 
     fst_result_clear(&orbit->means);
     fst_status status = fst_family_begin(&family, params, NULL, error);
     if (status == FST_OK)
-        status = fst_search_orbit(&family, &solution, error);
+        status = fst_search_orbit(&family, progress, &solution, error);
     if (status == FST_OK)
         status = fst_orbit_from_solution(&family, &solution, orbit, error);
     return status;
