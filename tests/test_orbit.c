@@ -200,6 +200,27 @@ static void festoons_up_to_the_ends_of_the_branch(void **state)
     fst_branch_free(&branch);
 }
 
+static fst_status never(void *user, double fraction, fst_error *error)
+{
+    (void)user, (void)fraction, (void)error;
+    fail_msg("the branch is followed");
+    return FST_INTERRUPTED;
+}
+
+static void numbers_without_meaning_cost_no_work(void **state)
+{
+    (void)state;
+    static const double wrong[] = {1.0, 0.0, -1.0, 1e6, 1e9, NAN, INFINITY};
+    const fst_params params = fst_default_params();
+    const fst_progress progress = {NULL, never};
+    fst_festoon_list list;
+    fst_error error;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        assert_int_equal(fst_festoons_find(&params, wrong[i], &progress, &list, &error), FST_BAD_INPUT);
+        CHECK_CONTAINS(error.sentence, "greater than 1 and less than 1e6");
+    }
+}
+
 /* Shooting alone is content with an equilibrium, and takes any time for its period.  The stable locked state
  * loses its stability at omega = 0.15264: swings about it decay slowly below. */
 static void a_locked_bead_has_no_orbit(void **state)
@@ -345,6 +366,7 @@ int main(void)
         cmocka_unit_test(leading_multiplier_is_the_rate_of_return),
         cmocka_unit_test(festoon_numbers_are_exact),
         cmocka_unit_test(festoons_up_to_the_ends_of_the_branch),
+        cmocka_unit_test(numbers_without_meaning_cost_no_work),
         cmocka_unit_test(a_locked_bead_has_no_orbit),
         cmocka_unit_test(a_libration_is_an_orbit_without_turns),
         cmocka_unit_test(a_libration_that_catches_a_turning_bead),
