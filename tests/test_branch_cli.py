@@ -119,6 +119,9 @@ class BadInput(unittest.TestCase):
         ejected = self.refused(1, "--kind", "counter", "--over", "drive.omega=5:6", "--set", "drive.omega=5",
                                "--set", "start.r=3")
         self.assertRegex(ejected, r"the bead flies away at omega = [0-9.]+ .*\. Try another range")
+        librates = self.refused(1, "--kind", "counter", "--over", "drive.omega=0.153:0.17",
+                                "--set", "drive.omega=0.16")
+        self.assertRegex(librates, r"the last try: the orbit met at drive.omega = 0.15\d* librates\. Try another")
         none = self.refused(1, "--kind", "counter", "--over", "drive.omega=0.28:0.3", "--follow", "fold",
                             "--with", "model.kappa=1:2")
         self.assertIn("no fold lies between", none)
@@ -131,6 +134,13 @@ class Orbit(unittest.TestCase):
                               check=False)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertRegex(done.stderr, r"settled on no stable orbit .* last returns differ by [0-9.e-]+ .* was tried \d+")
+
+    def test_what_did_not_turn_regularly_has_no_returns_to_compare(self):
+        done = subprocess.run([FESTOON, "orbit", "--set", "run.periods=1", "--set", "run.discard=0"],
+                              capture_output=True, text=True, timeout=300, check=False)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertNotIn("inf", done.stderr)
+        self.assertRegex(done.stderr, r"did not turn regularly \(speed in the turning frame: [0-9.e-]+\)")
 
     def test_a_start_that_is_ejected(self):
         done = subprocess.run([FESTOON, "orbit", "--set", "drive.omega=5", "--set", "start.r=3"], capture_output=True,

@@ -309,8 +309,14 @@ static int search_at(const fst_tracer *t, double value, fst_node *start, fst_err
         return 0;
     s.value = value;
     s.on_section = 0;
-    return fst_solution_correct(&t->family, &s, NULL, why) == FST_OK &&
-           fst_node_make(&t->family, &s, start, why) == FST_OK && start->seen.turns < 0;
+    if (fst_solution_correct(&t->family, &s, NULL, why) != FST_OK ||
+        fst_node_make(&t->family, &s, start, why) != FST_OK)
+        return 0;
+    if (start->seen.turns < 0)
+        return 1;
+    (void)fst_fail(why, FST_NO_CONVERGENCE, "branch", "the orbit met at %s = %.10g %s", t->options->key, value,
+                   start->seen.turns == 0 ? "librates" : "does not counter-rotate");
+    return 0;
 }
 
 /* The symmetric orbit on which a curve of S1 orbits ends: followed there on trial. */

@@ -187,13 +187,18 @@ static int note_peak(search *s)
     return s->peaks > 2;
 }
 
-/* Whether the bead stands still in the turning frame. */
-static int is_locked(const search *s)
+/* The speed in the turning frame. */
+static double speed_of(const search *s)
 {
     double greatest = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         greatest = fmax(greatest, fabs(s->flow->step.k[12][i]));
-    return greatest < REST;
+    return greatest;
+}
+
+static int is_locked(const search *s)
+{
+    return speed_of(s) < REST;
 }
 
 static fst_status went_elsewhere(const search *s, const char *how, fst_error *error)
@@ -206,6 +211,23 @@ static fst_status went_elsewhere(const search *s, const char *how, fst_error *er
         "festoon locked lists the states in which the bead follows the magnet",
         how, s->model->groups.omega, s->flow->t.high / s->drive_period, hypot(y[FST_X], y[FST_Y]),
         atan2(y[FST_Y], y[FST_X]) * 360.0 / TWO_PI);
+}
+
+static fst_status never_settled(const search *s, double t_end, fst_error *error)
+{
+    char motion[120];
+    if (isfinite(s->full_distance))
+        (void)snprintf(motion, sizeof motion, "its last returns differ by %.3g (half turns: %.3g)",
+                       s->full_distance, s->half_distance);
+    else
+        (void)snprintf(motion, sizeof motion,
+                       "at the end it did not turn regularly (speed in the turning frame: %.3g)", speed_of(s));
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "orbit",
+        "the bead settled on no stable orbit within %.6g drive periods at omega = %.10g: %s, and Newton's "
+        "method was tried %d times. Try a longer run.periods or another start; festoon lyapunov tells whether "
+        "the motion is chaotic",
+        t_end / s->drive_period, s->model->groups.omega, motion, s->attempts);
 }
 
 static fst_status follow(search *s, double t_end, const fst_progress *progress, fst_solution *out,
@@ -240,12 +262,7 @@ static fst_status follow(search *s, double t_end, const fst_progress *progress, 
         if (s->flow->accepted % 64 == 0 && is_locked(s))
             return went_elsewhere(s, "locks to the magnet", error);
     }
-    return fst_fail(
-        error, FST_NO_CONVERGENCE, "orbit",
-        "the bead settled on no stable orbit within %.6g drive periods at omega = %.10g: its last returns "
-        "differ by %.3g (half turns: %.3g), and Newton's method was tried %d times. Try a longer "
-        "run.periods or another start; festoon lyapunov tells whether the motion is chaotic",
-        t_end / s->drive_period, s->model->groups.omega, s->full_distance, s->half_distance, s->attempts);
+    return never_settled(s, t_end, error);
 }
 
 fst_status fst_search_orbit(const fst_family *family, const fst_progress *progress, fst_solution *out,
