@@ -105,7 +105,15 @@ class BadInput(unittest.TestCase):
                 ((*counter, "--over", "drive.omega=0.2:0.3", "--follow", "foldd", "--with", "model.kappa=1:2"),
                  "the nearest is fold"),
                 ((*counter, "--over", "drive.omega=0.2:0.3", "--follow", "fold", "--with", "drive.omega=1:2"), "again"),
-                (("--kind", "locked", "--over", "model.kappa=-1:1"), "must be 0 to")):
+                (("--kind", "locked", "--over", "model.kappa=-1:1"), "must be 0 to"),
+                ((*counter, "--over", "drive.omega=-1:3"), "--over: drive.omega = -1 is out of range: it must be"),
+                ((*counter, "--over", "start.r=0.5:1"), "no orbit and no locked state depends on start.r"),
+                ((*counter, "--over", "run.periods=10:100"), "depends on run.periods"),
+                ((*counter, "--over", "plate.radius=0.01:0.02"), "depends on plate.radius"),
+                ((*counter, "--over", "drive.omega=0.25:0.3", "--follow", "pitchfork", "--with", "model.kappa=-2:3"),
+                 "--with: model.kappa = -2 is out of range"),
+                ((*counter, "--over", "drive.omega=0.25:0.3", "--follow", "pitchfork", "--with", "model.kappa=2:3"),
+                 "must lie within the range 2 to 3")):
             self.assertIn(part, self.refused(2, *words), words)
 
     def test_a_place_that_cannot_be_written_costs_no_work(self):
