@@ -39,7 +39,7 @@ int main(void)
         params.drive_omega = omegas[i];
         for (int k = 0; k < ROUNDS; ++k) {
             const double began = now();
-            if (fst_orbit_find(&params, &orbit, &error) != FST_OK)
+            if (fst_orbit_find(&params, NULL, &orbit, &error) != FST_OK)
                 return puts(error.sentence), 1;
             times[k] = now() - began;
         }

@@ -1,4 +1,4 @@
-"""The command branch under way and in trouble: progress, interruption, and what it says about bad input."""
+"""The commands branch, orbit and lyapunov under way and in trouble: progress, interruption, and what it says about bad input."""
 
 import json
 import os
@@ -18,13 +18,13 @@ def branch(*words):
 
 
 def interrupted(*words):
-    """Start a branch with a terminal as standard error, and interrupt it once its progress line says something."""
+    """Start a command with a terminal as standard error, and interrupt it once its progress line says something."""
     leader, follower = pty.openpty()
-    with subprocess.Popen([FESTOON, "branch", *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+    with subprocess.Popen([FESTOON, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=follower) as child:
         os.close(follower)
         seen = b""
-        while b"s left" not in seen:
+        while b" left" not in seen:
             seen += os.read(leader, 1000)
         child.send_signal(signal.SIGINT)
         while True:
@@ -45,7 +45,7 @@ class Interruption(unittest.TestCase):
     def check(self, *words):
         with tempfile.TemporaryDirectory() as directory:
             path = os.path.join(directory, "branch.json")
-            status, out, said = interrupted(*words, "-o", path)
+            status, out, said = interrupted("branch", *words, "-o", path)
             self.assertEqual((status, out), (130, b""), said)
             self.assertRegex(said, r"\d\.\d %  \d+ s left")
             self.assertIn("marked incomplete", said)
@@ -64,9 +64,19 @@ class Interruption(unittest.TestCase):
                    "--with", "model.kappa=0.8:3", "--tolerance", "1e-14", "--step", "0.01")
 
     def test_nothing_is_kept_without_a_file(self):
-        status, out, said = interrupted("--kind", "all", "--over", "drive.omega=0.02:5", "--step", "0.05")
+        status, out, said = interrupted("branch", "--kind", "all", "--over", "drive.omega=0.02:5", "--step", "0.05")
         self.assertEqual((status, out), (130, b""))
         self.assertIn("-o FILE.json would have kept", said)
+
+
+    def test_what_keeps_nothing(self):
+        """They end at the first signal, within the long computation and not after it."""
+        for words in (("lyapunov", "--set", "run.periods=100000"),
+                      ("lyapunov", "--set", "run.periods=1e6", "--set", "run.discard=9e5"),
+                      ("orbit", "--festoons", "12")):
+            status, out, said = interrupted(*words)
+            self.assertEqual((status, out), (130, b""), (words, said))
+            self.assertIn("interrupted after", said)
 
 
 class BadInput(unittest.TestCase):
@@ -95,7 +105,15 @@ class BadInput(unittest.TestCase):
                 ((*counter, "--over", "drive.omega=0.2:0.3", "--follow", "foldd", "--with", "model.kappa=1:2"),
                  "the nearest is fold"),
                 ((*counter, "--over", "drive.omega=0.2:0.3", "--follow", "fold", "--with", "drive.omega=1:2"), "again"),
-                (("--kind", "locked", "--over", "model.kappa=-1:1"), "must be 0 to")):
+                (("--kind", "locked", "--over", "model.kappa=-1:1"), "must be 0 to"),
+                ((*counter, "--over", "drive.omega=-1:3"), "--over: drive.omega = -1 is out of range: it must be"),
+                ((*counter, "--over", "start.r=0.5:1"), "no orbit and no locked state depends on start.r"),
+                ((*counter, "--over", "run.periods=10:100"), "depends on run.periods"),
+                ((*counter, "--over", "plate.radius=0.01:0.02"), "depends on plate.radius"),
+                ((*counter, "--over", "drive.omega=0.25:0.3", "--follow", "pitchfork", "--with", "model.kappa=-2:3"),
+                 "--with: model.kappa = -2 is out of range"),
+                ((*counter, "--over", "drive.omega=0.25:0.3", "--follow", "pitchfork", "--with", "model.kappa=2:3"),
+                 "must lie within the range 2 to 3")):
             self.assertIn(part, self.refused(2, *words), words)
 
     def test_a_place_that_cannot_be_written_costs_no_work(self):
@@ -109,6 +127,9 @@ class BadInput(unittest.TestCase):
         ejected = self.refused(1, "--kind", "counter", "--over", "drive.omega=5:6", "--set", "drive.omega=5",
                                "--set", "start.r=3")
         self.assertRegex(ejected, r"the bead flies away at omega = [0-9.]+ .*\. Try another range")
+        librates = self.refused(1, "--kind", "counter", "--over", "drive.omega=0.153:0.17",
+                                "--set", "drive.omega=0.16")
+        self.assertRegex(librates, r"the last try: the orbit met at drive.omega = 0.15\d* librates\. Try another")
         none = self.refused(1, "--kind", "counter", "--over", "drive.omega=0.28:0.3", "--follow", "fold",
                             "--with", "model.kappa=1:2")
         self.assertIn("no fold lies between", none)
@@ -121,6 +142,13 @@ class Orbit(unittest.TestCase):
                               check=False)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertRegex(done.stderr, r"settled on no stable orbit .* last returns differ by [0-9.e-]+ .* was tried \d+")
+
+    def test_what_did_not_turn_regularly_has_no_returns_to_compare(self):
+        done = subprocess.run([FESTOON, "orbit", "--set", "run.periods=1", "--set", "run.discard=0"],
+                              capture_output=True, text=True, timeout=300, check=False)
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertNotIn("inf", done.stderr)
+        self.assertRegex(done.stderr, r"did not turn regularly \(speed in the turning frame: [0-9.e-]+\)")
 
     def test_a_start_that_is_ejected(self):
         done = subprocess.run([FESTOON, "orbit", "--set", "drive.omega=5", "--set", "start.r=3"], capture_output=True,

@@ -141,7 +141,7 @@ static void librations_grow_from_a_hopf_point(void **state)
         fst_orbit orbit;
         fst_error error;
         params.run_periods = 4000;
-        if (fst_orbit_find(&params, &orbit, &error) != FST_OK)
+        if (fst_orbit_find(&params, NULL, &orbit, &error) != FST_OK)
             fail_msg("%s", error.sentence);
         assert_int_equal(orbit.turns, 0);
         const fst_solution rest = equilibrium(&family, omega, orbit.state);

@@ -8,7 +8,7 @@ static void one_orbit(void **state)
     const fst_params params = scene_of(1.0, "rigid");
     fst_orbit orbit;
     fst_error error;
-    if (fst_orbit_find(&params, &orbit, &error) != FST_OK)
+    if (fst_orbit_find(&params, NULL, &orbit, &error) != FST_OK)
         fail_msg("%s", error.sentence);
     assert_int_equal(orbit.symmetry, FST_SYMMETRY_S2);
     assert_true(orbit.stable);
@@ -41,7 +41,7 @@ static void exponents(void **state)
     params.run_discard = 1;
     fst_lyapunov l;
     double sum = 0.0;
-    assert_int_equal(fst_lyapunov_find(&params, &l, NULL), FST_OK);
+    assert_int_equal(fst_lyapunov_find(&params, NULL, &l, NULL), FST_OK);
     for (int i = 0; i < FST_EIGENVALUE_COUNT; ++i)
         sum += l.exponents[i];
     CHECK_CLOSE(sum, -7.0, 1e-6);

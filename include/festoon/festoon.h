@@ -390,10 +390,18 @@ typedef struct fst_orbit {
     double state[FST_STATE_SIZE]; /* on Phi = pi/2, passed downward; a libration: where r is greatest */
 } fst_orbit;
 
+/* Who is told how far a long computation is.  A status other than FST_OK ends it, with that status and with
+ * what the callback filled into `error`. */
+typedef struct fst_progress {
+    void *user;
+    fst_status (*tell)(void *user, double fraction, fst_error *error);
+} fst_progress;
+
 /* The stable orbit to which start.* leads: integrated until its returns come close, then polished by Newton's
  * method.  The plate's edge is ignored.  FST_NO_CONVERGENCE: no such orbit; the sentence tells where the bead
- * went instead (locked, ejected, irregular). */
-FST_API fst_status fst_orbit_find(const fst_params *params, fst_orbit *orbit, fst_error *error);
+ * went instead (locked, ejected, irregular).  `progress` may be NULL. */
+FST_API fst_status fst_orbit_find(const fst_params *params, const fst_progress *progress, fst_orbit *orbit,
+                                  fst_error *error);
 
 /* An equilibrium of the turning frame: the bead goes round with the magnet. */
 typedef struct fst_locked {
@@ -525,9 +533,9 @@ typedef struct fst_festoon_list {
 } fst_festoon_list;
 
 /* Every omega at which a stable counter-rotating pattern has exactly N festoons.  FST_NO_CONVERGENCE: none; the
- * sentence tells how far the branch reaches. */
-FST_API fst_status fst_festoons_find(const fst_params *params, double festoons, fst_festoon_list *list,
-                                     fst_error *error);
+ * sentence tells how far the branch reaches.  `progress` may be NULL. */
+FST_API fst_status fst_festoons_find(const fst_params *params, double festoons, const fst_progress *progress,
+                                     fst_festoon_list *list, fst_error *error);
 
 /* The same on a branch of the kind FST_BRANCH_COUNTER over drive.omega that fst_branch_follow() made of the
  * same parameters: for many N. */
@@ -548,8 +556,9 @@ typedef struct fst_lyapunov {
     double trace_time[FST_LYAPUNOV_TRACE], trace[FST_LYAPUNOV_TRACE][FST_EIGENVALUE_COUNT]; /* running means */
 } fst_lyapunov;
 
-/* From start.*, after run.discard drive periods, over the rest of run.periods. */
-FST_API fst_status fst_lyapunov_find(const fst_params *params, fst_lyapunov *out, fst_error *error);
+/* From start.*, after run.discard drive periods, over the rest of run.periods.  `progress` may be NULL. */
+FST_API fst_status fst_lyapunov_find(const fst_params *params, const fst_progress *progress, fst_lyapunov *out,
+                                     fst_error *error);
 
 /* ------------------------------------------------------------------ grids: the points of a sweep */
 

@@ -1,5 +1,6 @@
 /* lyapunov.c - festoon lyapunov: the spectrum of Lyapunov exponents of a motion. */
 #include "cli/command.h"
+#include "cli/terminal.h"
 
 static const option options[] = {
     SCENE_OPTIONS,
@@ -25,8 +26,13 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_params params;
     fst_lyapunov spectrum;
     fst_status status = read_scene(given, operand(given), &params, error);
-    if (status == FST_OK)
-        status = fst_lyapunov_find(&params, &spectrum, error);
+    if (status != FST_OK)
+        return status;
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    progress_begin(&line);
+    status = fst_lyapunov_find(&params, &progress, &spectrum, error);
+    progress_end(&line);
     if (status != FST_OK)
         return status;
     if (option_value(given, "json"))

@@ -1,5 +1,6 @@
 /* orbit.c - festoon orbit: the periodic orbit that a start leads to, or that has so many festoons. */
 #include "cli/command.h"
+#include "cli/terminal.h"
 
 static const option options[] = {
     SCENE_OPTIONS,
@@ -53,8 +54,13 @@ static fst_status with_festoons(const arguments *given, const fst_params *params
     double wanted;
     fst_festoon_list list;
     fst_status status = read_numbers("--festoons", option_value(given, "festoons"), &wanted, 1, error);
-    if (status == FST_OK)
-        status = fst_festoons_find(params, wanted, &list, error);
+    if (status != FST_OK)
+        return status;
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    progress_begin(&line);
+    status = fst_festoons_find(params, wanted, &progress, &list, error);
+    progress_end(&line);
     if (status != FST_OK)
         return status;
     if (option_value(given, "json"))
@@ -74,8 +80,13 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK && option_value(given, "festoons"))
         return with_festoons(given, &params, out, error);
-    if (status == FST_OK)
-        status = fst_orbit_find(&params, &orbit, error);
+    if (status != FST_OK)
+        return status;
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    progress_begin(&line);
+    status = fst_orbit_find(&params, &progress, &orbit, error);
+    progress_end(&line);
     if (status != FST_OK)
         return status;
     if (option_value(given, "json"))

@@ -103,6 +103,11 @@ fst_status progress_show(progress_line *line, double fraction, const char *what,
                               what, error);
 }
 
+fst_status progress_tell(void *line, double fraction, fst_error *error)
+{
+    return progress_show(line, fraction, NULL, error);
+}
+
 void progress_end(progress_line *line)
 {
     if (line->visible && line->shown > line->started)

@@ -305,12 +305,18 @@ static int search_at(const fst_tracer *t, double value, fst_node *start, fst_err
     fixed.params = fst_family_params(&t->family, value);
     fixed.params.run_periods = fmin(fixed.params.run_periods, 200.0);
     fixed.params.run_discard = 0.0;
-    if (fst_search_orbit(&fixed, &s, why) != FST_OK)
+    if (fst_search_orbit(&fixed, NULL, &s, why) != FST_OK)
         return 0;
     s.value = value;
     s.on_section = 0;
-    return fst_solution_correct(&t->family, &s, NULL, why) == FST_OK &&
-           fst_node_make(&t->family, &s, start, why) == FST_OK && start->seen.turns < 0;
+    if (fst_solution_correct(&t->family, &s, NULL, why) != FST_OK ||
+        fst_node_make(&t->family, &s, start, why) != FST_OK)
+        return 0;
+    if (start->seen.turns < 0)
+        return 1;
+    (void)fst_fail(why, FST_NO_CONVERGENCE, "branch", "the orbit met at %s = %.10g %s", t->options->key, value,
+                   start->seen.turns == 0 ? "librates" : "does not counter-rotate");
+    return 0;
 }
 
 /* The symmetric orbit on which a curve of S1 orbits ends: followed there on trial. */
@@ -491,11 +497,31 @@ static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_e
     return status;
 }
 
+/* Curves over two parameters begin at the scene's value of the second: it must lie within its range. */
+static fst_status check_second(const fst_params *params, const fst_branch_options *o, fst_error *error)
+{
+    fst_family second;
+    if (!o->second_key)
+        return FST_OK;
+    const fst_status status = fst_family_begin(&second, params, o->second_key, error);
+    if (status != FST_OK)
+        return status;
+    const double at = fst_family_value(&second);
+    if (at < fmin(o->second_from, o->second_to) || at > fmax(o->second_from, o->second_to))
+        return fst_fail(
+            error, FST_BAD_INPUT, "fst_branch_follow",
+            "the curves begin at the scene's %s = %.10g, which must lie within the range %.10g to %.10g",
+            o->second_key, at, o->second_from, o->second_to);
+    return FST_OK;
+}
+
 fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options, fst_branch *branch,
                              fst_error *error)
 {
     memset(branch, 0, sizeof *branch);
     fst_status status = check(options, error);
+    if (status == FST_OK)
+        status = check_second(params, options, error);
     if (status != FST_OK)
         return status;
     fst_tracer *t = calloc(1, sizeof *t);

@@ -168,6 +168,12 @@ fst_status fst_orbit_from_solution(const fst_family *family, const fst_solution 
         if (status == FST_OK)
             status = fst_solution_spectrum(&fixed, &at, error);
     }
+    if (status == FST_OK && !fst_solution_moves(family, &at))
+        status =
+            fst_fail(error, FST_NO_CONVERGENCE, "orbit",
+                     "what was found at %.10g stands still in the turning frame, or does not repeat itself "
+                     "(the flow direction is mapped onto itself to %.2g)",
+                     at.value, at.trivial_error);
     if (status == FST_OK)
         status = fst_describe_orbit(family, &at, 1, &d, error);
     if (status != FST_OK)

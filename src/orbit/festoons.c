@@ -216,17 +216,26 @@ static fst_status none_closes(const fst_festoon_list *list, double festoons, fst
                     festoons, list->from, list->to, reach[0], reach[1]);
 }
 
+static fst_status check_number(double festoons, fst_error *error)
+{
+    return festoons > 1 && festoons < 1e6
+               ? FST_OK
+               : fst_fail(error, FST_BAD_INPUT, "festoons",
+                          "%g festoons: the number must be greater than 1 and less than 1e6", festoons);
+}
+
 fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
                            fst_festoon_list *list, fst_error *error)
 {
     memset(list, 0, sizeof *list);
-    if (!(festoons > 1) || !(festoons < 1e6))
-        return fst_fail(error, FST_BAD_INPUT, "festoons", "%g festoons: give a number above 1", festoons);
+    fst_status status = check_number(festoons, error);
+    if (status != FST_OK)
+        return status;
     if (branch->kind != FST_BRANCH_COUNTER || strcmp(branch->key, "drive.omega") != 0 || branch->second_key[0])
         return fst_fail(error, FST_BAD_INPUT, "festoons",
                         "the branch is none of counter-rotation over drive.omega");
     fst_family family;
-    fst_status status = fst_family_begin(&family, params, "drive.omega", error);
+    status = fst_family_begin(&family, params, "drive.omega", error);
     list->least[0] = list->least[1] = list->from = INFINITY;
     list->greatest[0] = list->greatest[1] = list->to = -INFINITY;
     for (size_t i = 0; i < branch->point_count; ++i)
@@ -243,18 +252,24 @@ fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, d
     return status;
 }
 
-fst_status fst_festoons_find(const fst_params *params, double festoons, fst_festoon_list *list,
-                             fst_error *error)
+fst_status fst_festoons_find(const fst_params *params, double festoons, const fst_progress *progress,
+                             fst_festoon_list *list, fst_error *error)
 {
     memset(list, 0, sizeof *list);
+    fst_status status = check_number(festoons, error); /* before any work is done */
+    if (status != FST_OK)
+        return status;
     fst_branch branch;
     fst_branch_options o = fst_default_branch_options();
     o.from = 0.02;
     o.to = 10.0;
-    fst_status status = fst_branch_follow(params, &o, &branch, error);
-    if (status != FST_OK)
-        return status;
-    status = fst_festoons_on(params, &branch, festoons, list, error);
+    if (progress) {
+        o.user = progress->user;
+        o.progress = progress->tell;
+    }
+    status = fst_branch_follow(params, &o, &branch, error);
+    if (status == FST_OK)
+        status = fst_festoons_on(params, &branch, festoons, list, error);
     fst_branch_free(&branch);
     return status;
 }

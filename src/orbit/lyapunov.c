@@ -14,6 +14,9 @@ enum {
     ALIGNING = 20 /* drive periods in which the vectors turn into place */
 };
 
+/* Of the work of a time in which the tangents are carried, a time in which they are not. */
+#define DISCARD_WORK 0.1
+
 /* What is carried along. */
 typedef struct spectrum {
     fst_setup setup;
@@ -22,6 +25,8 @@ typedef struct spectrum {
     double growth[N];  /* sums of logarithms */
     double divergence; /* integral of the trace of the Jacobian */
     double time;
+    const fst_progress *progress;
+    double passed, whole; /* of the work: the time since the start, and all of it */
 } spectrum;
 
 /* Make the columns orthonormal (modified Gram-Schmidt, twice against rounding), and note how they grew. */
@@ -71,11 +76,14 @@ static fst_status go_on(spectrum *s, double span, double piece, fst_error *error
     const int pieces = (int)ceil(span / piece);
     for (int i = 0; i < pieces; ++i) {
         const double before = divergence_at(s);
-        const fst_status status = fst_carry(&s->setup, s->tolerance, span / pieces, s->y, s->tangent, error);
+        fst_status status = fst_tell(s->progress, s->passed / s->whole, error);
+        if (status == FST_OK)
+            status = fst_carry(&s->setup, s->tolerance, span / pieces, s->y, s->tangent, error);
         if (status != FST_OK)
             return status;
         s->divergence += 0.5 * (before + divergence_at(s)) * (span / pieces);
         orthonormalise(s);
+        s->passed += span / pieces;
     }
     s->time += span;
     return FST_OK;
@@ -155,7 +163,40 @@ static fst_status measure(spectrum *s, double duration, double period, fst_lyapu
     return FST_OK;
 }
 
-fst_status fst_lyapunov_find(const fst_params *params, fst_lyapunov *out, fst_error *error)
+/* What is left out: from the start to the end of run.discard, in stretches between which the caller is told. */
+static fst_status discard(spectrum *s, const fst_family *family, double period, fst_error *error)
+{
+    const double stretch = 250.0, periods = family->params.run_discard;
+    double start[FST_STATE_SIZE];
+    fst_model *model = NULL;
+    fst_flow *flow = NULL;
+    fst_stop stop = FST_STOP_TIME;
+    fst_status status = fst_start_state(&family->params, &s->setup.model, start, error);
+    if (status == FST_OK)
+        status = fst_solution_flow(family, 0.0, start, s->tolerance, &model, &flow, error);
+    if (status != FST_OK)
+        return status;
+    for (double done = 0.0; status == FST_OK && stop == FST_STOP_TIME && done < periods;) {
+        done = fmin(done + stretch, periods);
+        status = fst_tell(s->progress, s->passed / s->whole, error);
+        if (status == FST_OK)
+            status = fst_flow_advance(flow, done * period, 1u << FST_STOP_EDGE, &stop, error);
+        s->passed = DISCARD_WORK * done * period;
+    }
+    memcpy(s->y, fst_flow_get(flow).state, sizeof s->y);
+    fst_flow_free(flow);
+    fst_model_free(model);
+    return status == FST_OK && stop == FST_STOP_EDGE
+               ? fst_fail(
+                     error, FST_NO_CONVERGENCE, "lyapunov",
+                     "the bead passed the plate's edge (r = %.6g) during the discard: there is no motion to "
+                     "measure",
+                     s->setup.model.groups.plate_radius)
+               : status;
+}
+
+fst_status fst_lyapunov_find(const fst_params *params, const fst_progress *progress, fst_lyapunov *out,
+                             fst_error *error)
 {
     memset(out, 0, sizeof *out);
     fst_family family;
@@ -164,32 +205,17 @@ fst_status fst_lyapunov_find(const fst_params *params, fst_lyapunov *out, fst_er
     memset(&family, 0, sizeof family);
     family.params = *params;
     family.key = -1;
-    fst_model *model = NULL;
-    fst_flow *flow = NULL;
     s.tolerance = fmax(params->run_rtol, 1e-10);
-    double start[FST_STATE_SIZE];
+    s.progress = progress;
     fst_status status = fst_family_setup(&family, 0.0, &s.setup, error);
-    if (status == FST_OK)
-        status = fst_start_state(params, &s.setup.model, start, error);
-    if (status == FST_OK)
-        status = fst_solution_flow(&family, 0.0, start, s.tolerance, &model, &flow, error);
     if (status != FST_OK)
         return status;
     const double period = TWO_PI / s.setup.model.groups.omega;
-    const double edge = s.setup.model.groups.plate_radius;
-    fst_stop stop;
-    status = fst_flow_advance(flow, params->run_discard * period, 1u << FST_STOP_EDGE, &stop, error);
-    memcpy(s.y, fst_flow_get(flow).state, sizeof s.y);
-    fst_flow_free(flow);
-    fst_model_free(model);
-    if (status == FST_OK && params->run_discard > 0 && stop == FST_STOP_EDGE)
-        status =
-            fst_fail(error, FST_NO_CONVERGENCE, "lyapunov",
-                     "the bead passed the plate's edge (r = %.6g) during the discard: there is no motion to "
-                     "measure",
-                     edge);
+    const double measured = params->run_periods - params->run_discard;
+    s.whole = (DISCARD_WORK * params->run_discard + ALIGNING + measured) * period;
+    status = discard(&s, &family, period, error);
     if (status != FST_OK)
         return status;
     start_tangents(&s);
-    return measure(&s, (params->run_periods - params->run_discard) * period, period, out, error);
+    return measure(&s, measured * period, period, out, error);
 }

@@ -14,6 +14,9 @@
 
 #define SEARCH_TOLERANCE 1e-8 /* of the way to the orbit, which Newton's method then finds exactly */
 
+/* The speed that is taken for rest: what the errors of the steps leave of it. */
+#define REST (10.0 * SEARCH_TOLERANCE)
+
 enum { PEAKS = 48 };
 
 /* A trajectory that is watched for returns. */
@@ -23,7 +26,8 @@ typedef struct search {
     fst_flow *flow;
     double section[3][FST_STATE_SIZE]; /* the latest passages of X = 0, on the side Y > 0 (images under S2) */
     double section_time[3];
-    int passages; /* since the turning was last irregular */
+    int passages;    /* since the turning was last irregular */
+    int peaks_since; /* the latest passage: a bead that turns has one or two to a half turn */
     int last_half;
     double peak[PEAKS][FST_STATE_SIZE]; /* the latest places where r was greatest */
     double peak_time[PEAKS];
@@ -31,6 +35,7 @@ typedef struct search {
     double half_distance, full_distance; /* of the latest returns */
     double drive_period;
     int attempts;
+    int at_rest; /* the latest guess ended at an equilibrium that attracts */
 } search;
 
 static double distance(const double *a, const double *b)
@@ -39,6 +44,25 @@ static double distance(const double *a, const double *b)
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         greatest = fabs(a[i] - b[i]) > greatest ? fabs(a[i] - b[i]) : greatest;
     return greatest;
+}
+
+/* Whether the bead comes to rest: an equilibrium that attracts lies near a state where the search stands, and
+ * the swings about it decay. */
+static int comes_to_rest(const search *s, const double *near)
+{
+    const int kept = s->peaks < PEAKS ? s->peaks : PEAKS;
+    fst_solution rest;
+    fst_error ignored;
+    if (kept < 2)
+        return 0;
+    memset(&rest, 0, sizeof rest);
+    memcpy(rest.y[0], near, sizeof rest.y[0]);
+    if (fst_solution_correct(s->family, &rest, NULL, &ignored) != FST_OK ||
+        fst_solution_spectrum(s->family, &rest, &ignored) != FST_OK || !fst_solution_is_stable(&rest))
+        return 0;
+    const double first = distance(s->peak[(s->peaks - kept) % PEAKS], rest.y[0]);
+    const double last = distance(s->peak[(s->peaks - 1) % PEAKS], rest.y[0]);
+    return last < first && last < 0.1;
 }
 
 /* Newton's method from a guess.  The orbit is the one that the bead approaches if it attracts, and if the bead
@@ -50,9 +74,16 @@ static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
     const double period = guess->period;
     memcpy(start, guess->y[0], sizeof start);
     s->attempts += 1;
+    s->at_rest = 0;
     if (fst_solution_chain(s->family, guess, guess->symmetric ? 1 : 2, error) != FST_OK ||
         fst_solution_correct(s->family, guess, NULL, error) != FST_OK ||
-        fst_solution_spectrum(s->family, guess, error) != FST_OK || !fst_solution_is_stable(guess))
+        fst_solution_spectrum(s->family, guess, error) != FST_OK)
+        return 0;
+    if (!fst_solution_moves(s->family, guess)) { /* equilibria solve the equations of orbits, with any period */
+        s->at_rest = comes_to_rest(s, guess->y[0]);
+        return 0;
+    }
+    if (!fst_solution_is_stable(guess))
         return 0;
     for (int i = 0; i < guess->multipliers; ++i)
         greatest = fmax(greatest, hypot(guess->re[i], guess->im[i]));
@@ -125,6 +156,7 @@ static int note_passage(search *s)
                          : fst_flow_locate(s->flow, fst_section_function, 0.0, 1.0, start[FST_X], end[FST_X]);
     fst_flow_at(s->flow, x, y);
     const int half = y[FST_Y] > 0 ? 1 : -1, downward = (end[FST_X] >= 0) == (half > 0);
+    s->peaks_since = 0;
     s->passages = downward && half != s->last_half ? s->passages + 1 : 1;
     s->last_half = downward ? half : 0;
     if (half < 0)
@@ -148,16 +180,25 @@ static int note_peak(search *s)
     fst_flow_at(s->flow, x, s->peak[s->peaks % PEAKS]);
     s->peak_time[s->peaks % PEAKS] = fst_flow_time(s->flow, x).high;
     s->peaks += 1;
+    if (++s->peaks_since >= 4) { /* it turned for a while, and was caught */
+        s->passages = s->last_half = 0;
+        s->half_distance = s->full_distance = INFINITY;
+    }
     return s->peaks > 2;
 }
 
-/* Whether the bead stands still in the turning frame. */
-static int is_locked(const search *s)
+/* The speed in the turning frame. */
+static double speed_of(const search *s)
 {
     double greatest = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         greatest = fmax(greatest, fabs(s->flow->step.k[12][i]));
-    return greatest < 1e-8;
+    return greatest;
+}
+
+static int is_locked(const search *s)
+{
+    return speed_of(s) < REST;
 }
 
 static fst_status went_elsewhere(const search *s, const char *how, fst_error *error)
@@ -172,11 +213,31 @@ static fst_status went_elsewhere(const search *s, const char *how, fst_error *er
         atan2(y[FST_Y], y[FST_X]) * 360.0 / TWO_PI);
 }
 
-static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *error)
+static fst_status never_settled(const search *s, double t_end, fst_error *error)
+{
+    char motion[120];
+    if (isfinite(s->full_distance))
+        (void)snprintf(motion, sizeof motion, "its last returns differ by %.3g (half turns: %.3g)",
+                       s->full_distance, s->half_distance);
+    else
+        (void)snprintf(motion, sizeof motion,
+                       "at the end it did not turn regularly (speed in the turning frame: %.3g)", speed_of(s));
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "orbit",
+        "the bead settled on no stable orbit within %.6g drive periods at omega = %.10g: %s, and Newton's "
+        "method was tried %d times. Try a longer run.periods or another start; festoon lyapunov tells whether "
+        "the motion is chaotic",
+        t_end / s->drive_period, s->model->groups.omega, motion, s->attempts);
+}
+
+static fst_status follow(search *s, double t_end, const fst_progress *progress, fst_solution *out,
+                         fst_error *error)
 {
     int turns = 0, peaks = 0;
     while (s->flow->t.high < t_end) {
-        const fst_status status = fst_flow_step(s->flow, t_end, error);
+        fst_status status = fst_flow_step(s->flow, t_end, error);
+        if (status == FST_OK && s->flow->accepted % 64 == 0)
+            status = fst_tell(progress, s->flow->t.high / t_end, error);
         if (status != FST_OK)
             return status;
         const double r = hypot(s->flow->step.end[FST_X], s->flow->step.end[FST_Y]);
@@ -195,19 +256,17 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
                 return went_elsewhere(s, "locks to the magnet", error);
             if (peaks % 16 == 0 && try_librating(s, out, &ignored))
                 return FST_OK;
+            if (peaks % 16 == 0 && s->at_rest)
+                return went_elsewhere(s, "locks to the magnet", error);
         }
         if (s->flow->accepted % 64 == 0 && is_locked(s))
             return went_elsewhere(s, "locks to the magnet", error);
     }
-    return fst_fail(
-        error, FST_NO_CONVERGENCE, "orbit",
-        "the bead settled on no stable orbit within %.6g drive periods at omega = %.10g: its last returns "
-        "differ by %.3g (half turns: %.3g), and Newton's method was tried %d times. Try a longer "
-        "run.periods or another start; festoon lyapunov tells whether the motion is chaotic",
-        t_end / s->drive_period, s->model->groups.omega, s->full_distance, s->half_distance, s->attempts);
+    return never_settled(s, t_end, error);
 }
 
-fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_error *error)
+fst_status fst_search_orbit(const fst_family *family, const fst_progress *progress, fst_solution *out,
+                            fst_error *error)
 {
     search *s = calloc(1, sizeof *s);
     if (!s)
@@ -223,7 +282,7 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_err
         status = fst_solution_flow(family, 0.0, start, SEARCH_TOLERANCE, &s->model, &s->flow, error);
     if (status == FST_OK) {
         s->drive_period = TWO_PI / model->groups.omega;
-        status = follow(s, family->params.run_periods * s->drive_period, out, error);
+        status = follow(s, family->params.run_periods * s->drive_period, progress, out, error);
     }
     fst_flow_free(s->flow);
     fst_model_free(s->model);
@@ -232,7 +291,8 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_err
     return status;
 }
 
-fst_status fst_orbit_find(const fst_params *params, fst_orbit *orbit, fst_error *error)
+fst_status fst_orbit_find(const fst_params *params, const fst_progress *progress, fst_orbit *orbit,
+                          fst_error *error)
 {
     fst_family family;
     fst_solution solution;
@@ -240,7 +300,7 @@ fst_status fst_orbit_find(const fst_params *params, fst_orbit *orbit, fst_error 
     fst_result_clear(&orbit->means);
     fst_status status = fst_family_begin(&family, params, NULL, error);
     if (status == FST_OK)
-        status = fst_search_orbit(&family, &solution, error);
+        status = fst_search_orbit(&family, progress, &solution, error);
     if (status == FST_OK)
         status = fst_orbit_from_solution(&family, &solution, orbit, error);
     return status;

@@ -41,6 +41,12 @@ typedef struct fst_solution {
     double re[FST_MULTIPLIERS], im[FST_MULTIPLIERS];
 } fst_solution;
 
+/* Tell the caller; FST_OK where there is nobody to tell. */
+static inline fst_status fst_tell(const fst_progress *progress, double fraction, fst_error *error)
+{
+    return progress ? progress->tell(progress->user, fraction, error) : FST_OK;
+}
+
 static inline int fst_states_of(const fst_solution *s)
 {
     return s->segments > 0 ? s->segments : 1;
@@ -86,6 +92,10 @@ fst_status fst_solution_eigenvector(const fst_family *family, const fst_solution
 
 /* Whether it attracts: multipliers within the unit circle, eigenvalues on the left. */
 int fst_solution_is_stable(const fst_solution *s);
+
+/* Whether a chain with its spectrum is an orbit: an equilibrium, too, comes back to itself after any time, but
+ * has no flow direction. */
+int fst_solution_moves(const fst_family *family, const fst_solution *s);
 
 /* The time in which a small disturbance falls by e; NAN: it does not. */
 double fst_solution_relaxation(const fst_solution *s);

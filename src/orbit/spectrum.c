@@ -151,6 +151,19 @@ int fst_solution_is_stable(const fst_solution *s)
     return 1;
 }
 
+int fst_solution_moves(const fst_family *family, const fst_solution *s)
+{
+    fst_setup setup;
+    fst_error ignored;
+    double f[FST_STATE_SIZE], greatest = 0.0;
+    if (s->segments == 0 || fst_family_setup(family, s->value, &setup, &ignored) != FST_OK)
+        return 0;
+    fst_setup_rhs(&setup, s->y[0], f);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        greatest = fmax(greatest, fabs(f[i]));
+    return greatest * s->period > 1e-6 && s->trivial_error < 1e-6;
+}
+
 double fst_solution_relaxation(const fst_solution *s)
 {
     double slowest = -INFINITY;
