@@ -176,13 +176,12 @@ MEASURE(corotation_force)
 
 MEASURE(paramagnet_counter)
 {
-    (void)dynamics;
     int fates[FST_FATE_COUNT] = {0}, at_first = 0;
     double longest = 0.0;
     for (int i = 0; i < paper->search_count; i++) {
-        fates[paper->search[i].last]++;
-        at_first += paper->search[i].first == FST_FATE_COUNTER;
-        longest = fmax(longest, paper->search[i].periods);
+        fates[paper->search[dynamics][i].last]++;
+        at_first += paper->search[dynamics][i].first == FST_FATE_COUNTER;
+        longest = fmax(longest, paper->search[dynamics][i].periods);
     }
     (void)snprintf(
         note, size,
@@ -194,12 +193,13 @@ MEASURE(paramagnet_counter)
     return fates[FST_FATE_COUNTER];
 }
 
-static double worst_residual(const fst_paper_state *paper, fst_balance_kind kind, char *note, size_t size)
+static double worst_residual(const fst_paper_state *paper, fst_dynamics dynamics, fst_balance_kind kind,
+                             char *note, size_t size)
 {
     double residual = 0.0, boundary = 0.0;
     for (int i = 0; i < FST_BALANCE_CASES; i++) {
-        residual = fmax(residual, fst_balance_residual(&paper->balances[i].of[kind]));
-        boundary = fmax(boundary, fst_balance_boundary(&paper->balances[i].of[kind]));
+        residual = fmax(residual, fst_balance_residual(&paper->balances[dynamics][i].of[kind]));
+        boundary = fmax(boundary, fst_balance_boundary(&paper->balances[dynamics][i].of[kind]));
     }
     (void)snprintf(
         note, size,
@@ -211,29 +211,25 @@ static double worst_residual(const fst_paper_state *paper, fst_balance_kind kind
 
 MEASURE(tondu)
 {
-    (void)dynamics;
-    return worst_residual(paper, FST_BALANCE_ENERGY, note, size);
+    return worst_residual(paper, dynamics, FST_BALANCE_ENERGY, note, size);
 }
 
 MEASURE(friction_moment)
 {
-    (void)dynamics;
-    return worst_residual(paper, FST_BALANCE_MOMENT, note, size);
+    return worst_residual(paper, dynamics, FST_BALANCE_MOMENT, note, size);
 }
 
 MEASURE(friction_on_centre)
 {
-    (void)dynamics;
-    return worst_residual(paper, FST_BALANCE_KINETIC, note, size);
+    return worst_residual(paper, dynamics, FST_BALANCE_KINETIC, note, size);
 }
 
 MEASURE(friction_moment_sign)
 {
-    (void)dynamics;
     int wrong = 0;
     double least = INFINITY;
     for (int i = 0; i < FST_BALANCE_CASES; i++) {
-        double moment = paper->balances[i].of[FST_BALANCE_MOMENT].friction;
+        double moment = paper->balances[dynamics][i].of[FST_BALANCE_MOMENT].friction;
         wrong += !(moment > 0.0);
         least = fmin(least, moment);
     }
@@ -243,18 +239,16 @@ MEASURE(friction_moment_sign)
 
 MEASURE(friction_on_centre_sign)
 {
-    (void)dynamics;
     int wrong = 0;
     for (int i = 0; i < FST_BALANCE_CASES; i++)
-        wrong += !(paper->balances[i].of[FST_BALANCE_KINETIC].friction > 0.0);
+        wrong += !(paper->balances[dynamics][i].of[FST_BALANCE_KINETIC].friction > 0.0);
     (void)snprintf(note, size, "of three motions, drives 0.1, 0.3 and 0.6");
     return wrong;
 }
 
 MEASURE(splitting)
 {
-    (void)dynamics;
-    const fst_balances *fastest = &paper->balances[FST_BALANCE_CASES - 1];
+    const fst_balances *fastest = &paper->balances[dynamics][FST_BALANCE_CASES - 1];
     double product = fastest->mean_alpha_dot * fastest->of[FST_BALANCE_MOMENT].friction;
     (void)snprintf(
         note, size,
@@ -295,17 +289,15 @@ MEASURE(paramagnet_torque)
 
 MEASURE(rolling_identity)
 {
-    (void)dynamics;
-    return worst_residual(paper, FST_BALANCE_ROLLING, note, size);
+    return worst_residual(paper, dynamics, FST_BALANCE_ROLLING, note, size);
 }
 
 MEASURE(remanence)
 {
-    (void)dynamics;
     (void)snprintf(note, size,
-                   "least κ of a magnetisable bead, a = %g, at the drive %g (rigid); a neodymium bead has 1.5",
+                   "least κ of a magnetisable bead, a = %g, at the drive %g; a neodymium bead has 1.5",
                    fst_remanence_strengths[0], fst_remanence_drives[0]);
-    return 100.0 * paper->remanence[0][0] / 1.5;
+    return 100.0 * paper->remanence[dynamics][0][0] / 1.5;
 }
 
 MEASURE(anisotropy)

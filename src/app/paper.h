@@ -136,10 +136,10 @@ typedef struct fst_paper_state {
     fst_paper_bracket changes[FST_CHANGE_COUNT][FST_PAPER_DYNAMICS];
     fst_paper_halving halving[FST_PAPER_DYNAMICS];
     fst_paper_ansatz ansatz[FST_PAPER_DYNAMICS][FST_ANSATZ_DRIVES][FST_ANSATZ_STARTS];
-    fst_search_entry *search; /* the same for both dynamics: a paramagnetic bead has no magnetic axis to turn */
+    fst_search_entry *search[FST_PAPER_DYNAMICS]; /* the same starts with both dynamics */
     int search_count;
-    fst_balances balances[FST_BALANCE_CASES];
-    double remanence[FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS]; /* least kappa, dynamics rigid */
+    fst_balances balances[FST_PAPER_DYNAMICS][FST_BALANCE_CASES];
+    double remanence[FST_PAPER_DYNAMICS][FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS]; /* least kappa */
     double seconds; /* the time that all took, and its parts in their order */
     fst_paper_part parts[FST_MOST_PARTS];
     int part_count;

@@ -286,8 +286,10 @@ int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan sc
 
 void fst_paper_free_runs(fst_paper_state *paper)
 {
-    free(paper->search);
-    paper->search = NULL;
+    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
+        free(paper->search[dynamics]);
+        paper->search[dynamics] = NULL;
+    }
     for (int scan = 0; scan < FST_SCAN_COUNT; scan++) {
         for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
             for (int i = 0; paper->scans[scan][dynamics] && i < paper->counts[scan]; i++)
