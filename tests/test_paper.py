@@ -254,6 +254,20 @@ class Paper(unittest.TestCase):
     def test_what_the_drive_gives_friction_takes(self):
         self.assertLess(self.statement("energy")["farago2020"], 1e-6)
 
+    def test_corotation_ends_where_the_locked_state_does(self):
+        """By the eigenvalues: a state stable below, none above."""
+        gamma = 312.5
+        for dynamics in ("farago2020", "rigid"):
+            hertz = self.statement("corotation")[dynamics]
+            stable = []
+            for frequency in (hertz - 0.2, hertz + 0.2):
+                done = run("locked", "--set", f"drive.omega={2 * math.pi * frequency / gamma!r}", "--set",
+                           f"model.dynamics={dynamics}", "--json")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                stable.append(sum(state["stable"] for state in json.loads(done.stdout)["states"]))
+            self.assertTrue(stable[0] > 0 and stable[1] == 0, (dynamics, hertz, stable))
+            self.assertRegex(self.statement("corotation")[f"{dynamics}_note"], r"up to 8\.[89]\d ± 0\.\d\d Hz")
+
     def test_a_locked_bead_does_not_slip(self):
         """No magnetic torque acts along n, so the spin about it grows until the contact is at rest."""
         done = run("locked", "--set", "drive.omega=0.05", "--json")

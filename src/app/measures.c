@@ -270,19 +270,16 @@ MEASURE(onset)
 MEASURE(corotation)
 {
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_SLOW, dynamics);
-    fst_paper_bracket bracket = paper->changes[FST_CHANGE_COROTATION][dynamics];
-    double hertz = run->params.friction_gamma / (2.0 * PI), locked = 0.0;
-    for (int i = 0; i < paper->counts[FST_SCAN_SLOW]; i++) {
-        const fst_run_result *result = &paper->scans[FST_SCAN_SLOW][dynamics][i].result;
-        if (result->regime != FST_REGIME_LOCKED)
-            break;
-        locked = result->frequency_hz;
-    }
-    (void)snprintf(note, size,
-                   "released at rest; strictly locked up to %.1f Hz, above that also swinging about the "
-                   "magnet while it goes round with it",
-                   locked);
-    return 0.5 * (bracket.low + bracket.high) * hertz;
+    double hertz = run->params.friction_gamma / (2.0 * PI);
+    fst_paper_bracket locked = paper->changes[FST_CHANGE_LOCKED][dynamics],
+                      swinging = paper->changes[FST_CHANGE_COROTATION][dynamics];
+    (void)snprintf(
+        note, size,
+        "released at rest, ⟨α′⟩ = ω and r and Φ constant up to here (± %.2f Hz: by bisection); beyond, the "
+        "bead swings about the magnet while it goes round with it, up to %.2f ± %.2f Hz",
+        0.5 * (locked.high - locked.low) * hertz, 0.5 * (swinging.low + swinging.high) * hertz,
+        0.5 * (swinging.high - swinging.low) * hertz);
+    return 0.5 * (locked.low + locked.high) * hertz;
 }
 
 MEASURE(irregular)

@@ -25,7 +25,7 @@ FST_MEASURE(halving)             /* omega of the period halving */
 FST_MEASURE(halving_branch)      /* 1: supercritical, -1: subcritical */
 FST_MEASURE(two_poles)           /* stable locked states at the slowest drive */
 FST_MEASURE(onset)               /* lowest frequency of counter-rotation, Hz */
-FST_MEASURE(corotation)          /* greatest frequency of corotation from rest, Hz */
+FST_MEASURE(corotation)          /* greatest frequency at which a bead from rest is locked, Hz */
 FST_MEASURE(irregular)           /* share of irregular runs between 7 and 10 Hz, % */
 FST_MEASURE(bell)                /* frequency of least |alpha'|, Hz */
 FST_MEASURE(bell_shape)     /* runs at which |alpha'| does not fall to the bell's top, or not grow after it */

@@ -57,6 +57,7 @@ typedef struct fst_paper_bracket {
 
 typedef enum {
     FST_CHANGE_HALVING,    /* S1 below, S2 above */
+    FST_CHANGE_LOCKED,     /* at rest under the magnet below, swinging or gone above */
     FST_CHANGE_COROTATION, /* goes round with the magnet below, no longer above */
     FST_CHANGE_COUNT
 } fst_change;
