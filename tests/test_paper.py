@@ -268,8 +268,9 @@ class Paper(unittest.TestCase):
             self.assertTrue(stable[0] > 0 and stable[1] == 0, (dynamics, hertz, stable))
             self.assertRegex(self.statement("corotation")[f"{dynamics}_note"], r"up to 8\.[89]\d ± 0\.\d\d Hz")
 
-    def test_a_locked_bead_does_not_slip(self):
-        """No magnetic torque acts along n, so the spin about it grows until the contact is at rest."""
+    def test_a_bead_locked_on_the_axis_does_not_slip_and_one_beside_it_does(self):
+        """No magnetic torque acts along n: with Phi = 0 the spin about it grows until the contact is at rest. Beside
+        the axis, Phi = -20 deg, the pull has to balance friction, which costs more than counter-rotation."""
         done = run("locked", "--set", "drive.omega=0.05", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         slips = [state["slip"] for state in json.loads(done.stdout)["states"] if state["stable"]]
@@ -277,6 +278,13 @@ class Paper(unittest.TestCase):
         slowest = json.loads(run("run", "--set", "drive.omega=0.02", "--set", "start.spin=rest", "--json").stdout)
         self.assertEqual(slowest["regime"], "locked")
         self.assertLess(slowest["mean_friction_power"], 1e-12)
+        state = json.loads(run("locked", "--set", "drive.omega=0.13", "--json").stdout)["states"][0]
+        printed = json.loads(run("run", "--set", "drive.omega=0.13", "--set", "start.spin=rest", "--json").stdout)
+        self.assertEqual((state["stable"], printed["regime"]), (True, "locked"))
+        self.close_to(printed["mean_friction_power"], state["slip"] ** 2, 1e-4, state)
+        four = repeat(self.statement("fold4-angle")["rigid_command"])
+        self.close_to(self.statement("slow-friction")["rigid"],
+                      100 * state["slip"] ** 2 / four["mean_friction_power"], 1e-3, state)
 
     # ------------------------------------------------------------ what is written
 

@@ -92,7 +92,7 @@ FST_MEASURE(remanence)  /* kappa that a steel bead needs, % of the neodymium bea
 FST_MEASURE(ball_mean)        /* change of B by averaging over the ball */
 FST_MEASURE(slow_pole)        /* distance of the slowest bead from the field's maximum */
 FST_MEASURE(slow_parallel)    /* its greatest angle of n and B, degrees */
-FST_MEASURE(slow_friction)    /* friction's power before the bead lets go over that at 10.7 Hz, % */
+FST_MEASURE(slow_friction)    /* friction's greatest power in locked runs over that at 10.7 Hz, % */
 FST_MEASURE(sine_law)         /* what is left of the averages beside sin(chi) and cos(chi) */
 FST_MEASURE(least_energy)     /* mean magnetic energy at chi = pi over that at 0 */
 FST_MEASURE(theta)            /* rms of n_r at omega = 0.4 */
