@@ -38,7 +38,7 @@ def repeat(command):
 
 def read_off(expression, printed):
     """A number as paper.json tells to read it: an expression in the keys of what the command printed."""
-    return eval(expression, {"__builtins__": {}, "abs": abs}, printed)
+    return eval(expression, {"__builtins__": {}, "abs": abs, "max": max}, printed)
 
 
 def curve(path, block):
@@ -101,7 +101,7 @@ class Paper(unittest.TestCase):
         self.assertEqual([row["rigid_symmetry"] for row in rows], ["S1", "S1", "S2", "S2", "S2"])
 
     def test_statements_about_the_patterns(self):
-        for name in ("maxima", "fold4-festoons", "fold4-angle", "fold4-nz", "fold4-field", "fold15-festoons",
+        for name in ("maxima", "fold4-festoons", "fold4-angle", "fold4-nz", "fold15-festoons",
                      "fold15-angle", "fold15-closed", "magint-least", "magint-aligned",
                      "magint-across", "rolling-alpha", "rolling-phi", "friction", "turning-points", "friction-angle",
                      "fold4-corners", "fold4-conjugate", "shrinking", "frequency-lock", "phase-lock", "rolling-mean",
@@ -139,7 +139,7 @@ class Paper(unittest.TestCase):
             for name, value, tolerance in (
                     ("fold4-festoons", four.festoons, 1e-6), ("fold4-angle", four.max_angle, 2e-4),
                     ("fold4-nz", abs(four.mean["n_z"]), 1e-6),
-                    ("fold4-field", 100 * four.std_b / four.mean["b"], 1e-6),
+                    ("fold4-field", 100 * max(four.max_b / four.mean["b"] - 1, 1 - four.min_b / four.mean["b"]), 2e-4),
                     ("fold15-festoons", many.festoons, 1e-6), ("fold15-angle", many.max_angle, 2e-4),
                     ("magint-least", many.min_r, 1e-5), ("steady-radius", many.std_r / many.mean["r"], 1e-6),
                     ("shrinking", 100 * (1 - many.std_r / four.std_r), 1e-6),
@@ -236,8 +236,8 @@ class Paper(unittest.TestCase):
             self.assertLess(abs(line - self.statement("halving")[dynamics]), 2e-3)
 
     def test_what_the_printed_equations_get_wrong(self):
-        """The dropped n_r turns the sign of the magnetic term; the weight alone is too light by an order."""
-        for name in ("magnetic-term", "corotation-force"):
+        """The dropped n_r turns the sign of the magnetic term; the field varies by more than 13 %; the weight alone is too light by an order."""
+        for name in ("magnetic-term", "corotation-force", "fold4-field"):
             self.assertEqual(self.statement(name)["verdict"], "not reproduced", self.statement(name))
         self.assertLess(self.statement("dry-weight")["rigid"], 0.1 * self.statement("dry-pull")["rigid"])
         self.assertEqual(self.statement("dry-pull")["verdict"], "reproduced")

@@ -80,10 +80,13 @@ MEASURE(fold4_nz)
 MEASURE(fold4_field)
 {
     const fst_run_result *result = single(paper, FST_SCAN_FOLD4, dynamics);
-    (void)snprintf(note, size, "the extremes lie %.0f %% under and %.0f %% over the mean",
-                   100.0 * (1.0 - result->min_b / result->mean_b),
-                   100.0 * (result->max_b / result->mean_b - 1.0));
-    return 100.0 * result->std_b / result->mean_b;
+    double under = 100.0 * (1.0 - result->min_b / result->mean_b),
+           over = 100.0 * (result->max_b / result->mean_b - 1.0);
+    (void)snprintf(
+        note, size,
+        "the extremes lie %.0f %% under and %.0f %% over the mean; the standard deviation is %.1f %%", under,
+        over, 100.0 * result->std_b / result->mean_b);
+    return fmax(under, over);
 }
 
 MEASURE(fold15_festoons)

@@ -12,7 +12,7 @@ FST_MEASURE(maxima_distance) /* between the field's maxima, mm */
 FST_MEASURE(fold4_festoons)  /* omega = 0.215: number of festoons */
 FST_MEASURE(fold4_angle)     /* greatest angle of n and B, degrees */
 FST_MEASURE(fold4_nz)        /* |<n_z>| */
-FST_MEASURE(fold4_field)     /* standard deviation of |B| over its mean, % */
+FST_MEASURE(fold4_field)     /* greatest deviation of |B| from its mean, % */
 FST_MEASURE(fold15_festoons) /* omega = 0.4: the same */
 FST_MEASURE(fold15_angle)
 FST_MEASURE(fold15_tilt)         /* of the best-fit plane of n against the vertical, degrees */
