@@ -208,6 +208,7 @@ class Paper(unittest.TestCase):
                     "fold15-tilt": (22.19120612678, None), "magint-least": (0.8932067698746, None),
                     "estimate-energy": (4.57763671875, 4.57763671875), "spacing": (40 / 92, 40 / 92),
                     "estimate-moment": (1.5625e-3, 1.5625e-3),  # 2.5e-3^3 1e5/1
+                    "estimate-field": (0.0457763671875, 0.0457763671875),  # 4.58e-4/1e-2
                     "dry-weight": (12.49048, 12.49048),  # 0.2 9.81/(2.5e-3 2 pi 10)
                     "estimate-corotation": (8.109117345, 8.109117345)}  # 1.5 2.5e-3 312.5/0.023/(2 pi)
         for name, values in expected.items():

@@ -80,9 +80,11 @@ MEASURE(estimate_moment)
 {
     const fst_params *p = scene(paper, dynamics);
     double cube = p->bead_radius * p->bead_radius * p->bead_radius;
-    (void)snprintf(note, size,
-                   "R³ BH_max/B_rem = %.1e A m² with the values given; a sphere of remanence 1 T has %.1e A m²",
-                   cube * 1e5, 4.0 * PI / 3.0 * cube / (4e-7 * PI));
+    (void)snprintf(
+        note, size,
+        "R³ BH_max/B_rem = %.1e A m² with the values given; a sphere of remanence 1 T has %.1e A m². The "
+        "paper's unit, A m⁻¹, is a misprint for A m²",
+        cube * 1e5, 4.0 * PI / 3.0 * cube / (4e-7 * PI));
     return cube * 1e5;
 }
 
@@ -90,13 +92,13 @@ MEASURE(estimate_field)
 {
     const fst_params *p = scene(paper, dynamics);
     double cube = p->bead_radius * p->bead_radius * p->bead_radius,
-           moment = 4.0 * PI / 3.0 * cube / (4e-7 * PI);
-    double field = energy_scale(p) / moment;
+           sphere = 4.0 * PI / 3.0 * cube / (4e-7 * PI), paper_moment = 1e-2;
     (void)snprintf(
         note, size,
-        "B₀ = %.1f mT with the moment of a sphere of remanence 1 T; with the paper's 1e-2 A m² it is %.0f mT",
-        1e3 * field, 1e3 * energy_scale(p) / 1e-2);
-    return field;
+        "with the paper's own μ, 1e-2 A m²; with that of a sphere of remanence 1 T, %.1e A m², B₀ is "
+        "%.1f mT",
+        sphere, 1e3 * energy_scale(p) / sphere);
+    return energy_scale(p) / paper_moment;
 }
 
 MEASURE(dry_friction_weight)
