@@ -170,7 +170,7 @@ class Paper(unittest.TestCase):
                 self.close_to(curve(data, "inset1-curve1")[omega], motion.std_r, 1e-5, omega)
 
     def test_the_field_by_hand(self):
-        """Statements about the field and the averages of section 5, from the ten charges."""
+        """Statements about the field and the averages of section 6, from the ten charges."""
         def strongest(length_mm):
             heights = 18.7 / length_mm, 40 / (4 * length_mm)
             charges = [(s, k * heights[1], s) for k in range(-2, 3) for s in (1, -1)]

@@ -238,7 +238,7 @@ MEASURE(slow_friction)
     return 100.0 * most->mean_friction_power / single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
 }
 
-/* ------------------------------------------------------------------ the assumptions of section 5 */
+/* ------------------------------------------------------------------ the assumptions of section 6 */
 
 MEASURE(theta)
 {
