@@ -378,6 +378,19 @@ class Paper(unittest.TestCase):
             self.assertTrue(path.with_suffix(".gp").is_file() and path.with_suffix(".dat").is_file())
             self.assertIn(figure["verdict"], VERDICTS | {None})
 
+    def test_a_figure_has_the_worst_verdict_of_what_it_shows(self):
+        """Among it what fails: it is not left out of the list."""
+        order = ["reproduced", "close", "not reproduced"]
+        shows = {"evolution": ("friction", "spin-term", "magnetic-term", "asymptotic-hz"),
+                 "magint": ("magint-least", "magint-aligned", "magint-across", "force-ends", "pull-weakens"),
+                 "f4detail-angle": ("fold4-angle", "rare-moments"), "portrait": ("maxima", "spacing", "orthoradial")}
+        for name, statements in shows.items():
+            for key, ending in (("verdict", "farago2020"), ("rigid_verdict", "rigid")):
+                worst = max((self.statement(s)[key] for s in statements), key=order.index)
+                found = [f[key] if f["dynamics"] is None else f["verdict"] for f in self.paper["figures"]
+                         if f["name"] in (name, f"{name}-{ending}")]
+                self.assertEqual(found, [worst], (name, ending))
+
     def test_nothing_half_made_stays(self):
         endings = {path.suffix for path in self.directory.iterdir()}
         self.assertEqual(endings - {".mp4"}, {".svg", ".gp", ".dat", ".json", ".html"})
