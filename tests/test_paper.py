@@ -78,6 +78,7 @@ class Paper(unittest.TestCase):
         done = run("paper", "--reduced", "-o", str(cls.directory), *(["--films"] if cls.films else []))
         assert done.returncode == 0, done.stderr
         assert "Table 1" in done.stdout, done.stdout
+        cls.summary = done.stdout
         cls.paper = json.loads((cls.directory / "paper.json").read_text())
         cls.report = (cls.directory / "report.html").read_text()
 
@@ -181,6 +182,7 @@ class Paper(unittest.TestCase):
                 low, high = (middle, high) if sum(b[i] * g[i][0] for i in range(3)) > 0 else (low, middle)
             return 2 * length_mm * low
         self.close_to(self.statement("maxima")["rigid"], strongest(23.0), 1e-9, "maxima")
+        self.close_to(self.statement("magint-field")["rigid"] * 46, strongest(23.0), 1e-9, "magint-field")
         self.close_to(strongest(self.statement("length-fitted")["rigid"]), 41.0, 1e-9, "length")
 
         def mean_pull(r, rate, chi):
@@ -353,11 +355,21 @@ class Paper(unittest.TestCase):
 
     def test_provenance(self):
         provenance = self.paper["provenance"]
-        self.assertLessEqual({"version", "scene", "rtol", "periods", "discard", "machine", "parts", "seconds"},
+        self.assertLessEqual({"version", "scene", "rtol", "periods", "discard", "machine", "parts", "seconds", "processor_seconds"},
                              provenance.keys())
         self.assertLessEqual({"runs", "figures", "periodic orbits", "paramagnetic beads"}, provenance["parts"].keys())
         computing = sum(seconds for part, seconds in provenance["parts"].items() if part != "films")
         self.assertTrue(0 < computing <= provenance["seconds"])
+        self.assertGreater(provenance["processor_seconds"], 0.0)
+        self.assertIn(f"{provenance['processor_seconds']:.0f} s of processor time", self.report)
+
+    def test_what_is_no_claim_of_the_paper_is_not_counted(self):
+        self.assertEqual([s["id"] for s in self.paper["statements"] if not s["claim"]], ["energy", "rolling-identity"])
+        claims = [s for s in self.paper["statements"] if s["claim"]]
+        counted = [sum(s[key] == v for s in claims) for key in ("verdict", "rigid_verdict")
+                   for v in ("reproduced", "close", "not reproduced")]
+        tally = "{} statements: farago2020 {} reproduced, {} close, {} not; rigid {}, {}, {}"
+        self.assertIn(tally.format(len(claims), *counted), self.summary)
         for text in (provenance["version"], html.escape(provenance["machine"]), "model.dynamics", "1e-10"):
             self.assertIn(text, self.report)
 
@@ -382,7 +394,7 @@ class Paper(unittest.TestCase):
         """Among it what fails: it is not left out of the list."""
         order = ["reproduced", "close", "not reproduced"]
         shows = {"evolution": ("friction", "spin-term", "magnetic-term", "asymptotic-hz"),
-                 "magint": ("magint-least", "magint-aligned", "magint-across", "force-ends", "pull-weakens"),
+                 "magint": ("magint-least", "magint-field", "magint-aligned", "magint-across", "force-ends", "pull-weakens"),
                  "f4detail-angle": ("fold4-angle", "rare-moments"), "portrait": ("maxima", "spacing", "orthoradial")}
         for name, statements in shows.items():
             for key, ending in (("verdict", "farago2020"), ("rigid_verdict", "rigid")):

@@ -21,6 +21,12 @@ static double maximum_on_axis(const fst_params *params)
     return rising;
 }
 
+MEASURE(field_maximum)
+{
+    (void)snprintf(note, size, "at the height of the bead's centre, on the magnet's axis");
+    return maximum_on_axis(&fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->params);
+}
+
 MEASURE(maxima_distance)
 {
     fst_params params = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->params;

@@ -9,6 +9,7 @@
     double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size);
 
 FST_MEASURE(maxima_distance) /* between the field's maxima, mm */
+FST_MEASURE(field_maximum)   /* radius at which the field is greatest */
 FST_MEASURE(fold4_festoons)  /* omega = 0.215: number of festoons */
 FST_MEASURE(fold4_angle)     /* greatest angle of n and B, degrees */
 FST_MEASURE(fold4_nz)        /* |<n_z>| */

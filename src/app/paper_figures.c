@@ -172,7 +172,7 @@ static const fst_paper_figure figures[] = {
      .caption = "Radius and field strength while the magnet turns by half a revolution under the bead, at "
                 "the drive 0.4: the pole draws the bead inwards, between the poles it swings out.",
      .each = 1,
-     .statements = "magint-least|magint-aligned|magint-across|force-ends|pull-weakens",
+     .statements = "magint-least|magint-field|magint-aligned|magint-across|force-ends|pull-weakens",
      .scan = FST_SCAN_FOLD15,
      .draw = draw_trajectory,
      .kind = FST_FIGURE_RADIUS_FIELD},
