@@ -99,7 +99,7 @@ class Return:
         self.std_r = math.sqrt(mean["r2"] - mean["r"]**2)
         self.max_angle = max(v["angle"] for v in values)
         self.min_r, self.max_r = min(v["r"] for v in values), max(v["r"] for v in values)
-        self.std_b = math.sqrt(mean["b2"] - mean["b"]**2)
+        self.min_b, self.max_b = min(v["b"] for v in values), max(v["b"] for v in values)
         half = values[(len(values) - 1) // 2]
         self.s2 = abs(half["r"] - values[0]["r"]) < 1e-4 and abs(half["n_z"] + values[0]["n_z"]) < 1e-4
         self.festoons = (2 if self.s2 else 1) * (1 + omega / abs(self.alpha_dot))
@@ -115,7 +115,7 @@ class Return:
         flat = math.hypot(n_alpha, n[2])  # Eq. (eq21) as printed leaves n_r out
         along = [g[i][0] * e[0] + g[i][1] * e[1] for i in range(3)]  # dB/dr
         printed = (n_alpha * (along[1] * e[0] - along[0] * e[1]) + n[2] * along[2]) / flat
-        return {"r": r, "r2": r * r, "b": size, "b2": size**2, "n_z": n[2], "n_r": n_r,
+        return {"r": r, "r2": r * r, "b": size, "n_z": n[2], "n_r": n_r,
                 "slip": math.hypot(*slip), "power": dot(slip, slip),
                 "angle": math.degrees(math.atan2(math.sqrt(dot(cross(n, b), cross(n, b))), dot(n, b))),
                 "centrifugal": r * circling**2, "magnetic": KAPPA * EPS**2 * dot(n, along),

@@ -38,7 +38,7 @@ def repeat(command):
 
 def read_off(expression, printed):
     """A number as paper.json tells to read it: an expression in the keys of what the command printed."""
-    return eval(expression, {"__builtins__": {}, "abs": abs}, printed)
+    return eval(expression, {"__builtins__": {}, "abs": abs, "max": max}, printed)
 
 
 def curve(path, block):
@@ -78,6 +78,7 @@ class Paper(unittest.TestCase):
         done = run("paper", "--reduced", "-o", str(cls.directory), *(["--films"] if cls.films else []))
         assert done.returncode == 0, done.stderr
         assert "Table 1" in done.stdout, done.stdout
+        cls.summary = done.stdout
         cls.paper = json.loads((cls.directory / "paper.json").read_text())
         cls.report = (cls.directory / "report.html").read_text()
 
@@ -101,12 +102,12 @@ class Paper(unittest.TestCase):
         self.assertEqual([row["rigid_symmetry"] for row in rows], ["S1", "S1", "S2", "S2", "S2"])
 
     def test_statements_about_the_patterns(self):
-        for name in ("maxima", "fold4-festoons", "fold4-angle", "fold4-nz", "fold4-field", "fold15-festoons",
+        for name in ("maxima", "fold4-festoons", "fold4-angle", "fold4-nz", "fold15-festoons",
                      "fold15-angle", "fold15-closed", "magint-least", "magint-aligned",
                      "magint-across", "rolling-alpha", "rolling-phi", "friction", "turning-points", "friction-angle",
                      "fold4-corners", "fold4-conjugate", "shrinking", "frequency-lock", "phase-lock", "rolling-mean",
                      "spin-term", "corotation-beads", "paramagnet", "tondu", "moment", "moment-sign",
-                     "kinetic", "rolling-identity", "ball-mean", "sine-law", "least-energy", "modulation",
+                     "kinetic", "kinetic-sign", "ball-mean", "sine-law", "least-energy", "modulation",
                      "friction-outside", "slow-pole", "slow-parallel"):
             self.assertEqual(self.statement(name)["verdict"], "reproduced", self.statement(name))
 
@@ -139,7 +140,7 @@ class Paper(unittest.TestCase):
             for name, value, tolerance in (
                     ("fold4-festoons", four.festoons, 1e-6), ("fold4-angle", four.max_angle, 2e-4),
                     ("fold4-nz", abs(four.mean["n_z"]), 1e-6),
-                    ("fold4-field", 100 * four.std_b / four.mean["b"], 1e-6),
+                    ("fold4-field", 100 * max(four.max_b / four.mean["b"] - 1, 1 - four.min_b / four.mean["b"]), 2e-4),
                     ("fold15-festoons", many.festoons, 1e-6), ("fold15-angle", many.max_angle, 2e-4),
                     ("magint-least", many.min_r, 1e-5), ("steady-radius", many.std_r / many.mean["r"], 1e-6),
                     ("shrinking", 100 * (1 - many.std_r / four.std_r), 1e-6),
@@ -170,7 +171,7 @@ class Paper(unittest.TestCase):
                 self.close_to(curve(data, "inset1-curve1")[omega], motion.std_r, 1e-5, omega)
 
     def test_the_field_by_hand(self):
-        """Statements about the field and the averages of section 5, from the ten charges."""
+        """Statements about the field and the averages of section 6, from the ten charges."""
         def strongest(length_mm):
             heights = 18.7 / length_mm, 40 / (4 * length_mm)
             charges = [(s, k * heights[1], s) for k in range(-2, 3) for s in (1, -1)]
@@ -181,6 +182,7 @@ class Paper(unittest.TestCase):
                 low, high = (middle, high) if sum(b[i] * g[i][0] for i in range(3)) > 0 else (low, middle)
             return 2 * length_mm * low
         self.close_to(self.statement("maxima")["rigid"], strongest(23.0), 1e-9, "maxima")
+        self.close_to(self.statement("magint-field")["rigid"] * 46, strongest(23.0), 1e-9, "magint-field")
         self.close_to(strongest(self.statement("length-fitted")["rigid"]), 41.0, 1e-9, "length")
 
         def mean_pull(r, rate, chi):
@@ -208,6 +210,7 @@ class Paper(unittest.TestCase):
                     "fold15-tilt": (22.19120612678, None), "magint-least": (0.8932067698746, None),
                     "estimate-energy": (4.57763671875, 4.57763671875), "spacing": (40 / 92, 40 / 92),
                     "estimate-moment": (1.5625e-3, 1.5625e-3),  # 2.5e-3^3 1e5/1
+                    "estimate-field": (0.0457763671875, 0.0457763671875),  # 4.58e-4/1e-2
                     "dry-weight": (12.49048, 12.49048),  # 0.2 9.81/(2.5e-3 2 pi 10)
                     "estimate-corotation": (8.109117345, 8.109117345)}  # 1.5 2.5e-3 312.5/0.023/(2 pi)
         for name, values in expected.items():
@@ -236,17 +239,41 @@ class Paper(unittest.TestCase):
             self.assertLess(abs(line - self.statement("halving")[dynamics]), 2e-3)
 
     def test_what_the_printed_equations_get_wrong(self):
-        """The dropped n_r turns the sign of the magnetic term; the weight alone is too light by an order."""
-        for name in ("magnetic-term", "corotation-force"):
+        """The dropped n_r turns the sign of the magnetic term; the field varies by more than 13 %; the weight alone is too light by an order."""
+        for name in ("magnetic-term", "corotation-force", "fold4-field"):
             self.assertEqual(self.statement(name)["verdict"], "not reproduced", self.statement(name))
         self.assertLess(self.statement("dry-weight")["rigid"], 0.1 * self.statement("dry-pull")["rigid"])
         self.assertEqual(self.statement("dry-pull")["verdict"], "reproduced")
 
+    def test_paramagnetic_beads_by_both_dynamics(self):
+        """Each column has its own motions; the identity carried on needs the term that the printed equations lack."""
+        for name in ("rolling-identity", "tondu", "splitting"):
+            self.assertNotEqual(self.statement(name)["farago2020"], self.statement(name)["rigid"])
+        identity = self.statement("rolling-identity")
+        self.assertLess(identity["rigid"], 1e-9)
+        self.assertGreater(identity["farago2020"], 0.1)
+        self.assertEqual((identity["verdict"], identity["rigid_verdict"]), ("not reproduced", "reproduced"))
+
     def test_what_the_drive_gives_friction_takes(self):
         self.assertLess(self.statement("energy")["farago2020"], 1e-6)
 
-    def test_a_locked_bead_does_not_slip(self):
-        """No magnetic torque acts along n, so the spin about it grows until the contact is at rest."""
+    def test_corotation_ends_where_the_locked_state_does(self):
+        """By the eigenvalues: a state stable below, none above."""
+        gamma = 312.5
+        for dynamics in ("farago2020", "rigid"):
+            hertz = self.statement("corotation")[dynamics]
+            stable = []
+            for frequency in (hertz - 0.2, hertz + 0.2):
+                done = run("locked", "--set", f"drive.omega={2 * math.pi * frequency / gamma!r}", "--set",
+                           f"model.dynamics={dynamics}", "--json")
+                self.assertEqual(done.returncode, 0, done.stderr)
+                stable.append(sum(state["stable"] for state in json.loads(done.stdout)["states"]))
+            self.assertTrue(stable[0] > 0 and stable[1] == 0, (dynamics, hertz, stable))
+            self.assertRegex(self.statement("corotation")[f"{dynamics}_note"], r"up to 8\.[89]\d ± 0\.\d\d Hz")
+
+    def test_a_bead_locked_on_the_axis_does_not_slip_and_one_beside_it_does(self):
+        """No magnetic torque acts along n: with Phi = 0 the spin about it grows until the contact is at rest. Beside
+        the axis, Phi = -20 deg, the pull has to balance friction, which costs more than counter-rotation."""
         done = run("locked", "--set", "drive.omega=0.05", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         slips = [state["slip"] for state in json.loads(done.stdout)["states"] if state["stable"]]
@@ -254,6 +281,13 @@ class Paper(unittest.TestCase):
         slowest = json.loads(run("run", "--set", "drive.omega=0.02", "--set", "start.spin=rest", "--json").stdout)
         self.assertEqual(slowest["regime"], "locked")
         self.assertLess(slowest["mean_friction_power"], 1e-12)
+        state = json.loads(run("locked", "--set", "drive.omega=0.13", "--json").stdout)["states"][0]
+        printed = json.loads(run("run", "--set", "drive.omega=0.13", "--set", "start.spin=rest", "--json").stdout)
+        self.assertEqual((state["stable"], printed["regime"]), (True, "locked"))
+        self.close_to(printed["mean_friction_power"], state["slip"] ** 2, 1e-4, state)
+        four = repeat(self.statement("fold4-angle")["rigid_command"])
+        self.close_to(self.statement("slow-friction")["rigid"],
+                      100 * state["slip"] ** 2 / four["mean_friction_power"], 1e-3, state)
 
     # ------------------------------------------------------------ what is written
 
@@ -321,11 +355,21 @@ class Paper(unittest.TestCase):
 
     def test_provenance(self):
         provenance = self.paper["provenance"]
-        self.assertLessEqual({"version", "scene", "rtol", "periods", "discard", "machine", "parts", "seconds"},
+        self.assertLessEqual({"version", "scene", "rtol", "periods", "discard", "machine", "parts", "seconds", "processor_seconds"},
                              provenance.keys())
         self.assertLessEqual({"runs", "figures", "periodic orbits", "paramagnetic beads"}, provenance["parts"].keys())
         computing = sum(seconds for part, seconds in provenance["parts"].items() if part != "films")
         self.assertTrue(0 < computing <= provenance["seconds"])
+        self.assertGreater(provenance["processor_seconds"], 0.0)
+        self.assertIn(f"{provenance['processor_seconds']:.0f} s of processor time", self.report)
+
+    def test_what_is_no_claim_of_the_paper_is_not_counted(self):
+        self.assertEqual([s["id"] for s in self.paper["statements"] if not s["claim"]], ["energy", "rolling-identity"])
+        claims = [s for s in self.paper["statements"] if s["claim"]]
+        counted = [sum(s[key] == v for s in claims) for key in ("verdict", "rigid_verdict")
+                   for v in ("reproduced", "close", "not reproduced")]
+        tally = "{} statements: farago2020 {} reproduced, {} close, {} not; rigid {}, {}, {}"
+        self.assertIn(tally.format(len(claims), *counted), self.summary)
         for text in (provenance["version"], html.escape(provenance["machine"]), "model.dynamics", "1e-10"):
             self.assertIn(text, self.report)
 
@@ -345,6 +389,19 @@ class Paper(unittest.TestCase):
             self.assertTrue(path.read_text().rstrip().endswith("</svg>"), figure)
             self.assertTrue(path.with_suffix(".gp").is_file() and path.with_suffix(".dat").is_file())
             self.assertIn(figure["verdict"], VERDICTS | {None})
+
+    def test_a_figure_has_the_worst_verdict_of_what_it_shows(self):
+        """Among it what fails: it is not left out of the list."""
+        order = ["reproduced", "close", "not reproduced"]
+        shows = {"evolution": ("friction", "spin-term", "magnetic-term", "asymptotic-hz"),
+                 "magint": ("magint-least", "magint-field", "magint-aligned", "magint-across", "force-ends", "pull-weakens"),
+                 "f4detail-angle": ("fold4-angle", "rare-moments"), "portrait": ("maxima", "spacing", "orthoradial")}
+        for name, statements in shows.items():
+            for key, ending in (("verdict", "farago2020"), ("rigid_verdict", "rigid")):
+                worst = max((self.statement(s)[key] for s in statements), key=order.index)
+                found = [f[key] if f["dynamics"] is None else f["verdict"] for f in self.paper["figures"]
+                         if f["name"] in (name, f"{name}-{ending}")]
+                self.assertEqual(found, [worst], (name, ending))
 
     def test_nothing_half_made_stays(self):
         endings = {path.suffix for path in self.directory.iterdir()}

@@ -89,6 +89,7 @@ class Interrupted(unittest.TestCase):
         self.assertTrue(paper["complete"])
         for document in (paper, self.whole):
             document["provenance"].pop("seconds", None)
+            document["provenance"].pop("processor_seconds", None)
             document["provenance"].pop("parts", None)
         self.assertEqual(paper, self.whole)  # to the last bit
         self.assertNotIn("Incomplete", (directory / "report.html").read_text())

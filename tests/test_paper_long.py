@@ -23,7 +23,7 @@ class Commands(unittest.TestCase):
                     done = subprocess.run([FESTOON, *command.split()[1:]], capture_output=True, text=True)
                     self.assertEqual(done.returncode, 0, (command, done.stderr))
                     printed[command] = json.loads(done.stdout)
-                value = eval(statement[prefix + "reads"], {"__builtins__": {}, "abs": abs}, printed[command])
+                value = eval(statement[prefix + "reads"], {"__builtins__": {}, "abs": abs, "max": max}, printed[command])
                 expected = statement[dynamics]
                 if isinstance(expected, (str, type(None))):
                     self.assertEqual(value, expected, command)

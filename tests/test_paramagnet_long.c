@@ -18,7 +18,7 @@ enum { STARTS = 3000 };
 static fst_status search_piece(void *user, int index, fst_error *error)
 {
     fst_search_entry *entries = user;
-    return fst_search_one(index, &entries[index], error);
+    return fst_search_one(index, FST_DYNAMICS_RIGID, &entries[index], error);
 }
 
 static void thousands_of_starts_do_not_counter_rotate(void **unused)
@@ -37,7 +37,7 @@ static void thousands_of_starts_do_not_counter_rotate(void **unused)
             longest = entries[i].periods;
         if (entries[i].last == FST_FATE_COUNTER) {
             fst_params params;
-            assert_int_equal(fst_search_params(i, &params, NULL), FST_OK);
+            assert_int_equal(fst_search_params(i, FST_DYNAMICS_RIGID, &params, NULL), FST_OK);
             print_error("start %d: a %g drive %g r %g phi %g still counter-rotates\n", i, params.bead_a,
                         params.drive_omega, params.start_r, params.start_phi);
         }

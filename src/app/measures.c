@@ -21,6 +21,12 @@ static double maximum_on_axis(const fst_params *params)
     return rising;
 }
 
+MEASURE(field_maximum)
+{
+    (void)snprintf(note, size, "at the height of the bead's centre, on the magnet's axis");
+    return maximum_on_axis(&fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->params);
+}
+
 MEASURE(maxima_distance)
 {
     fst_params params = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->params;
@@ -80,10 +86,13 @@ MEASURE(fold4_nz)
 MEASURE(fold4_field)
 {
     const fst_run_result *result = single(paper, FST_SCAN_FOLD4, dynamics);
-    (void)snprintf(note, size, "the extremes lie %.0f %% under and %.0f %% over the mean",
-                   100.0 * (1.0 - result->min_b / result->mean_b),
-                   100.0 * (result->max_b / result->mean_b - 1.0));
-    return 100.0 * result->std_b / result->mean_b;
+    double under = 100.0 * (1.0 - result->min_b / result->mean_b),
+           over = 100.0 * (result->max_b / result->mean_b - 1.0);
+    (void)snprintf(
+        note, size,
+        "the extremes lie %.0f %% under and %.0f %% over the mean; the standard deviation is %.1f %%", under,
+        over, 100.0 * result->std_b / result->mean_b);
+    return fmax(under, over);
 }
 
 MEASURE(fold15_festoons)
@@ -270,19 +279,16 @@ MEASURE(onset)
 MEASURE(corotation)
 {
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_SLOW, dynamics);
-    fst_paper_bracket bracket = paper->changes[FST_CHANGE_COROTATION][dynamics];
-    double hertz = run->params.friction_gamma / (2.0 * PI), locked = 0.0;
-    for (int i = 0; i < paper->counts[FST_SCAN_SLOW]; i++) {
-        const fst_run_result *result = &paper->scans[FST_SCAN_SLOW][dynamics][i].result;
-        if (result->regime != FST_REGIME_LOCKED)
-            break;
-        locked = result->frequency_hz;
-    }
-    (void)snprintf(note, size,
-                   "released at rest; strictly locked up to %.1f Hz, above that also swinging about the "
-                   "magnet while it goes round with it",
-                   locked);
-    return 0.5 * (bracket.low + bracket.high) * hertz;
+    double hertz = run->params.friction_gamma / (2.0 * PI);
+    fst_paper_bracket locked = paper->changes[FST_CHANGE_LOCKED][dynamics],
+                      swinging = paper->changes[FST_CHANGE_COROTATION][dynamics];
+    (void)snprintf(
+        note, size,
+        "released at rest, ⟨α′⟩ = ω and r and Φ constant up to here (± %.2f Hz: by bisection); beyond, the "
+        "bead swings about the magnet while it goes round with it, up to %.2f ± %.2f Hz",
+        0.5 * (locked.high - locked.low) * hertz, 0.5 * (swinging.low + swinging.high) * hertz,
+        0.5 * (swinging.high - swinging.low) * hertz);
+    return 0.5 * (locked.low + locked.high) * hertz;
 }
 
 MEASURE(irregular)

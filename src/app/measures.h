@@ -9,10 +9,11 @@
     double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size);
 
 FST_MEASURE(maxima_distance) /* between the field's maxima, mm */
+FST_MEASURE(field_maximum)   /* radius at which the field is greatest */
 FST_MEASURE(fold4_festoons)  /* omega = 0.215: number of festoons */
 FST_MEASURE(fold4_angle)     /* greatest angle of n and B, degrees */
 FST_MEASURE(fold4_nz)        /* |<n_z>| */
-FST_MEASURE(fold4_field)     /* standard deviation of |B| over its mean, % */
+FST_MEASURE(fold4_field)     /* greatest deviation of |B| from its mean, % */
 FST_MEASURE(fold15_festoons) /* omega = 0.4: the same */
 FST_MEASURE(fold15_angle)
 FST_MEASURE(fold15_tilt)         /* of the best-fit plane of n against the vertical, degrees */
@@ -25,7 +26,7 @@ FST_MEASURE(halving)             /* omega of the period halving */
 FST_MEASURE(halving_branch)      /* 1: supercritical, -1: subcritical */
 FST_MEASURE(two_poles)           /* stable locked states at the slowest drive */
 FST_MEASURE(onset)               /* lowest frequency of counter-rotation, Hz */
-FST_MEASURE(corotation)          /* greatest frequency of corotation from rest, Hz */
+FST_MEASURE(corotation)          /* greatest frequency at which a bead from rest is locked, Hz */
 FST_MEASURE(irregular)           /* share of irregular runs between 7 and 10 Hz, % */
 FST_MEASURE(bell)                /* frequency of least |alpha'|, Hz */
 FST_MEASURE(bell_shape)     /* runs at which |alpha'| does not fall to the bell's top, or not grow after it */
@@ -92,7 +93,7 @@ FST_MEASURE(remanence)  /* kappa that a steel bead needs, % of the neodymium bea
 FST_MEASURE(ball_mean)        /* change of B by averaging over the ball */
 FST_MEASURE(slow_pole)        /* distance of the slowest bead from the field's maximum */
 FST_MEASURE(slow_parallel)    /* its greatest angle of n and B, degrees */
-FST_MEASURE(slow_friction)    /* friction's power before the bead lets go over that at 10.7 Hz, % */
+FST_MEASURE(slow_friction)    /* friction's greatest power in locked runs over that at 10.7 Hz, % */
 FST_MEASURE(sine_law)         /* what is left of the averages beside sin(chi) and cos(chi) */
 FST_MEASURE(least_energy)     /* mean magnetic energy at chi = pi over that at 0 */
 FST_MEASURE(theta)            /* rms of n_r at omega = 0.4 */

@@ -47,7 +47,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* ------------------------------------------------------------------ section 3 */
+/* ------------------------------------------------------------------ section 4 */
 
 /* Forces and torques by hand, beside the accelerations of the dynamics. */
 static void newton_and_euler(const fst_model *model, const double y[FST_STATE_SIZE], leftover *centre,
@@ -244,7 +244,7 @@ MEASURE(appendix_psi)
     return appendix(paper, dynamics, PSI);
 }
 
-/* ------------------------------------------------------------------ section 5 */
+/* ------------------------------------------------------------------ section 6 */
 
 /* Eq. (eq22) with theta = pi/2, the phi of the motion: its magnetic mean over r <V_alpha>. */
 MEASURE(second_balance)

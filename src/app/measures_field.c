@@ -215,27 +215,30 @@ MEASURE(slow_parallel)
     return paper->scans[FST_SCAN_SLOW][dynamics][0].result.max_angle_deg;
 }
 
+/* Of the runs at which the bead is locked, that with the most friction. */
 MEASURE(slow_friction)
 {
-    double power = NAN, hertz = NAN, strictly = 0.0;
+    const fst_run_result *most = NULL, *slowest = &paper->scans[FST_SCAN_SLOW][dynamics][0].result;
     for (int i = 0; i < paper->counts[FST_SCAN_SLOW]; i++) {
         const fst_run_result *result = &paper->scans[FST_SCAN_SLOW][dynamics][i].result;
-        if (result->regime != FST_REGIME_LOCKED && result->regime != FST_REGIME_LIBRATING)
-            break;
-        power = result->mean_friction_power;
-        hertz = result->frequency_hz;
-        strictly = i == 0 ? result->mean_friction_power : strictly;
+        if (result->regime == FST_REGIME_LOCKED &&
+            (!most || result->mean_friction_power > most->mean_friction_power))
+            most = result;
     }
+    if (!most)
+        return NAN;
     (void)snprintf(
         note, size,
-        "at %.1f Hz, where the bead swings about the magnet; strictly locked (%.0e ℓ²γ³ at the slowest "
-        "drive) it loses nothing: no magnetic torque acts along n, so that the spin about it takes the "
-        "value at which the contact is at rest",
-        hertz, strictly);
-    return 100.0 * power / single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
+        "locked at %.1f Hz, Φ = %+.1f deg, where the contact slips at %.3f ℓγ; on the magnet's axis, Φ = 0, as "
+        "at the "
+        "slowest drive (%.0e ℓ²γ³), it loses nothing: the spin about n takes the value at which the contact is "
+        "at rest",
+        most->frequency_hz, DEGREES * atan2(most->final_state[FST_Y], most->final_state[FST_X]), most->rms_slip,
+        slowest->mean_friction_power);
+    return 100.0 * most->mean_friction_power / single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
 }
 
-/* ------------------------------------------------------------------ the assumptions of section 5 */
+/* ------------------------------------------------------------------ the assumptions of section 6 */
 
 MEASURE(theta)
 {

@@ -80,9 +80,11 @@ MEASURE(estimate_moment)
 {
     const fst_params *p = scene(paper, dynamics);
     double cube = p->bead_radius * p->bead_radius * p->bead_radius;
-    (void)snprintf(note, size,
-                   "R³ BH_max/B_rem = %.1e A m² with the values given; a sphere of remanence 1 T has %.1e A m²",
-                   cube * 1e5, 4.0 * PI / 3.0 * cube / (4e-7 * PI));
+    (void)snprintf(
+        note, size,
+        "R³ BH_max/B_rem = %.1e A m² with the values given; a sphere of remanence 1 T has %.1e A m². The "
+        "paper's unit, A m⁻¹, is a misprint for A m²",
+        cube * 1e5, 4.0 * PI / 3.0 * cube / (4e-7 * PI));
     return cube * 1e5;
 }
 
@@ -90,13 +92,13 @@ MEASURE(estimate_field)
 {
     const fst_params *p = scene(paper, dynamics);
     double cube = p->bead_radius * p->bead_radius * p->bead_radius,
-           moment = 4.0 * PI / 3.0 * cube / (4e-7 * PI);
-    double field = energy_scale(p) / moment;
+           sphere = 4.0 * PI / 3.0 * cube / (4e-7 * PI), paper_moment = 1e-2;
     (void)snprintf(
         note, size,
-        "B₀ = %.1f mT with the moment of a sphere of remanence 1 T; with the paper's 1e-2 A m² it is %.0f mT",
-        1e3 * field, 1e3 * energy_scale(p) / 1e-2);
-    return field;
+        "with the paper's own μ, 1e-2 A m²; with that of a sphere of remanence 1 T, %.1e A m², B₀ is "
+        "%.1f mT",
+        sphere, 1e3 * energy_scale(p) / sphere);
+    return energy_scale(p) / paper_moment;
 }
 
 MEASURE(dry_friction_weight)
@@ -176,13 +178,12 @@ MEASURE(corotation_force)
 
 MEASURE(paramagnet_counter)
 {
-    (void)dynamics;
     int fates[FST_FATE_COUNT] = {0}, at_first = 0;
     double longest = 0.0;
     for (int i = 0; i < paper->search_count; i++) {
-        fates[paper->search[i].last]++;
-        at_first += paper->search[i].first == FST_FATE_COUNTER;
-        longest = fmax(longest, paper->search[i].periods);
+        fates[paper->search[dynamics][i].last]++;
+        at_first += paper->search[dynamics][i].first == FST_FATE_COUNTER;
+        longest = fmax(longest, paper->search[dynamics][i].periods);
     }
     (void)snprintf(
         note, size,
@@ -194,12 +195,13 @@ MEASURE(paramagnet_counter)
     return fates[FST_FATE_COUNTER];
 }
 
-static double worst_residual(const fst_paper_state *paper, fst_balance_kind kind, char *note, size_t size)
+static double worst_residual(const fst_paper_state *paper, fst_dynamics dynamics, fst_balance_kind kind,
+                             char *note, size_t size)
 {
     double residual = 0.0, boundary = 0.0;
     for (int i = 0; i < FST_BALANCE_CASES; i++) {
-        residual = fmax(residual, fst_balance_residual(&paper->balances[i].of[kind]));
-        boundary = fmax(boundary, fst_balance_boundary(&paper->balances[i].of[kind]));
+        residual = fmax(residual, fst_balance_residual(&paper->balances[dynamics][i].of[kind]));
+        boundary = fmax(boundary, fst_balance_boundary(&paper->balances[dynamics][i].of[kind]));
     }
     (void)snprintf(
         note, size,
@@ -211,29 +213,25 @@ static double worst_residual(const fst_paper_state *paper, fst_balance_kind kind
 
 MEASURE(tondu)
 {
-    (void)dynamics;
-    return worst_residual(paper, FST_BALANCE_ENERGY, note, size);
+    return worst_residual(paper, dynamics, FST_BALANCE_ENERGY, note, size);
 }
 
 MEASURE(friction_moment)
 {
-    (void)dynamics;
-    return worst_residual(paper, FST_BALANCE_MOMENT, note, size);
+    return worst_residual(paper, dynamics, FST_BALANCE_MOMENT, note, size);
 }
 
 MEASURE(friction_on_centre)
 {
-    (void)dynamics;
-    return worst_residual(paper, FST_BALANCE_KINETIC, note, size);
+    return worst_residual(paper, dynamics, FST_BALANCE_KINETIC, note, size);
 }
 
 MEASURE(friction_moment_sign)
 {
-    (void)dynamics;
     int wrong = 0;
     double least = INFINITY;
     for (int i = 0; i < FST_BALANCE_CASES; i++) {
-        double moment = paper->balances[i].of[FST_BALANCE_MOMENT].friction;
+        double moment = paper->balances[dynamics][i].of[FST_BALANCE_MOMENT].friction;
         wrong += !(moment > 0.0);
         least = fmin(least, moment);
     }
@@ -243,18 +241,16 @@ MEASURE(friction_moment_sign)
 
 MEASURE(friction_on_centre_sign)
 {
-    (void)dynamics;
     int wrong = 0;
     for (int i = 0; i < FST_BALANCE_CASES; i++)
-        wrong += !(paper->balances[i].of[FST_BALANCE_KINETIC].friction > 0.0);
+        wrong += !(paper->balances[dynamics][i].of[FST_BALANCE_KINETIC].friction > 0.0);
     (void)snprintf(note, size, "of three motions, drives 0.1, 0.3 and 0.6");
     return wrong;
 }
 
 MEASURE(splitting)
 {
-    (void)dynamics;
-    const fst_balances *fastest = &paper->balances[FST_BALANCE_CASES - 1];
+    const fst_balances *fastest = &paper->balances[dynamics][FST_BALANCE_CASES - 1];
     double product = fastest->mean_alpha_dot * fastest->of[FST_BALANCE_MOMENT].friction;
     (void)snprintf(
         note, size,
@@ -295,17 +291,15 @@ MEASURE(paramagnet_torque)
 
 MEASURE(rolling_identity)
 {
-    (void)dynamics;
-    return worst_residual(paper, FST_BALANCE_ROLLING, note, size);
+    return worst_residual(paper, dynamics, FST_BALANCE_ROLLING, note, size);
 }
 
 MEASURE(remanence)
 {
-    (void)dynamics;
     (void)snprintf(note, size,
-                   "least κ of a magnetisable bead, a = %g, at the drive %g (rigid); a neodymium bead has 1.5",
+                   "least κ of a magnetisable bead, a = %g, at the drive %g; a neodymium bead has 1.5",
                    fst_remanence_strengths[0], fst_remanence_drives[0]);
-    return 100.0 * paper->remanence[0][0] / 1.5;
+    return 100.0 * paper->remanence[dynamics][0][0] / 1.5;
 }
 
 MEASURE(anisotropy)

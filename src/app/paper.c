@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/utsname.h>
 #include <time.h>
@@ -60,6 +61,20 @@ double fst_paper_clock(void)
     struct timespec now;
     (void)clock_gettime(CLOCK_MONOTONIC, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Of all threads, and of the processes that drew. */
+static double processor_seconds(void)
+{
+    static const int who[2] = {RUSAGE_SELF, RUSAGE_CHILDREN};
+    double seconds = 0.0;
+    for (int i = 0; i < 2; i++) {
+        struct rusage used;
+        if (getrusage(who[i], &used) == 0)
+            seconds += (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                       1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+    }
+    return seconds;
 }
 
 void fst_paper_note_time(fst_paper_state *paper, const char *what, double began)
@@ -208,9 +223,11 @@ static fst_status answer_one(fst_paper_state *paper, fst_error *error)
 
 static fst_status answer_all(fst_paper_state *paper, double began, fst_error *error)
 {
+    double processors_began = processor_seconds();
     const fst_paper_options *options = paper->options;
     fst_status status = make_everything(paper, error);
     paper->seconds = fst_paper_clock() - began;
+    paper->processor_seconds = processor_seconds() - processors_began;
     if (status == FST_OK && options->films)
         status = fst_paper_make_films(paper, error);
     /* What is there is written whatever happened; the first trouble is the one to tell of. */

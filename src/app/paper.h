@@ -57,6 +57,7 @@ typedef struct fst_paper_bracket {
 
 typedef enum {
     FST_CHANGE_HALVING,    /* S1 below, S2 above */
+    FST_CHANGE_LOCKED,     /* at rest under the magnet below, swinging or gone above */
     FST_CHANGE_COROTATION, /* goes round with the magnet below, no longer above */
     FST_CHANGE_COUNT
 } fst_change;
@@ -136,12 +137,12 @@ typedef struct fst_paper_state {
     fst_paper_bracket changes[FST_CHANGE_COUNT][FST_PAPER_DYNAMICS];
     fst_paper_halving halving[FST_PAPER_DYNAMICS];
     fst_paper_ansatz ansatz[FST_PAPER_DYNAMICS][FST_ANSATZ_DRIVES][FST_ANSATZ_STARTS];
-    fst_search_entry *search; /* the same for both dynamics: a paramagnetic bead has no magnetic axis to turn */
+    fst_search_entry *search[FST_PAPER_DYNAMICS]; /* the same starts with both dynamics */
     int search_count;
-    fst_balances balances[FST_BALANCE_CASES];
-    double remanence[FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS]; /* least kappa, dynamics rigid */
-    double seconds; /* the time that all took, and its parts in their order */
-    fst_paper_part parts[FST_MOST_PARTS];
+    fst_balances balances[FST_PAPER_DYNAMICS][FST_BALANCE_CASES];
+    double remanence[FST_PAPER_DYNAMICS][FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS]; /* least kappa */
+    double seconds, processor_seconds;    /* the time that all took, on the clock and on all processors, */
+    fst_paper_part parts[FST_MOST_PARTS]; /* and its parts in their order */
     int part_count;
 } fst_paper_state;
 
@@ -253,6 +254,7 @@ typedef struct fst_statement {
     fst_scan scan;
     fst_paper_step step;
     const char *reads;
+    int check; /* of the computation or beyond the paper: no claim of the paper's, so left out of the tally */
 } fst_statement;
 
 typedef struct fst_finding {
@@ -271,6 +273,8 @@ const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dyn
 /* Is all there that the statement rests on? */
 int fst_statement_known(const fst_statement *statement, const fst_paper_state *paper);
 fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper);
+/* Add the verdicts on the paper's claims that are known to `tally`; how many claims those are. */
+int fst_paper_tally(const fst_paper_state *paper, int tally[FST_PAPER_DYNAMICS][3]);
 /* The criterion, and a value as people read it ("13.2 %", "S2", "none"). */
 void fst_statement_criterion(const fst_statement *statement, char *text, size_t size);
 void fst_statement_value(const fst_statement *statement, double value, char *text, size_t size);

@@ -87,7 +87,7 @@ static const fst_paper_figure figures[] = {
      .caption =
          "The field in which the bead moves: five lines of dipoles, two poles. Colour: strength; arrows: "
          "direction of its part in the plane. At the maxima the field stands almost upright.",
-     .statements = "maxima",
+     .statements = "maxima|spacing|orthoradial",
      .scan = FST_SCAN_FOLD15,
      .draw = draw_field},
     {.name = "comparison",
@@ -127,7 +127,7 @@ static const fst_paper_figure figures[] = {
      .title = "The moment follows the field",
      .caption = "The upper right corner of the same path, coloured by the angle between moment and field.",
      .each = 1,
-     .statements = "fold4-angle",
+     .statements = "fold4-angle|rare-moments",
      .scan = FST_SCAN_FOLD4,
      .draw = draw_trajectory,
      .colour = "angle",
@@ -172,7 +172,7 @@ static const fst_paper_figure figures[] = {
      .caption = "Radius and field strength while the magnet turns by half a revolution under the bead, at "
                 "the drive 0.4: the pole draws the bead inwards, between the poles it swings out.",
      .each = 1,
-     .statements = "magint-least|magint-aligned|magint-across",
+     .statements = "magint-least|magint-field|magint-aligned|magint-across|force-ends|pull-weakens",
      .scan = FST_SCAN_FOLD15,
      .draw = draw_trajectory,
      .kind = FST_FIGURE_RADIUS_FIELD},
@@ -192,7 +192,7 @@ static const fst_paper_figure figures[] = {
      .caption = "The three terms of the averaged radial equation (eq21); their exact sum is zero. The paper "
                 "drops n_r from the magnetic term: dashed.",
      .each = 1,
-     .statements = "friction",
+     .statements = "friction|spin-term|magnetic-term|asymptotic-hz",
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_evolution},
 };

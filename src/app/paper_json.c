@@ -143,6 +143,7 @@ static json_t *statement_object(const fst_statement *statement, const fst_paper_
     json_object_set_new(object, "published", statement_value(statement, statement->published));
     json_object_set_new(object, "published_words",
                         statement->said ? json_string(statement->said) : json_null());
+    json_object_set_new(object, "claim", json_boolean(!statement->check));
     json_object_set_new(object, "unit", json_string(statement->unit));
     json_object_set_new(object, "scale", json_real(statement->scale));
     json_object_set_new(object, "criterion", json_string(criterion));
@@ -191,6 +192,7 @@ static json_t *provenance_object(const fst_paper_state *paper)
     json_object_set_new(object, "periods", json_real(params->run_periods));
     json_object_set_new(object, "discard", json_real(params->run_discard));
     json_object_set_new(object, "seconds", json_real(paper->seconds));
+    json_object_set_new(object, "processor_seconds", json_real(paper->processor_seconds));
     json_t *parts = json_object();
     for (int i = 0; i < paper->part_count; i++)
         json_object_set_new(parts, paper->parts[i].what, json_real(paper->parts[i].seconds));

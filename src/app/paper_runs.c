@@ -35,6 +35,7 @@ static const struct {
 } changes[FST_CHANGE_COUNT] = {
     /* Close to the threshold the motion settles ever more slowly, so these runs are long. */
     [FST_CHANGE_HALVING] = {FST_SCAN_COMPARISON, 7, 6, "1200", "1100"},
+    [FST_CHANGE_LOCKED] = {FST_SCAN_SLOW, 6, 5, NULL, NULL},
     [FST_CHANGE_COROTATION] = {FST_SCAN_SLOW, 5, 5, NULL, NULL},
 };
 
@@ -171,7 +172,8 @@ static int is_below(fst_change change, const fst_run_result *result)
 {
     if (change == FST_CHANGE_HALVING)
         return fabs(result->mean_nz) > ASYMMETRIC;
-    return result->regime == FST_REGIME_LOCKED || result->regime == FST_REGIME_LIBRATING;
+    return result->regime == FST_REGIME_LOCKED ||
+           (change == FST_CHANGE_COROTATION && result->regime == FST_REGIME_LIBRATING);
 }
 
 /* Is a run at `omega` below the change? */
@@ -193,7 +195,8 @@ static fst_status probe(const fst_paper_state *paper, fst_change change, fst_dyn
     return status;
 }
 
-/* The last change of a scan, refined by bisection; NAN where the scan has none. */
+/* The last change of a scan, refined by bisection; NAN where the scan has none. The last: a bead at rest under
+ * the magnet begins to swing near 4.9 Hz and is at rest again, beside it, from 6.4 to 7.6 Hz. */
 static fst_status find_change(fst_paper_state *paper, int index, fst_error *error)
 {
     fst_change change = (fst_change)(index / FST_PAPER_DYNAMICS);
@@ -286,8 +289,10 @@ int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan sc
 
 void fst_paper_free_runs(fst_paper_state *paper)
 {
-    free(paper->search);
-    paper->search = NULL;
+    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
+        free(paper->search[dynamics]);
+        paper->search[dynamics] = NULL;
+    }
     for (int scan = 0; scan < FST_SCAN_COUNT; scan++) {
         for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
             for (int i = 0; paper->scans[scan][dynamics] && i < paper->counts[scan]; i++)

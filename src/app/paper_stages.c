@@ -89,28 +89,32 @@ static fst_status ansatz_piece(fst_paper_state *paper, int index, fst_error *err
 
 static fst_status search_piece(fst_paper_state *paper, int index, fst_error *error)
 {
-    return fst_search_one(index, &paper->search[index], error);
+    int start = index / FST_PAPER_DYNAMICS, dynamics = index % FST_PAPER_DYNAMICS;
+    return fst_search_one(start, (fst_dynamics)dynamics, &paper->search[dynamics][start], error);
 }
 
 static fst_status balance_piece(fst_paper_state *paper, int index, fst_error *error)
 {
     /* Strengths and drives where the bead is locked, and where it circles and is far from any period. */
     static const double cases[FST_BALANCE_CASES][2] = {{5e-3, 0.1}, {1e-3, 0.3}, {5e-3, 0.6}};
-    fst_params params = probe_params(FST_DYNAMICS_RIGID, cases[index][1]);
+    int motion = index / FST_PAPER_DYNAMICS, dynamics = index % FST_PAPER_DYNAMICS;
+    fst_params params = probe_params((fst_dynamics)dynamics, cases[motion][1]);
     params.bead_material = FST_MATERIAL_PARAMAGNETIC;
-    params.bead_a = cases[index][0];
-    return fst_paramagnet_balances(&params, 50.0, 100.0, &paper->balances[index], error);
+    params.bead_a = cases[motion][0];
+    return fst_paramagnet_balances(&params, 50.0, 100.0, &paper->balances[dynamics][motion], error);
 }
 
 static fst_status remanence_piece(fst_paper_state *paper, int index, fst_error *error)
 {
-    int strength = index % FST_REMANENCE_STRENGTHS, drive = index / FST_REMANENCE_STRENGTHS;
-    fst_params params = probe_params(FST_DYNAMICS_RIGID, fst_remanence_drives[drive]);
+    int dynamics = index % FST_PAPER_DYNAMICS, place = index / FST_PAPER_DYNAMICS;
+    int strength = place % FST_REMANENCE_STRENGTHS, drive = place / FST_REMANENCE_STRENGTHS;
+    fst_params params = probe_params((fst_dynamics)dynamics, fst_remanence_drives[drive]);
     params.bead_material = FST_MATERIAL_MIXED;
     params.bead_a = fst_remanence_strengths[strength];
     params.run_rtol = 1e-8;
     return fst_least_kappa(&params, 2e-3, 1.5, paper->options->reduced ? 3 : 8,
-                           paper->options->reduced ? 100.0 : 600.0, &paper->remanence[drive][strength], error);
+                           paper->options->reduced ? 100.0 : 600.0,
+                           &paper->remanence[dynamics][drive][strength], error);
 }
 
 fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *only, fst_error *error)
@@ -118,18 +122,21 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *o
     paper->search_count = paper->options->starts > 0 ? paper->options->starts
                           : paper->options->reduced  ? REDUCED_SEARCH
                                                      : SEARCH;
-    paper->search = calloc((size_t)paper->search_count, sizeof *paper->search);
-    if (!paper->search)
-        return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d starts", paper->search_count);
+    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
+        paper->search[dynamics] = calloc((size_t)paper->search_count, sizeof *paper->search[dynamics]);
+        if (!paper->search[dynamics])
+            return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d starts", paper->search_count);
+    }
     const fst_paper_stage stages[] = {
         {"period halving", 0.65, 0.72, FST_HALVING_POINTS * FST_PAPER_DYNAMICS, FST_STEP_HALVING,
          halving_piece},
         {"rapid corotation", 0.72, 0.75, FST_PAPER_DYNAMICS * FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS,
          FST_STEP_ANSATZ, ansatz_piece},
-        {"paramagnetic beads", 0.75, 0.87, paper->search_count, FST_STEP_SEARCH, search_piece},
-        {"identities", 0.87, 0.88, FST_BALANCE_CASES, FST_STEP_BALANCES, balance_piece},
-        {"remanence", 0.88, 0.97, FST_REMANENCE_DRIVES * FST_REMANENCE_STRENGTHS, FST_STEP_REMANENCE,
-         remanence_piece},
+        {"paramagnetic beads", 0.75, 0.87, FST_PAPER_DYNAMICS * paper->search_count, FST_STEP_SEARCH,
+         search_piece},
+        {"identities", 0.87, 0.88, FST_PAPER_DYNAMICS * FST_BALANCE_CASES, FST_STEP_BALANCES, balance_piece},
+        {"remanence", 0.88, 0.97, FST_PAPER_DYNAMICS * FST_REMANENCE_DRIVES * FST_REMANENCE_STRENGTHS,
+         FST_STEP_REMANENCE, remanence_piece},
     };
     fst_status status = FST_OK;
     for (size_t i = 0; i < sizeof stages / sizeof stages[0] && status == FST_OK; i++)

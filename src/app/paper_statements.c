@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 static const fst_statement statements[] = {
-#define STATEMENT(id, section, text, said, published, scale, unit, digits, rule, measure, scan, step, reads)   \
+#define ROW(id, section, text, said, published, scale, unit, digits, rule, measure, scan, step, reads, checks) \
     {id,                                                                                                       \
      section,                                                                                                  \
      text,                                                                                                     \
@@ -19,9 +19,14 @@ static const fst_statement statements[] = {
      fst_measure_##measure,                                                                                    \
      FST_SCAN_##scan,                                                                                          \
      FST_STEP_##step,                                                                                          \
-     reads},
+     reads,                                                                                                    \
+     checks},
+#define STATEMENT(...) ROW(__VA_ARGS__, 0)
+#define CHECK(...) ROW(__VA_ARGS__, 1)
 #include "app/paper_statements.def"
 #undef STATEMENT
+#undef CHECK
+#undef ROW
 };
 
 int fst_statement_count(void)
@@ -37,6 +42,20 @@ const fst_statement *fst_statement_at(int index)
 int fst_statement_known(const fst_statement *statement, const fst_paper_state *paper)
 {
     return fst_paper_has(paper, statement->step, statement->scan);
+}
+
+int fst_paper_tally(const fst_paper_state *paper, int tally[FST_PAPER_DYNAMICS][3])
+{
+    int count = 0;
+    for (int i = 0; i < fst_statement_count(); i++) {
+        if (statements[i].check || !fst_statement_known(&statements[i], paper))
+            continue;
+        fst_finding finding = fst_statement_check(&statements[i], paper);
+        for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
+            tally[d][finding.verdict[d]]++;
+        count++;
+    }
+    return count;
 }
 
 /* ------------------------------------------------------------------ how to have the number again */

@@ -30,13 +30,9 @@ char *fst_paper_summary(const fst_paper_state *paper)
     for (int row = 0; row < FST_TABLE1_ROWS; ++row)
         put_row(out, paper, row);
     int count[FST_PAPER_DYNAMICS][3] = {{0}};
-    for (int i = 0; i < fst_statement_count(); ++i) {
-        const fst_finding finding = fst_statement_check(fst_statement_at(i), paper);
-        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
-            count[d][finding.verdict[d]] += 1;
-    }
+    const int claims = fst_paper_tally(paper, count);
     (void)fprintf(out, "\n%d statements: farago2020 %d reproduced, %d close, %d not; rigid %d, %d, %d\n",
-                  fst_statement_count(), count[FST_DYNAMICS_FARAGO2020][0], count[FST_DYNAMICS_FARAGO2020][1],
+                  claims, count[FST_DYNAMICS_FARAGO2020][0], count[FST_DYNAMICS_FARAGO2020][1],
                   count[FST_DYNAMICS_FARAGO2020][2], count[FST_DYNAMICS_RIGID][0], count[FST_DYNAMICS_RIGID][1],
                   count[FST_DYNAMICS_RIGID][2]);
     if (fclose(out) != 0) {

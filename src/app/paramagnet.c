@@ -90,10 +90,11 @@ static double halton(int index, int base)
     return value;
 }
 
-fst_status fst_search_params(int index, fst_params *params, fst_error *error)
+fst_status fst_search_params(int index, fst_dynamics dynamics, fst_params *params, fst_error *error)
 {
     char text[32];
     *params = fst_default_params();
+    params->model_dynamics = (int)dynamics;
     params->bead_material = FST_MATERIAL_PARAMAGNETIC;
     (void)snprintf(text, sizeof text, "%.6g", 0.02 * pow(100.0, halton(index, 2)));
     fst_status status = fst_params_set(params, "drive.omega", text, error);
@@ -105,12 +106,12 @@ fst_status fst_search_params(int index, fst_params *params, fst_error *error)
     return status;
 }
 
-fst_status fst_search_one(int index, fst_search_entry *entry, fst_error *error)
+fst_status fst_search_one(int index, fst_dynamics dynamics, fst_search_entry *entry, fst_error *error)
 {
     enum { FIRST_PERIODS = 150, DOUBLINGS = 10 };
     followed bead;
     fst_params params;
-    fst_status status = fst_search_params(index, &params, error);
+    fst_status status = fst_search_params(index, dynamics, &params, error);
     if (status != FST_OK)
         return status;
     status = begin(&bead, &params, error);
@@ -204,7 +205,7 @@ static fst_status average(followed *bead, double t0, int panels, double panel, m
 fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
                                    fst_balances *balances, fst_error *error)
 {
-    enum { PANELS = 60 }; /* per drive period */
+    enum { PANELS = 240 }; /* per drive period: the printed equations have the moment turn over in bursts */
     followed bead;
     moment_in_time first = {0}, mean = {0}, last = {0};
     int panels = (int)ceil(periods * PANELS);

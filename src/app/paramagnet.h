@@ -25,7 +25,7 @@ fst_status fst_fate_of(const fst_params *params, double periods, fst_fate *fate,
 
 /* Start `index` of the search, a point of Halton's sequence: drive 0.02 to 2 and strength a 1e-5 to 3e-2 (both
  * in logarithms), start at r 0.2 to 1.6 and any Phi, rolling or at rest. */
-fst_status fst_search_params(int index, fst_params *params, fst_error *error);
+fst_status fst_search_params(int index, fst_dynamics dynamics, fst_params *params, fst_error *error);
 
 /* What became of a start: beads that still circle against the magnet are followed on, up to 1024 times as long,
  * for a weakly magnetised one forgets its start slowly (see docs/paper.md for the law). */
@@ -34,7 +34,7 @@ typedef struct fst_search_entry {
     double periods;       /* drive periods followed in all */
     double mean_alpha_dot;
 } fst_search_entry;
-fst_status fst_search_one(int index, fst_search_entry *entry, fst_error *error);
+fst_status fst_search_one(int index, fst_dynamics dynamics, fst_search_entry *entry, fst_error *error);
 
 /* ------------------------------------------------------------------ the identities */
 
@@ -45,7 +45,8 @@ typedef enum {
     FST_BALANCE_ENERGY,  /* Eq. (tondu): <V_r^2 + V_alpha^2> = a omega <dB^2/dalpha> */
     FST_BALANCE_MOMENT,  /* Eq. (17): <r V_alpha> = a <dB^2/dalpha> */
     FST_BALANCE_KINETIC, /* <r' V_r + r alpha' V_alpha> = a omega <dB^2/dalpha> */
-    FST_BALANCE_ROLLING, /* beyond the paper: (2/5) <(v x V)_z> = a <dB^2/dalpha>, see docs/paper.md */
+    FST_BALANCE_ROLLING, /* beyond the paper: (2/5) <(v x V)_z> = a <dB^2/dalpha>, see docs/paper.md; not with
+                            the printed equations, which lack the term psi' n x n' of dW/dt */
     FST_BALANCE_COUNT
 } fst_balance_kind;
 typedef struct fst_balance {

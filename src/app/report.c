@@ -16,13 +16,7 @@ static const fst_dynamics order[FST_PAPER_DYNAMICS] = {FST_DYNAMICS_FARAGO2020, 
 static void write_summary(FILE *out, const fst_paper_state *paper)
 {
     int tally[FST_PAPER_DYNAMICS][3] = {{0}};
-    for (int i = 0; i < fst_statement_count(); i++) {
-        if (!fst_statement_known(fst_statement_at(i), paper))
-            continue;
-        fst_finding finding = fst_statement_check(fst_statement_at(i), paper);
-        for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
-            tally[d][finding.verdict[d]]++;
-    }
+    (void)fst_paper_tally(paper, tally);
     int rows[FST_PAPER_DYNAMICS] = {0};
     int known = fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE);
     for (int row = 0; row < FST_TABLE1_ROWS && known; row++)
@@ -274,8 +268,10 @@ static void write_times(FILE *out, const fst_paper_state *paper)
     for (int i = 0; i < paper->part_count; i++)
         fprintf(out, "<tr><td>%s</td><td class=\"n\">%.1f</td></tr>\n", paper->parts[i].what,
                 paper->parts[i].seconds);
-    fprintf(out, "<tr><td>all, without films</td><td class=\"n\">%.1f</td></tr>\n</tbody></table>\n",
-            paper->seconds);
+    fprintf(out,
+            "<tr><td>all, without films</td><td class=\"n\">%.1f</td></tr>\n</tbody></table>\n"
+            "<p class=\"fine\">Together %.0f s of processor time.</p>\n",
+            paper->seconds, paper->processor_seconds);
 }
 
 static void write_provenance(FILE *out, const fst_paper_state *paper)

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#define FRAMES_A_SECOND 200.0 /* the paper's camera (section 2) */
+#define FRAMES_A_SECOND 200.0 /* the paper's camera (section 3) */
 #define PIXELS_A_MM 10.0      /* the paper gives no scale */
 #define MAGNET_THICKNESS 9.0  /* mm, the paper's magnet (section 1) */
 
