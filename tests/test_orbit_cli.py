@@ -60,6 +60,10 @@ class Orbits(unittest.TestCase):
         branch = document("branch", "--kind", "locked", "--over", "drive.omega=0.08:0.1")
         self.assertEqual([special["type"] for special in branch["specials"]], ["hopf"])
         self.assertEqual({crossing["type"] for crossing in branch["crossings"]}, {"transcritical"})
+        (crossing,) = branch["crossings"]  # the branch met there is one, on both sides
+        values = [point["value"] for point in branch["points"] if point["branch"] == crossing["born"]]
+        self.assertLess(min(values), crossing["value"] - 0.005)
+        self.assertGreater(max(values), crossing["value"] + 0.005)
 
     def test_branch_and_figures(self):
         with tempfile.TemporaryDirectory() as directory:

@@ -149,7 +149,10 @@ static fst_status take_special(void *user, fst_special_type type, const fst_node
     if (born && t->pending_count < FST_PENDING && t->depth < 3 &&
         (type != FST_SPECIAL_HOPF || t->follow_hopf)) {
         s->born = t->branch_count;
-        t->pending[t->pending_count++] = (fst_pending){*born, t->branch_count, t->branch, t->depth + 1, 1};
+        /* Through a transcritical point the other branch passes: it is followed both ways. */
+        const int one_way = type != FST_SPECIAL_TRANSCRITICAL;
+        t->pending[t->pending_count++] =
+            (fst_pending){*born, t->branch_count, t->branch, t->depth + 1, one_way};
         t->branch_count += 1;
     }
     return FST_OK;
