@@ -74,6 +74,14 @@ class Movie(unittest.TestCase):
         self.assertEqual([f.name for f in frames], [f"frame-{i:05}.png" for i in range(1, 22)])
         self.assertEqual(read_png(frames[0])[:2], (200, 180))
 
+    def test_an_earlier_film_leaves_no_frames(self):
+        """A shorter film in the same folder is all that is there; other files stay."""
+        self.frames("again", "--to", "2", "--fps", "3", "--size", "200x200")
+        (self.folder / "again" / "notes.txt").write_text("kept")
+        self.frames("again", "--to", "1", "--fps", "3", "--size", "200x200")
+        self.assertEqual(sorted(path.name for path in (self.folder / "again").iterdir()),
+                         [*(f"frame-{i:05}.png" for i in range(1, 5)), "notes.txt"])
+
     def test_the_bead_is_where_the_trajectory_has_it(self):
         """The centre of the ball's outline, looked for around the place that the file tells."""
         lines = [line for line in self.track.read_text().splitlines() if not line.startswith("#")]

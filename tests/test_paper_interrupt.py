@@ -57,13 +57,15 @@ class Interrupted(unittest.TestCase):
                           (".svg", ".gp", ".dat", ".json", ".html")])
         return paper
 
-    def cut_short(self, name, moment):
+    def cut_short(self, name, moment, signals=1):
         directory = self.folder / name
         process = start(directory)
         deadline = time.monotonic() + 600
         while not moment(directory) and process.poll() is None and time.monotonic() < deadline:
             time.sleep(0.01)
-        process.send_signal(signal.SIGINT)
+        for _ in range(signals):
+            process.send_signal(signal.SIGINT)
+            time.sleep(0.01)
         out, messages = process.communicate()
         self.assertEqual((process.returncode, out), (130, ""), messages)
         self.assertIn("marked incomplete", messages)
@@ -72,6 +74,11 @@ class Interrupted(unittest.TestCase):
     def test_at_once(self):
         directory = self.cut_short("at-once", Path.is_dir)
         self.check_what_is_there(directory, 0)
+
+    def test_two_signals_at_once_are_one_interruption(self):
+        """As `timeout -s INT` sends them, to the process and to its group."""
+        directory = self.cut_short("twice", lambda d: (d / "sketch.svg").exists(), signals=2)
+        self.check_what_is_there(directory, 20)
 
     def test_among_the_figures(self):
         directory = self.cut_short("figures", lambda d: (d / "sketch.svg").exists())

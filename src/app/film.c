@@ -14,11 +14,18 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #define MODULE_FILE "festoon-cairo.so"
 #define MAGNET_THICKNESS 9.0 /* mm; the paper's magnet (section 2): the model's lines have none */
 
-enum { OPTIONS_COOKIE = 0x46494c4d, USUAL_SIZE = 720, LEAST_SIZE = 160, GREATEST_SIZE = 4096 };
+enum {
+    OPTIONS_COOKIE = 0x46494c4d,
+    USUAL_SIZE = 720,
+    LEAST_SIZE = 160,
+    GREATEST_SIZE = 4096,
+    FRAME_PATH = 4160
+};
 
 fst_film_options fst_default_film_options(void)
 {
@@ -144,11 +151,16 @@ static void set_trail(film *f, fst_film_frame *frame)
     frame->trail = count + 1;
 }
 
+static void name_frame(const film *f, int index, char path[FRAME_PATH])
+{
+    (void)snprintf(path, FRAME_PATH, "%s/frame-%05d.png", f->folder, index + 1);
+}
+
 static fst_status give_frame(film *f, int index, fst_error *error)
 {
     if (f->folder[0]) {
-        char path[4160];
-        (void)snprintf(path, sizeof path, "%s/frame-%05d.png", f->folder, index + 1);
+        char path[FRAME_PATH];
+        name_frame(f, index, path);
         return f->module->write_png(f->canvas, path, error);
     }
     int stride;
@@ -191,6 +203,20 @@ static fst_status make_frames(film *f, fst_error *error)
 
 /* ------------------------------------------------------------------ where they go */
 
+/* An earlier, longer film's further frames would be shown after this one's. */
+static fst_status remove_further_frames(const film *f, fst_error *error)
+{
+    char path[FRAME_PATH];
+    for (int index = f->frames;; index++) {
+        name_frame(f, index, path);
+        if (unlink(path) == 0)
+            continue;
+        return errno == ENOENT ? FST_OK
+                               : fst_fail(error, FST_IO, path,
+                                          "cannot remove this frame of an earlier film: %s", strerror(errno));
+    }
+}
+
 static fst_status frames_into_folder(film *f, const char *folder, fst_error *error)
 {
     struct stat there;
@@ -199,7 +225,8 @@ static fst_status frames_into_folder(film *f, const char *folder, fst_error *err
     if (mkdir(folder, 0777) != 0 && !(errno == EEXIST && stat(folder, &there) == 0 && S_ISDIR(there.st_mode)))
         return fst_fail(error, errno == EEXIST ? FST_BAD_INPUT : FST_IO, folder,
                         "cannot make this folder for the frames: %s", strerror(errno));
-    return make_frames(f, error);
+    fst_status status = make_frames(f, error);
+    return status == FST_OK ? remove_further_frames(f, error) : status;
 }
 
 static fst_status frames_into_process(film *f, const char *out, const char *format, fst_error *error)

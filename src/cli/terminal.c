@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <math.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
@@ -11,13 +12,20 @@
 
 #include "cli/command.h"
 
-/* The one thing that a signal handler may touch. */
-static volatile sig_atomic_t signal_came = 0;
+/* The one thing that a signal handler may touch: when the first signal came, in ms; 0: none did. */
+static atomic_llong first_signal = 0;
+
+enum { ONE_INTERRUPTION = 1000 }; /* ms: some send to the process and to its group, as timeout(1) does */
 
 static void note_signal(int number)
 {
-    (void)number;
-    signal_came = 1;
+    struct timespec time = {0, 0};
+    (void)clock_gettime(CLOCK_MONOTONIC, &time);
+    long long now = 1000LL * time.tv_sec + time.tv_nsec / 1000000 + 1, first = 0;
+    if (atomic_compare_exchange_strong(&first_signal, &first, now) || now - first < ONE_INTERRUPTION)
+        return;
+    (void)signal(number, SIG_DFL);
+    (void)raise(number);
 }
 
 /* A stream that the caller closed would be taken by the next file that is opened, and messages would end up in
@@ -33,9 +41,8 @@ void terminal_prepare(void)
     keep_descriptor(STDIN_FILENO, O_WRONLY);
     keep_descriptor(STDOUT_FILENO, O_RDONLY);
     keep_descriptor(STDERR_FILENO, O_RDONLY);
-    /* The first signal is noted, the second ends the program at once. */
+    /* The first signal is noted; another one, a second later or more, ends the program at once. */
     struct sigaction action = {.sa_handler = note_signal};
-    action.sa_flags = (int)SA_RESETHAND;
     (void)sigemptyset(&action.sa_mask);
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
@@ -47,7 +54,7 @@ void terminal_prepare(void)
 
 int interrupted(void)
 {
-    return signal_came != 0;
+    return atomic_load(&first_signal) != 0;
 }
 
 static double now(void)
