@@ -81,11 +81,6 @@ static double hertz_of(const fst_paper_run *run)
     {                                                                                                          \
         return fst_paper_counter_rotates(run) ? (value) : NAN;                                                 \
     }
-#define IRREGULAR(name, value)                                                                                 \
-    static double name(const fst_paper_run *run)                                                               \
-    {                                                                                                          \
-        return fst_paper_counter_rotates(run) ? NAN : (value);                                                 \
-    }
 
 static double eps_of(const fst_paper_run *run)
 {
@@ -226,7 +221,6 @@ static double bead_hertz(const fst_paper_run *run)
 }
 
 REGULAR(counter_hertz, bead_hertz(run))
-IRREGULAR(other_hertz, bead_hertz(run))
 
 fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
                                 fst_error *error)
@@ -246,7 +240,7 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
         fst_chart_curve points = {.title = d == 0 ? "released at rest, farago2020" : "the same, rigid",
                                   .colour = both_colours[d],
                                   .style = d == 0 ? FST_CURVE_POINTS : FST_CURVE_OPEN_POINTS};
-        add(&all, paper, slow, two_dynamics[d].dynamics, hertz_of, other_hertz, points);
+        add(&all, paper, slow, two_dynamics[d].dynamics, hertz_of, bead_hertz, points);
     }
     const fst_chart_inset inset = {.left = 0.50,
                                    .right = 0.97,
@@ -270,7 +264,7 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
     const fst_chart_mark marks[] = {{7.0, "7 Hz: lets go"}, {16.0, "16 Hz: slowest"}};
     fst_chart chart = {.title = figure->title,
                        .x_label = "drive (Hz); dotted: what the paper's text tells of the experiment",
-                       .x_low = 1.0,
+                       .x_low = 0.9,
                        .x_high = 25.0,
                        .x2_label = "drive ω (γ)",
                        .x2_factor = per_hertz,
