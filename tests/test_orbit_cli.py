@@ -56,6 +56,11 @@ class Orbits(unittest.TestCase):
         self.assertEqual([s["stable"] for s in states].count(True), 2)
         self.assertIn(None, [s["phi_deg"] for s in states])  # on the axis
 
+    def test_no_family_is_followed_twice(self):
+        for over in ("0.2:3.6", "0.15:3.5"):
+            branch = document("branch", "--kind", "counter", "--over", f"drive.omega={over}")
+            self.assertEqual({point["branch"] for point in branch["points"]}, {0, 1}, over)
+
     def test_families_that_cross_are_no_special_points(self):
         branch = document("branch", "--kind", "locked", "--over", "drive.omega=0.08:0.1")
         self.assertEqual([special["type"] for special in branch["specials"]], ["hopf"])

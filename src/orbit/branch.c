@@ -160,6 +160,13 @@ static fst_status take_special(void *user, fst_special_type type, const fst_node
 
 /* ------------------------------------------------------------------ following */
 
+/* Whether a quantity may have this value between two neighbours a and b, x of the way from a: within `least` of
+ * the straight line, and what a curve, steep as a square root beside a pitchfork, may differ from that. */
+static int lies_between(double a, double b, double x, double value, double least)
+{
+    return fabs(a + x * (b - a) - value) < least + 0.25 * fabs(b - a);
+}
+
 /* Whether an orbit lies on a branch that was followed, by its numbers: its first state may be any.  -1: on
  * none.
  */
@@ -171,11 +178,10 @@ static int orbit_branch(const fst_branch *out, const fst_branch_point *seen)
             (a->value > seen->value) == (b->value > seen->value))
             continue;
         const double x = (seen->value - a->value) / (b->value - a->value);
-        const double r = a->mean_r + x * (b->mean_r - a->mean_r), least = a->min_r + x * (b->min_r - a->min_r);
-        const double period = a->period + x * (b->period - a->period);
-        const double nz = fabs(a->mean_nz) + x * (fabs(b->mean_nz) - fabs(a->mean_nz));
-        if (fabs(r - seen->mean_r) < 2e-3 && fabs(least - seen->min_r) < 2e-2 &&
-            fabs(period / seen->period - 1.0) < 2e-3 && fabs(nz - fabs(seen->mean_nz)) < 5e-3)
+        if (lies_between(a->mean_r, b->mean_r, x, seen->mean_r, 2e-3) &&
+            lies_between(a->min_r, b->min_r, x, seen->min_r, 2e-2) &&
+            lies_between(a->period, b->period, x, seen->period, 2e-3 * seen->period) &&
+            lies_between(fabs(a->mean_nz), fabs(b->mean_nz), x, fabs(seen->mean_nz), 5e-3))
             return a->branch;
     }
     return -1;
