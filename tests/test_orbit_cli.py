@@ -56,6 +56,19 @@ class Orbits(unittest.TestCase):
         self.assertEqual([s["stable"] for s in states].count(True), 2)
         self.assertIn(None, [s["phi_deg"] for s in states])  # on the axis
 
+    def test_what_a_list_of_locked_states_lacks_is_said(self):
+        status, out, err = festoon("locked", "--set", "magnet.depth=0.010")
+        self.assertEqual(status, 0, err)
+        self.assertIn("may lack some", out)
+        self.assertTrue(document("locked", "--set", "friction.law=none")["truncated"])
+        self.assertFalse(document("locked")["truncated"])
+
+    def test_growth_like_a_power_of_time_is_no_exponent(self):
+        spectrum = document("lyapunov", "--set", "bead.material=paramagnetic", "--set", "bead.a=0.01", "--set",
+                            "run.periods=150", "--set", "run.discard=50")
+        self.assertGreater(spectrum["exponents"][0], 0)  # of a locked bead with a neutral direction
+        self.assertFalse(spectrum["converged"])
+
     def test_no_family_is_followed_twice(self):
         for over in ("0.2:3.6", "0.15:3.5"):
             branch = document("branch", "--kind", "counter", "--over", f"drive.omega={over}")

@@ -420,6 +420,7 @@ typedef struct fst_locked_list {
     size_t count;
     int starts;    /* of the search */
     int index_sum; /* sum of the signs of det(-J): the same at every omega unless a state comes from infinity */
+    int truncated; /* there are more states than the list has room for: they form continua */
 } fst_locked_list;
 
 /* Every equilibrium, by Newton's method from many starts.  Free the list with fst_locked_free(). */

@@ -11,6 +11,16 @@ static void print_list(FILE *out, double omega, const fst_locked_list *list)
 {
     (void)fprintf(out, "omega = %.10g: %zu locked states from %d starts, sum of indices %d\n\n", omega,
                   list->count, list->starts, list->index_sum);
+    if (list->truncated)
+        (void)fprintf(
+            out,
+            "There are more: without friction, torque or remanence locked states form continua, and these are "
+            "members of them.\n\n");
+    else if (list->index_sum != 2)
+        (void)fprintf(
+            out,
+            "The sum of indices is 2 where all states are found and none is a member of a continuum: this list "
+            "may lack some.\n\n");
     (void)fprintf(out, "%14s %10s  %26s  %28s %12s %12s\n", "r (l)", "Phi (deg)", "n", "W (gamma)",
                   "slip (l gamma)", "max Re");
     for (size_t i = 0; i < list->count; i++) {

@@ -91,6 +91,7 @@ char *fst_locked_json(const fst_params *params, double omega, const fst_locked_l
     json_object_set_new(object, "states", states);
     json_object_set_new(object, "starts", json_integer(list->starts));
     json_object_set_new(object, "index_sum", json_integer(list->index_sum));
+    json_object_set_new(object, "truncated", json_boolean(list->truncated));
     json_object_set_new(object, "scene", fst_json_scene(params));
     return fst_json_dump(object, JSON_INDENT(INDENT));
 }

@@ -183,6 +183,7 @@ fst_status fst_locked_find(const fst_params *params, fst_locked_list *list, fst_
     }
     list->count = (size_t)f.count;
     list->starts = STARTS;
+    list->truncated = f.count == MOST;
     if (list->count > 0)
         qsort(list->states, list->count, sizeof *list->states, before);
     return FST_OK;

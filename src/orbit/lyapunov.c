@@ -105,7 +105,7 @@ static void start_tangents(spectrum *s)
 
 /* Standard errors from the blocks, and whether every sign is decided.  One exponent belongs to the flow
  * direction and is zero: the one nearest to it is taken for it. */
-static void judge(fst_lyapunov *out, double block[BLOCKS][FST_EIGENVALUE_COUNT], double speed)
+static void judge(fst_lyapunov *out, double block[BLOCKS][FST_EIGENVALUE_COUNT], double speed, double time)
 {
     out->error = 0.0;
     for (int c = 0; c < N; ++c) {
@@ -125,7 +125,9 @@ static void judge(fst_lyapunov *out, double block[BLOCKS][FST_EIGENVALUE_COUNT],
     out->converged = out->error < 0.05;
     for (int c = 0; c < N; ++c) {
         const double size = fabs(out->exponents[c]), error = fmax(out->errors[c], 1e-9);
-        const int decided = size > 4.0 * error;
+        /* A neutral direction may grow like the time: by its logarithm, which is no exponent. */
+        const int grows = out->exponents[c] > 0 && size * time < 2.0 * log(1.0 + time);
+        const int decided = size > 4.0 * error && !grows;
         if (c == out->flow_direction ? size > fmax(4.0 * error, 1e-3) : !decided)
             out->converged = 0;
     }
@@ -157,7 +159,7 @@ static fst_status measure(spectrum *s, double duration, double period, fst_lyapu
     fst_setup_rhs(&s->setup, s->y, rate);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         speed = fmax(speed, fabs(rate[i]));
-    judge(out, block, speed);
+    judge(out, block, speed, s->time);
     out->divergence = s->divergence / s->time;
     out->time = s->time;
     return FST_OK;
