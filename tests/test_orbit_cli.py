@@ -69,6 +69,12 @@ class Orbits(unittest.TestCase):
         self.assertGreater(spectrum["exponents"][0], 0)  # of a locked bead with a neutral direction
         self.assertFalse(spectrum["converged"])
 
+    def test_a_bead_that_passes_a_weakly_unstable_state_goes_on(self):
+        """Just above the Hopf point at 0.0921063 it comes to rest within 1e-7, and departs with 6e-4 gamma."""
+        orbit = document("orbit", "--set", "drive.omega=0.0922")
+        self.assertEqual((orbit["regime"], orbit["stable"]), ("librating", True))
+        self.assertGreater(orbit["std_r"], 1e-3)
+
     def test_no_family_is_followed_twice(self):
         for over in ("0.2:3.6", "0.15:3.5"):
             branch = document("branch", "--kind", "counter", "--over", f"drive.omega={over}")

@@ -46,19 +46,23 @@ static double distance(const double *a, const double *b)
     return greatest;
 }
 
+/* The equilibrium that Newton's method finds from a state; 1 if it attracts. */
+static int attracts(const search *s, const double *near, fst_solution *rest)
+{
+    fst_error ignored;
+    memset(rest, 0, sizeof *rest);
+    memcpy(rest->y[0], near, sizeof rest->y[0]);
+    return fst_solution_correct(s->family, rest, NULL, &ignored) == FST_OK &&
+           fst_solution_spectrum(s->family, rest, &ignored) == FST_OK && fst_solution_is_stable(rest);
+}
+
 /* Whether the bead comes to rest: an equilibrium that attracts lies near a state where the search stands, and
  * the swings about it decay. */
 static int comes_to_rest(const search *s, const double *near)
 {
     const int kept = s->peaks < PEAKS ? s->peaks : PEAKS;
     fst_solution rest;
-    fst_error ignored;
-    if (kept < 2)
-        return 0;
-    memset(&rest, 0, sizeof rest);
-    memcpy(rest.y[0], near, sizeof rest.y[0]);
-    if (fst_solution_correct(s->family, &rest, NULL, &ignored) != FST_OK ||
-        fst_solution_spectrum(s->family, &rest, &ignored) != FST_OK || !fst_solution_is_stable(&rest))
+    if (kept < 2 || !attracts(s, near, &rest))
         return 0;
     const double first = distance(s->peak[(s->peaks - kept) % PEAKS], rest.y[0]);
     const double last = distance(s->peak[(s->peaks - 1) % PEAKS], rest.y[0]);
@@ -196,9 +200,11 @@ static double speed_of(const search *s)
     return greatest;
 }
 
+/* At rest, and not just passing an equilibrium from which it will depart slowly. */
 static int is_locked(const search *s)
 {
-    return speed_of(s) < REST;
+    fst_solution rest;
+    return speed_of(s) < REST && attracts(s, s->flow->step.end, &rest);
 }
 
 static fst_status went_elsewhere(const search *s, const char *how, fst_error *error)
