@@ -12,7 +12,7 @@
 static long double energy_at(const coefficients_ld *c, const long double *y)
 {
     fst_pull_long_double pull;
-    fst_magnetic_pull_long_double(c, y[FST_X], y[FST_Y], y + FST_NX, &pull);
+    fst_magnetic_pull_long_double(c, y, &pull);
     return fst_energy_long_double(c, y, &pull);
 }
 
@@ -54,7 +54,7 @@ static void test_balances(void **unused)
                 y[i] = (i >= FST_WX ? 0.5L : 1) * state[i];
             fst_pull_long_double pull;
             fst_seen_long_double seen;
-            fst_magnetic_pull_long_double(&c, y[FST_X], y[FST_Y], y + FST_NX, &pull);
+            fst_magnetic_pull_long_double(&c, y, &pull);
             fst_see_long_double(&c, c.omega, y, &pull, &seen);
             const long double change = along_flow(&c, y, energy_at);
             CHECK_CLOSE_LD(change, seen.drive_power - seen.friction_power, 1e-13);

@@ -199,8 +199,19 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))
 #endif
 
-/* A right-hand side is long, and called thirteen times a step. */
+/* A right-hand side is long, and called thirteen times a step.  gcc is not to look into it either: it would
+ * take numbers that it finds unchanged over a call for worth keeping, on a stack that the first cache has no
+ * room for.
+ */
+#ifdef __clang__
 #define RHS_KIND static __attribute__((noinline))
+#else
+#define RHS_KIND static __attribute__((noipa))
+#endif
+
+#ifdef FST_FUSED
+#define REAL_FORCES_AHEAD /* where forces, without a root and a quotient to wait for, keep a processor busy */
+#endif
 
 #define ENDS fst_wide /* the registers are full: each end on its own */
 #define ENDS_GROUPS 2

@@ -48,7 +48,7 @@ static __attribute__((noinline)) REAL look(const slots *s, REAL x)
     const FN(coefficients) *c = &s->step.context.coefficients;
     FN(bead_evaluate_dense)(FST_STATE_SIZE, &s->step.dense[0][0], FST_STATE_SIZE, x, state);
     (void)FN(renormalise)(state);
-    FN(magnetic_pull)(c, state[FST_X], state[FST_Y], state + FST_NX, &p);
+    FN(magnetic_pull)(c, state, &p);
     FN(see)(c, s->step.omega, state, &p, &seen);
     return SUM_5(s->weight[FST_TRACK_R], seen.r, s->weight[FST_TRACK_B], seen.b_norm, s->weight[FST_TRACK_GAP],
                  seen.gap2, s->weight[FST_TRACK_SLIP], seen.slip2, s->weight[FST_TRACK_LOAD], seen.load);

@@ -113,7 +113,7 @@ fst_observation fst_observe_double(const fst_coefficients_double *c, double omeg
 {
     fst_pull_double p;
     fst_seen_double o;
-    fst_magnetic_pull_double(c, state[FST_X], state[FST_Y], state + FST_NX, &p);
+    fst_magnetic_pull_double(c, state, &p);
     fst_see_double(c, omega, state, &p, &o);
     fst_observation out;
     memset(&out, 0, sizeof out);

@@ -40,8 +40,9 @@ static inline void FN(gradient_along)(const FN(coefficients) * c, REAL x, REAL y
 #endif
 }
 
-static inline void FN(magnetic_pull)(const FN(coefficients) * c, REAL x, REAL y, const REAL *n, FN(pull) * p)
+static inline void FN(magnetic_pull)(const FN(coefficients) * c, const REAL *state, FN(pull) * p)
 {
+    const REAL x = state[FST_X], y = state[FST_Y], *n = state + FST_NX;
     REAL gn[3];
 #ifdef FIELD_KEEPS_GRADIENT
     FN(field_and_gradient)(c, x, y, p->b, &p->gradient);
@@ -62,24 +63,28 @@ static inline void FN(magnetic_pull)(const FN(coefficients) * c, REAL x, REAL y,
         p->force[i] = p->strength * gn[i] + c->twice_a * gb[i];
 }
 
-/* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for whoever observes the state. */
-RHS_KIND void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy, FN(pull) * p)
+/* The derivatives that follow from the state alone, without the magnet: those of the place and of n. */
+static inline void FN(kinematics)(REAL omega, const REAL *y, REAL *dy)
 {
     const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX;
-    FN(magnetic_pull)(c, y[FST_X], y[FST_Y], n, p);
-    const REAL *b = p->b;
-    const REAL torque = c->torque * p->strength;
-    const REAL friction_x = c->friction * REAL_NEGMULADD(c->eps, w[1], v[0]);
-    const REAL friction_y = c->friction * REAL_MULADD(c->eps, w[0], v[1]);
-
     dy[FST_X] = REAL_MULADD(omega, y[FST_Y], v[0]);
     dy[FST_Y] = REAL_NEGMULADD(omega, y[FST_X], v[1]);
-    dy[FST_VX] = REAL_MULADD(omega, v[1], p->force[0] - friction_x);
-    dy[FST_VY] = REAL_NEGMULADD(omega, v[0], p->force[1] - friction_y);
     const REAL wz = w[2] - omega; /* W x n - omega e x n = (W - omega e) x n */
     dy[FST_NX] = REAL_MULSUB(w[1], n[2], wz * n[1]);
     dy[FST_NY] = REAL_MULSUB(wz, n[0], w[0] * n[2]);
     dy[FST_NZ] = REAL_MULSUB(w[0], n[1], w[1] * n[0]);
+}
+
+/* The others, of the velocities v and W, by the magnet's pull at the state. */
+static inline void FN(dynamics)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(pull) * p,
+                                REAL *dy)
+{
+    const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX, *b = p->b;
+    const REAL torque = c->torque * p->strength;
+    const REAL friction_x = c->friction * REAL_NEGMULADD(c->eps, w[1], v[0]);
+    const REAL friction_y = c->friction * REAL_MULADD(c->eps, w[0], v[1]);
+    dy[FST_VX] = REAL_MULADD(omega, v[1], p->force[0] - friction_x);
+    dy[FST_VY] = REAL_NEGMULADD(omega, v[0], p->force[1] - friction_y);
     dy[FST_WX] = REAL_MULADD(
         omega, w[1], REAL_MULSUB(torque, REAL_MULSUB(n[1], b[2], n[2] * b[1]), c->traction * friction_y));
     dy[FST_WY] = REAL_NEGMULADD(
@@ -92,3 +97,22 @@ RHS_KIND void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REA
         dy[FST_WZ] = dy[FST_WZ] + spin * (w[0] * n[1] - w[1] * n[0]);
     }
 }
+
+/* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for whoever observes the state. */
+RHS_KIND void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy, FN(pull) * p)
+{
+    FN(kinematics)(omega, y, dy);
+    FN(magnetic_pull)(c, y, p);
+    FN(dynamics)(c, omega, y, p, dy);
+}
+
+#ifdef REAL_FORCES_AHEAD
+/* The pull at the state `next`, of which only the place and n need to be known, and the dynamics at another
+ * one: neither waits for the other. */
+RHS_KIND void FN(pull_and_dynamics)(const FN(coefficients) * c, const REAL *next, FN(pull) * next_pull,
+                                    REAL omega, const REAL *y, const FN(pull) * p, REAL *dy)
+{
+    FN(dynamics)(c, omega, y, p, dy);
+    FN(magnetic_pull)(c, next, next_pull);
+}
+#endif

@@ -10,15 +10,23 @@ typedef struct FN(bead) {
 #define STEP_DIM FST_STATE_SIZE
 #define STEP_NAME(name) FN(bead_##name)
 #define STEP_CONTEXT FN(bead)
-#define STEP_RHS(s, drive, j)                                                                                  \
+#ifdef REAL_FORCES_AHEAD
+#define STEP_KNOWN(i) ((i) < FST_VX || ((i) >= FST_NX && (i) < FST_WX)) /* the place and n */
+#define STEP_KINEMATICS(s, drive, j) FN(kinematics)(drive, (s)->stage[(j)-1], (s)->k[(j)-1])
+#define STEP_FORCES(s, j)                                                                                      \
+    FN(magnetic_pull)(&(s)->context.coefficients, (s)->stage[(j)-1], &(s)->context.pull[(j)-1])
+#define STEP_DYNAMICS(s, drive, j)                                                                             \
+    FN(dynamics)(&(s)->context.coefficients, drive, (s)->stage[(j)-1], &(s)->context.pull[(j)-1], (s)->k[(j)-1])
+#define STEP_FORCES_AND_DYNAMICS(s, next, drive, j)                                                            \
+    FN(pull_and_dynamics)                                                                                      \
+    (&(s)->context.coefficients, (s)->stage[(next)-1], &(s)->context.pull[(next)-1], drive, (s)->stage[(j)-1], \
+     &(s)->context.pull[(j)-1], (s)->k[(j)-1])
+#else
+#define STEP_DERIVATIVES(s, drive, j)                                                                          \
     FN(rhs)(&(s)->context.coefficients, drive, (s)->stage[(j)-1], (s)->k[(j)-1], &(s)->context.pull[(j)-1])
+#endif
 
 #include "ode/dop853.inl"
-
-#undef STEP_DIM
-#undef STEP_NAME
-#undef STEP_CONTEXT
-#undef STEP_RHS
 
 /* Put the end's n back on the unit sphere; returns how far off it was, | |n| - 1 |. */
 static inline REAL FN(renormalise)(REAL *y)

@@ -1,12 +1,32 @@
 /* dop853.inl - one step of Dormand and Prince's method of order 8(5,3), and its dense output, over REAL.
  *
- * The including file defines STEP_DIM (number of components), STEP_CONTEXT (what the right-hand side needs)
- * and STEP_RHS(step, omega, stage): fill step->k[stage - 1] with the derivative at step->stage[stage - 1].
- * STEP_NAME(name) names what this body defines.  Stages are numbered from 1 as in Hairer's code; stage 13 is
- * the end of the step and the first stage of the next.  Zeros of the tableau are left out; every sum has one
- * order: what the older stages add to the next one is summed before the newest derivative is evaluated, so that
- * a processor can do both at once.
+ * The including file defines STEP_DIM (number of components), STEP_CONTEXT (what the right-hand side needs),
+ * STEP_NAME(name), by which what this body defines is named, and
+ *
+ *     STEP_DERIVATIVES(s, drive, j)   fill s->k[j - 1] with the derivative at s->stage[j - 1];
+ *
+ * or, instead of this, its parts:
+ *
+ *     STEP_KNOWN(i)                   whether component i is one of those whose derivative follows from the
+ * state alone, as that of a place follows from a velocity; STEP_KINEMATICS(s, drive, j)    fill these
+ * derivatives; STEP_FORCES(s, j)               make what the other derivatives need of these components of a
+ * stage; STEP_DYNAMICS(s, drive, j)      fill the other derivatives; STEP_FORCES_AND_DYNAMICS(s, next, drive,
+ * j)   the forces at stage `next`, and the dynamics at stage j.
+ *
+ * With the parts, a place is known before the forces at the stage before it are, and the forces at both, which
+ * take most of the time, do not wait for each other: a processor that looks ahead works on both.
+ *
+ * Stages are numbered from 1 as in Hairer's code; stage 13 is the end of the step and the first stage of the
+ * next.  Zeros of the tableau are left out; every sum has one order: what the older stages add to the next one
+ * is summed before the newest derivative is evaluated, so that a processor can do both at once.
  */
+#ifdef STEP_DERIVATIVES
+#define STEP_KINEMATICS(s, drive, j) ((void)0)
+#define STEP_FORCES(s, j) ((void)0)
+#define STEP_DYNAMICS STEP_DERIVATIVES
+#define STEP_FORCES_AND_DYNAMICS(s, next, drive, j) STEP_DERIVATIVES(s, drive, j)
+#endif
+
 typedef struct STEP_NAME(step) {
     STEP_CONTEXT context;
     REAL h;           /* size of the step */
@@ -20,7 +40,25 @@ typedef struct STEP_NAME(step) {
 
 #define K(j) s->k[(j)-1][i]
 #define STATE(j) s->stage[(j)-1][i]
-#define STAGE(j, node) STEP_RHS(s, s->omega + (h * (node)) * s->ramp, j)
+#ifdef STEP_DERIVATIVES
+#define EACH_KNOWN(i) for (int i = 0; 0; ++i)
+#define EACH_OTHER(i) for (int i = 0; i < STEP_DIM; ++i)
+#else
+#define EACH_KNOWN(i) _Pragma("GCC unroll 32") for (int i = 0; i < STEP_DIM; ++i) if (STEP_KNOWN(i))
+#define EACH_OTHER(i) _Pragma("GCC unroll 32") for (int i = 0; i < STEP_DIM; ++i) if (!STEP_KNOWN(i))
+#endif
+#define DRIVE(node) (s->omega + (h * (node)) * s->ramp)
+
+/* The derivative at stage j - 1, of the given node, and the state at stage j: y + h (older + a k), where
+ * `older` is the sum over the stages before. */
+#define GO_ON(j, node, a)                                                                                      \
+    do {                                                                                                       \
+        const REAL drive = DRIVE(node);                                                                        \
+        STEP_KINEMATICS(s, drive, (j)-1);                                                                      \
+        EACH_KNOWN(i) STATE(j) = REAL_MULADD(h, REAL_MULADD(a, K((j)-1), older[i]), s->y[i]);                  \
+        STEP_FORCES_AND_DYNAMICS(s, j, drive, (j)-1);                                                          \
+        EACH_OTHER(i) STATE(j) = REAL_MULADD(h, REAL_MULADD(a, K((j)-1), older[i]), s->y[i]);                  \
+    } while (0)
 
 /* Stages 2 to 12 and the end of the step, s->end; stage 1 must be there.  Stage 13 is left to the caller, who
  * may first project the end state. */
@@ -30,63 +68,45 @@ static inline void STEP_NAME(try_step)(STEP_NAME(step) * s)
     REAL older[STEP_DIM];
     for (int i = 0; i < STEP_DIM; ++i)
         STATE(2) = REAL_MULADD(h, SUM_1(DOP_A2_1, K(1)), s->y[i]);
+    STEP_FORCES(s, 2);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_1(DOP_A3_1, K(1));
-    STAGE(2, DOP_C2);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(3) = REAL_MULADD(h, REAL_MULADD(DOP_A3_2, K(2), older[i]), s->y[i]);
+    GO_ON(3, DOP_C2, DOP_A3_2);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_1(DOP_A4_1, K(1));
-    STAGE(3, DOP_C3);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(4) = REAL_MULADD(h, REAL_MULADD(DOP_A4_3, K(3), older[i]), s->y[i]);
+    GO_ON(4, DOP_C3, DOP_A4_3);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_2(DOP_A5_1, K(1), DOP_A5_3, K(3));
-    STAGE(4, DOP_C4);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(5) = REAL_MULADD(h, REAL_MULADD(DOP_A5_4, K(4), older[i]), s->y[i]);
+    GO_ON(5, DOP_C4, DOP_A5_4);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_2(DOP_A6_1, K(1), DOP_A6_4, K(4));
-    STAGE(5, DOP_C5);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(6) = REAL_MULADD(h, REAL_MULADD(DOP_A6_5, K(5), older[i]), s->y[i]);
+    GO_ON(6, DOP_C5, DOP_A6_5);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_3(DOP_A7_1, K(1), DOP_A7_4, K(4), DOP_A7_5, K(5));
-    STAGE(6, DOP_C6);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(7) = REAL_MULADD(h, REAL_MULADD(DOP_A7_6, K(6), older[i]), s->y[i]);
+    GO_ON(7, DOP_C6, DOP_A7_6);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_4(DOP_A8_1, K(1), DOP_A8_4, K(4), DOP_A8_5, K(5), DOP_A8_6, K(6));
-    STAGE(7, DOP_C7);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(8) = REAL_MULADD(h, REAL_MULADD(DOP_A8_7, K(7), older[i]), s->y[i]);
+    GO_ON(8, DOP_C7, DOP_A8_7);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_5(DOP_A9_1, K(1), DOP_A9_4, K(4), DOP_A9_5, K(5), DOP_A9_6, K(6), DOP_A9_7, K(7));
-    STAGE(8, DOP_C8);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(9) = REAL_MULADD(h, REAL_MULADD(DOP_A9_8, K(8), older[i]), s->y[i]);
+    GO_ON(9, DOP_C8, DOP_A9_8);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_6(DOP_A10_1, K(1), DOP_A10_4, K(4), DOP_A10_5, K(5), DOP_A10_6, K(6), DOP_A10_7, K(7),
                          DOP_A10_8, K(8));
-    STAGE(9, DOP_C9);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(10) = REAL_MULADD(h, REAL_MULADD(DOP_A10_9, K(9), older[i]), s->y[i]);
+    GO_ON(10, DOP_C9, DOP_A10_9);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_7(DOP_A11_1, K(1), DOP_A11_4, K(4), DOP_A11_5, K(5), DOP_A11_6, K(6), DOP_A11_7, K(7),
                          DOP_A11_8, K(8), DOP_A11_9, K(9));
-    STAGE(10, DOP_C10);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(11) = REAL_MULADD(h, REAL_MULADD(DOP_A11_10, K(10), older[i]), s->y[i]);
+    GO_ON(11, DOP_C10, DOP_A11_10);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_8(DOP_A12_1, K(1), DOP_A12_4, K(4), DOP_A12_5, K(5), DOP_A12_6, K(6), DOP_A12_7, K(7),
                          DOP_A12_8, K(8), DOP_A12_9, K(9), DOP_A12_10, K(10));
-    STAGE(11, DOP_C11);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(12) = REAL_MULADD(h, REAL_MULADD(DOP_A12_11, K(11), older[i]), s->y[i]);
+    GO_ON(12, DOP_C11, DOP_A12_11);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_7(DOP_B1, K(1), DOP_B6, K(6), DOP_B7, K(7), DOP_B8, K(8), DOP_B9, K(9), DOP_B10, K(10),
                          DOP_B11, K(11));
-    STAGE(12, one);
+    STEP_KINEMATICS(s, DRIVE(one), 12);
+    STEP_DYNAMICS(s, DRIVE(one), 12);
     for (int i = 0; i < STEP_DIM; ++i) {
         s->slope[i] = REAL_MULADD(DOP_B12, K(12), older[i]);
         s->end[i] = REAL_MULADD(h, s->slope[i], s->y[i]);
@@ -161,19 +181,17 @@ static inline void STEP_NAME(make_dense)(STEP_NAME(step) * s)
                          DOP_A14_11, K(11), DOP_A14_12, K(12));
     for (int i = 0; i < STEP_DIM; ++i)
         STATE(14) = REAL_MULADD(h, REAL_MULADD(DOP_A14_13, K(13), older[i]), s->y[i]);
+    STEP_FORCES(s, 14);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_7(DOP_A15_1, K(1), DOP_A15_6, K(6), DOP_A15_7, K(7), DOP_A15_8, K(8), DOP_A15_11, K(11),
                          DOP_A15_12, K(12), DOP_A15_13, K(13));
-    STAGE(14, DOP_C14);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(15) = REAL_MULADD(h, REAL_MULADD(DOP_A15_14, K(14), older[i]), s->y[i]);
+    GO_ON(15, DOP_C14, DOP_A15_14);
     for (int i = 0; i < STEP_DIM; ++i)
         older[i] = SUM_7(DOP_A16_1, K(1), DOP_A16_6, K(6), DOP_A16_7, K(7), DOP_A16_8, K(8), DOP_A16_9, K(9),
                          DOP_A16_13, K(13), DOP_A16_14, K(14));
-    STAGE(15, DOP_C15);
-    for (int i = 0; i < STEP_DIM; ++i)
-        STATE(16) = REAL_MULADD(h, REAL_MULADD(DOP_A16_15, K(15), older[i]), s->y[i]);
-    STAGE(16, DOP_C16);
+    GO_ON(16, DOP_C15, DOP_A16_15);
+    STEP_KINEMATICS(s, DRIVE(DOP_C16), 16);
+    STEP_DYNAMICS(s, DRIVE(DOP_C16), 16);
     STEP_NAME(dense_coefficients)(STEP_DIM, h, s->y, s->end, &s->k[0][0], STEP_DIM, &s->dense[0][0]);
 }
 
@@ -196,4 +214,16 @@ static inline void STEP_NAME(evaluate_dense)(int dim, const REAL *c_flat, int st
 
 #undef K
 #undef STATE
-#undef STAGE
+#undef EACH_KNOWN
+#undef EACH_OTHER
+#undef DRIVE
+#undef GO_ON
+#undef STEP_DIM
+#undef STEP_CONTEXT
+#undef STEP_NAME
+#undef STEP_DERIVATIVES
+#undef STEP_KNOWN
+#undef STEP_KINEMATICS
+#undef STEP_FORCES
+#undef STEP_DYNAMICS
+#undef STEP_FORCES_AND_DYNAMICS

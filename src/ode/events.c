@@ -35,7 +35,7 @@ double fst_flow_function_at(fst_flow *flow, double x, fst_state_function functio
     }
     fst_flow_at(flow, x, state);
     fst_pull_double p;
-    fst_magnetic_pull_double(&flow->step.context.coefficients, state[FST_X], state[FST_Y], state + FST_NX, &p);
+    fst_magnetic_pull_double(&flow->step.context.coefficients, state, &p);
     return function(flow, state, &p);
 }
 

@@ -7,7 +7,7 @@
 #define STEP_DIM (2 * FST_STATE_SIZE)
 #define STEP_NAME(name) FN(tangent_##name)
 #define STEP_CONTEXT FN(coefficients)
-#define STEP_RHS(s, drive, j) FN(tangent_rhs)(&(s)->context, drive, (s)->stage[(j)-1], (s)->k[(j)-1])
+#define STEP_DERIVATIVES(s, drive, j) FN(tangent_rhs)(&(s)->context, drive, (s)->stage[(j)-1], (s)->k[(j)-1])
 
 static inline void FN(tangent_rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy)
 {
@@ -24,8 +24,3 @@ static inline void FN(tangent_rhs)(const FN(coefficients) * c, REAL omega, const
 }
 
 #include "ode/dop853.inl"
-
-#undef STEP_DIM
-#undef STEP_NAME
-#undef STEP_CONTEXT
-#undef STEP_RHS

@@ -19,7 +19,8 @@ static void bundle_rhs(const bundle_context *context, const double *y, double *d
 #define STEP_DIM FST_BUNDLE_SIZE
 #define STEP_NAME(name) fst_bundle_##name##_double
 #define STEP_CONTEXT bundle_context
-#define STEP_RHS(s, drive, j) ((void)(drive), bundle_rhs(&(s)->context, (s)->stage[(j)-1], (s)->k[(j)-1]))
+#define STEP_DERIVATIVES(s, drive, j)                                                                          \
+    ((void)(drive), bundle_rhs(&(s)->context, (s)->stage[(j)-1], (s)->k[(j)-1]))
 
 #include "ode/dop853.inl"
 

@@ -47,7 +47,6 @@ void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, 
     const fst_winding phi = fst_flow_phi(flow, x);
     mark->big_phi = fst_winding_angle(&phi);
     fst_pull_double p;
-    fst_magnetic_pull_double(&flow->step.context.coefficients, mark->state[FST_X], mark->state[FST_Y],
-                             mark->state + FST_NX, &p);
+    fst_magnetic_pull_double(&flow->step.context.coefficients, mark->state, &p);
     mark->energy = fst_energy_double(&flow->step.context.coefficients, mark->state, &p);
 }
