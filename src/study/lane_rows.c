@@ -32,6 +32,7 @@ typedef struct crew {
     double observe_from[FST_MOST_LANES]; /* steps that end later are taken into the integrals */
     unsigned observed, in_window;        /* lanes whose steps are, and those in their window */
     unsigned tracked;                    /* those in which extremes are looked for */
+    unsigned turning;                    /* those whose Phi has gone so far that its range no longer matters */
     void *slots;                         /* the fast form: steps that were set aside, */
     struct {
         int lane, record;
@@ -70,6 +71,7 @@ static void vacate(crew *c, int l)
     c->observed &= ~bit(l);
     c->in_window &= ~bit(l);
     c->tracked &= ~bit(l);
+    c->turning &= ~bit(l);
     c->occupied -= 1;
 }
 
@@ -302,13 +304,17 @@ static void read_end(const crew *c, int l, double end[FST_STATE_SIZE])
         end[i] = c->view.end[i * c->engine->width + l];
 }
 
-/* Tell the lanes between which directions Phi has stayed; where that is more than half a turn, or of no
- * interest any more, they cannot or need not know. */
+/* Tell the lanes between which directions Phi has stayed; where that is more than half a turn, they cannot
+ * know. */
 static void keep_phi_range(crew *c, int l)
 {
     const int width = c->engine->width;
     const fst_run_state *run = c->lanes[l].run;
     const double range = run->greatest_phi - run->least_phi;
+    if (range > 7.0) {
+        c->turning |= bit(l);
+        return;
+    }
     const int known = range >= 0 && range < 3.0;
     c->view.phi_least[l] = known ? cos(run->least_phi) : 0.0;
     c->view.phi_least[width + l] = known ? sin(run->least_phi) : 0.0;
@@ -320,8 +326,6 @@ static void keep_phi_range(crew *c, int l)
 static void watch_phi(crew *c, int l)
 {
     fst_run_state *run = c->lanes[l].run;
-    if (!run->in_window || run->greatest_phi - run->least_phi > 7.0)
-        return;
     double end[FST_STATE_SIZE];
     read_end(c, l, end);
     run->flow->phi = (fst_winding){(int64_t)c->view.turns[0][l], end[FST_X], end[FST_Y]};
@@ -399,8 +403,9 @@ static void pass_mark(crew *c, int l)
 /* Look at the accepted steps that may hold something; the lanes whose runs are over. */
 static unsigned look_at_steps(crew *c, fst_lane_events events)
 {
+    const unsigned wandering = events.wandering & c->in_window & ~c->turning;
     unsigned over = 0;
-    for (int l = 0; l < c->engine->width; ++l) {
+    for (int l = 0; ((events.close | events.at_mark | wandering) >> l) != 0; ++l) {
         int close = (events.close & bit(l)) != 0;
         if (!close && events.at_mark & bit(l)) {
             c->engine->extract_clock(c->batch, l, c->lanes[l].run->flow);
@@ -410,7 +415,7 @@ static unsigned look_at_steps(crew *c, fst_lane_events events)
         }
         if (close)
             over |= watch(c, l, events) ? bit(l) : 0;
-        else if (events.wandering & c->in_window & bit(l))
+        else if (wandering & bit(l))
             watch_phi(c, l);
     }
     return over;
