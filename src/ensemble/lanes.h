@@ -61,9 +61,6 @@ typedef struct fst_lane_engine {
     /* What the last step of the lanes `accepted` may hold; phi counts in the lanes `observed`. */
     fst_lane_events (*watch)(void *batch, unsigned accepted, unsigned observed, unsigned in_window);
 
-    /* The lanes among `accepted` whose last step ends at the time `t` of their own or later. */
-    unsigned (*past)(const void *batch, unsigned accepted, const double *t);
-
     /* Take the last step of the lanes `accepted` into their integrals; references are renewed in lanes that are
      * not in their window yet.  beaten[]: the lanes among `tracked` in which a record may be beaten.  In the
      * fast form the records are of the ends of steps alone, and go on by themselves in these lanes. */

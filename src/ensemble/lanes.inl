@@ -126,7 +126,8 @@ static void load_clock(batch *b, int lane, const fst_flow *flow, double t_limit)
     b->greatest_step[lane] = flow->greatest_step > 0 ? flow->greatest_step : INFINITY;
     b->root[lane] = 1.0;
     b->norm_drift[lane] = flow->norm_drift;
-    b->accepted[lane] = b->rejected[lane] = 0.0;
+    b->accepted[lane] = (double)flow->accepted;
+    b->rejected[lane] = (double)flow->rejected;
     b->tolerance[lane] = flow->rtol;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         b->absolute_tolerance[i][lane] = flow->atol[i];
@@ -440,14 +441,6 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     return events;
 }
 
-static unsigned past(const void *memory, unsigned accepted, const double *t)
-{
-    const batch *b = memory;
-    REAL wanted;
-    memcpy(&wanted, t, sizeof wanted);
-    return accepted & fst_wide_lanes_of(WIDE_LESS_EQUAL(wanted, b->t_high + R(1e-9) * b->step.h));
-}
-
 #include "ensemble/lane_observables.inl"
 #ifdef FST_FUSED
 #include "ensemble/lane_extremes.inl"
@@ -466,7 +459,6 @@ const fst_lane_engine ENGINE = {
     .release = release,
     .try_steps = try_steps,
     .watch = watch,
-    .past = past,
     .observe = observe,
     .advance = advance,
     .extract = extract,

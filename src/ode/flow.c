@@ -103,6 +103,17 @@ fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
     return FST_OK;
 }
 
+void fst_flow_restart(fst_flow *flow)
+{
+    fst_bead_step_double *s = &flow->step;
+    memcpy(s->y, s->end, sizeof s->y);
+    fst_begin_steps_double(s);
+    flow->rhs_calls += 1;
+    flow->phi_start = flow->phi;
+    flow->t_start = flow->t;
+    flow->has_step = flow->has_dense = 0;
+}
+
 void fst_flow_free(fst_flow *flow)
 {
     free(flow);

@@ -33,6 +33,9 @@ struct fst_flow {
  * reach. FST_STEP_UNDERFLOW, FST_NOT_FINITE: the flow stays at the end of its last good step. */
 fst_status fst_flow_step(fst_flow *flow, double t_limit, fst_error *error);
 
+/* The end of the last step becomes a start, at which the first stage is evaluated anew. */
+void fst_flow_restart(fst_flow *flow);
+
 /* The parts of a step, for whoever makes the tries elsewhere (in lanes).  Choose the size of the first try
  * towards t_limit: flow->attempt. */
 void fst_flow_plan(fst_flow *flow, double t_limit);
