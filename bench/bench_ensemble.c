@@ -3,9 +3,9 @@
  * The job: dynamics `rigid`, the paper's parameters, omegas evenly on [0.36, 1.20], 200 drive periods each from
  * the free-rolling start at r = 0.95.  The error is the max-norm of the final state against long double, the
  * worst over 256 of the omegas (over 16 for the slowest opponent).  Each solver gets the loosest tolerance, on
- * a grid of quarter decades, that reaches the goal there; then all run in turn, round after round, and times
- * and ratios are medians over the rounds.  Before that, what the core can do at most, and how far final states
- * at tight tolerances are from GSL's.
+ * a grid of sixteenths of a decade, that reaches the goal there; then all run in turn, round after round, and
+ * times and ratios are medians over the rounds.  Before that, what the core can do at most, and how far final
+ * states at tight tolerances are from GSL's.
  */
 #include <pthread.h>
 #include <stdio.h>
@@ -241,20 +241,29 @@ static double worst_error(const solver *s, double tolerance, int count)
     return worst;
 }
 
-/* The loosest tolerance of quarter decades that reaches the goal: at few points, and if so at all. */
+/* The error at a tolerance: at few points, and if it reaches the goal there, at all. */
+static double error_at(const solver *s, double tolerance, double goal)
+{
+    const double error = worst_error(s, tolerance, SEARCHED);
+    return error <= goal && s->checked > SEARCHED ? worst_error(s, tolerance, s->checked) : error;
+}
+
+/* The loosest tolerance that reaches the goal: of quarter decades, then of sixteenths in the quarter before it,
+ * so that no solver has to be much better than asked. */
 static void find_tolerance(solver *s, double goal)
 {
     s->tolerance = 0.0;
-    for (int quarter = s->first_quarter; quarter <= 38; ++quarter) {
-        const double tolerance = pow(10.0, -0.25 * (20 + quarter));
-        s->error = worst_error(s, tolerance, SEARCHED);
-        if (s->error <= goal && s->checked > SEARCHED)
-            s->error = worst_error(s, tolerance, s->checked);
-        if (s->error <= goal) {
-            s->tolerance = tolerance;
-            return;
+    for (int quarter = s->first_quarter; quarter <= 38 && s->tolerance == 0.0; ++quarter)
+        for (int sixteenth = 3; sixteenth >= 0; --sixteenth) {
+            const double tolerance = pow(10.0, -0.25 * (20 + quarter) + sixteenth / 16.0);
+            if (sixteenth == 3 && error_at(s, pow(10.0, -0.25 * (20 + quarter)), goal) > goal)
+                break;
+            s->error = error_at(s, tolerance, goal);
+            if (s->error <= goal) {
+                s->tolerance = tolerance;
+                break;
+            }
         }
-    }
 }
 
 static void time_round(solver *s, int round)

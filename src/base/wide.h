@@ -118,16 +118,24 @@ static inline fst_wide fst_wide_improve(fst_wide x, fst_wide y)
     return WIDE_MULADD(y * e, series, y);
 }
 
+#if FST_LANES == 4
+/* 1/sqrt(x) to 3.5 %, from the number's exponent: processors differ in the bits of their estimates for 4
+ * floats.
+ */
+static inline fst_wide fst_wide_guess_reciprocal_sqrt(fst_wide x)
+{
+    const fst_wide_bits bits = 0x5fe6eb50c7b537a9LL - ((fst_wide_bits)_mm256_srli_epi64((__m256i)x, 1));
+    return (fst_wide)bits;
+}
+#endif
+
 static inline fst_wide fst_wide_reciprocal_sqrt(fst_wide x)
 {
 #if FST_LANES == 8
     /* Exact to 2^-14, by definition of the instruction. */
     return fst_wide_improve(x, (fst_wide)_mm512_rsqrt14_pd(WIDE_NATIVE(x)));
 #else
-    /* Processors differ in the bits of their estimates for 4 floats, so this one is made from the number's
-     * exponent; it is exact to 3.5 %, and two improvements are needed. */
-    const fst_wide_bits bits = 0x5fe6eb50c7b537a9LL - ((fst_wide_bits)_mm256_srli_epi64((__m256i)x, 1));
-    return fst_wide_improve(x, fst_wide_improve(x, (fst_wide)bits));
+    return fst_wide_improve(x, fst_wide_improve(x, fst_wide_guess_reciprocal_sqrt(x)));
 #endif
 }
 
@@ -172,12 +180,22 @@ static inline fst_wide fst_wide_rough_reciprocal(fst_wide x)
 #endif
 }
 
+/* 1/sqrt(x) to about 1e-4, for the choice of step sizes: nothing else can be done before the next is known. */
+static inline fst_wide fst_wide_rough_reciprocal_sqrt(fst_wide x)
+{
+#if FST_LANES == 8
+    return (fst_wide)_mm512_rsqrt14_pd(WIDE_NATIVE(x));
+#else
+    return fst_wide_improve(x, fst_wide_guess_reciprocal_sqrt(x));
+#endif
+}
+
 /* x^(-1/8) by three reciprocal roots. */
 static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 {
-    const fst_wide half = fst_wide_reciprocal_sqrt(x);
-    const fst_wide quarter = half * fst_wide_reciprocal_sqrt(half);
-    return quarter * fst_wide_reciprocal_sqrt(quarter);
+    const fst_wide half = fst_wide_rough_reciprocal_sqrt(x);
+    const fst_wide quarter = half * fst_wide_rough_reciprocal_sqrt(half);
+    return quarter * fst_wide_rough_reciprocal_sqrt(quarter);
 }
 
 #define REAL_MULADD(a, b, c) WIDE_MULADD(a, b, c)
@@ -188,7 +206,7 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_ESTIMATE_RECIPROCAL_SQRT(x) fst_wide_estimate_reciprocal_sqrt(x)
 #define REAL_INVERSE_FIFTH(x, estimate) fst_wide_inverse_fifth(x, estimate)
 #define REAL_ROUGH_RECIPROCAL(x) fst_wide_rough_reciprocal(x)
-#define REAL_OVER_SQRT(a, x) ((a)*fst_wide_reciprocal_sqrt(x))
+#define REAL_OVER_SQRT(a, x) ((a)*fst_wide_rough_reciprocal_sqrt(x)) /* where four digits do */
 #define REAL_INVERSE_EIGHTH_ROOT(x) fst_wide_inverse_eighth_root(x)
 #else
 #define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))

@@ -248,10 +248,10 @@ static void add_twofold(REAL *high, REAL *low, REAL x)
  * state takes an eighth less work. */
 static REAL control(batch *b, fst_wide_mask mask, REAL factor)
 {
-    const REAL eighth = factor * R(1.0 / 0.9), sixteenth = eighth * fst_wide_reciprocal_sqrt(eighth);
-    const REAL root = sixteenth * fst_wide_reciprocal_sqrt(sixteenth), before = b->root;
+    const REAL eighth = factor * R(1.0 / 0.9), sixteenth = eighth * fst_wide_rough_reciprocal_sqrt(eighth);
+    const REAL root = sixteenth * fst_wide_rough_reciprocal_sqrt(sixteenth), before = b->root;
     b->root = fst_wide_select(mask, root, before);
-    return factor / (root * before);
+    return factor * fst_wide_rough_reciprocal(root * before);
 }
 #endif
 
