@@ -226,6 +226,23 @@ class ManyPoints(Figures):
         self.assertEqual(len(blocks["cells-1"]), 10)  # a box a row: all are locked
 
 
+class Words(Figures):
+    def test_only_the_last_panel_names_the_choices(self):
+        self.sweep("w.db", "model.dynamics=rigid,farago2020")
+        script, _ = self.plot("w.db", "--key", "mean_r,std_r,mean_nz")
+        tics = [line for line in script.split("\n") if line.startswith("set xtics (")]
+        self.assertEqual(tics, 2 * ["set xtics ('' 0, '' 1)"] + ["set xtics ('rigid' 0, 'farago2020' 1)"])
+
+
+class Paths(Figures):
+    def test_a_zoom_beside_the_path(self):
+        self.good("run", *SHORT, "-o", self.path("t.csv"))
+        words = ("plot", self.path("t.csv"), "-o", self.path("t.svg"), "--zoom")
+        self.assertIn("beside the path", self.refused(*words, "500,600,0,20"))
+        self.assertFalse(os.path.exists(self.path("t.svg")))
+        self.plot("t.csv", "--zoom", "0,30,0,30")
+
+
 if __name__ == "__main__":
     if not shutil.which("gnuplot"):
         print("skipped: no gnuplot (gnuplot-nox)")

@@ -50,6 +50,19 @@ static void write_label(fst_figure_file *figure, const char *axis, const char *t
     (void)fprintf(figure->script, " textcolor rgb '%s'\n", fst_colour_code(colour));
 }
 
+/* The tics of the abscissa; only the panel at the bottom names them. */
+static void write_tics(FILE *script, const char *tics, int named)
+{
+    int in_name = 0;
+    (void)fputs("set xtics ", script);
+    for (const char *c = tics; *c; ++c) {
+        in_name ^= *c == '\'';
+        if (named || !in_name || *c == '\'')
+            (void)fputc(*c, script);
+    }
+    (void)fputc('\n', script);
+}
+
 static void write_axes(fst_figure_file *figure, const fst_chart *chart, const fst_chart_panel *panel, int top,
                        int bottom)
 {
@@ -66,7 +79,7 @@ static void write_axes(fst_figure_file *figure, const fst_chart *chart, const fs
     write_label(figure, "x", bottom ? chart->x_label : NULL, FST_COLOUR_BLACK);
     (void)fputs(bottom ? "set format x '%g'\n" : "set format x ''\n", script);
     if (chart->x_tics)
-        (void)fprintf(script, "set xtics %s\n", chart->x_tics);
+        write_tics(script, chart->x_tics, bottom);
     int second = top && chart->x2_label;
     write_label(figure, "x2", second ? chart->x2_label : NULL, FST_COLOUR_BLACK);
     if (second)

@@ -48,6 +48,25 @@ static fst_status find_columns(const fst_view *view, const char *colour, path_co
 
 /* ------------------------------------------------------------------ frame */
 
+/* A zoom beside everything that there is would show an empty frame. */
+static fst_status check_zoom(const fst_view *view, const path_columns *columns, const double *zoom,
+                             fst_error *error)
+{
+    double least[2], greatest[2];
+    const double *where[2] = {columns->x, columns->y};
+    int beside = 0;
+    for (int i = 0; i < 2; i++) {
+        fst_view_range(view, where[i], &least[i], &greatest[i]);
+        least[i] *= view->millimetres;
+        greatest[i] *= view->millimetres;
+        beside = beside || zoom[2 * i] > greatest[i] || zoom[2 * i + 1] < least[i];
+    }
+    return beside ? fst_fail(error, FST_BAD_INPUT, "figure",
+                             "the zoom is beside the path, which lies within %.4g,%.4g,%.4g,%.4g (mm)",
+                             least[0], greatest[0], least[1], greatest[1])
+                  : FST_OK;
+}
+
 /* The square of the plate that is shown, in mm: the zoom, or everything about the axis. */
 static fst_status choose_box(const fst_view *view, const path_columns *columns,
                              const fst_figure_options *options, double box[4], fst_error *error)
@@ -57,7 +76,7 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
         if (!(zoom[0] < zoom[1] && zoom[2] < zoom[3]))
             return fst_fail(error, FST_BAD_INPUT, "figure", "an empty zoom: it is x0 x1 y0 y1 in mm");
         memcpy(box, zoom, 4 * sizeof *box);
-        return FST_OK;
+        return check_zoom(view, columns, zoom, error);
     }
     double least, greatest, reach = 0.0;
     fst_view_range(view, columns->x, &least, &greatest);
