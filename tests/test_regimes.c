@@ -66,6 +66,22 @@ static void test_locked_from_rest(void **unused)
     }
 }
 
+/* What a strong magnet makes of rounding errors is no motion: n itself stays where it is. */
+static void test_locked_by_a_strong_magnet(void **unused)
+{
+    (void)unused;
+    static const double kappas[] = {1e3, 1e4, 1e5};
+    for (int i = 0; i < 3; ++i) {
+        fst_params p = bead_at(0.3, FST_DYNAMICS_RIGID);
+        p.model_kappa = kappas[i];
+        p.run_periods = 16;
+        p.run_discard = 8;
+        const fst_run_result r = run_of(&p);
+        expect_regime(&r, FST_REGIME_LOCKED);
+        CHECK_CLOSE(r.mean_phi_dot, 0, 1e-9);
+    }
+}
+
 /* Phi bounded for good, but not at rest. */
 static void test_librating(void **unused)
 {
@@ -310,6 +326,7 @@ int main(void)
         cmocka_unit_test(test_same_regimes_at_any_tolerance),
         cmocka_unit_test(test_locked),
         cmocka_unit_test(test_locked_from_rest),
+        cmocka_unit_test(test_locked_by_a_strong_magnet),
         cmocka_unit_test(test_librating),
         cmocka_unit_test(test_chaotic),
         cmocka_unit_test(test_ejected),
