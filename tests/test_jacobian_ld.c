@@ -1,8 +1,10 @@
-/* The Jacobian is the only second writing of the physics: it must be the derivative of the right-hand side, for
- * every material, friction law and dynamics. */
+/* The Jacobian is a second writing of the physics: it must be the derivative of the right-hand side, for every
+ * material, friction law and dynamics.  The derivative along a vector is a third: it must be the Jacobian times
+ * the vector. */
 #include "physics_ld.h"
 
 #include "model/jacobian.inl"
+#include "model/tangent.inl"
 
 /* Column j of the derivative of the right-hand side, by differences. */
 static void difference_column(const coefficients_ld *c, const long double *y, int j, long double *column)
@@ -22,6 +24,43 @@ static void difference_column(const coefficients_ld *c, const long double *y, in
         }
 }
 
+/* The derivative along a vector is the Jacobian times it, and the state's own is the right-hand side's, to
+ * rounding (2^-64 = 5.4e-20): what rounds is of the size of the products that are summed. */
+static void check_along(const coefficients_ld *c, const long double *y,
+                        long double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], const long double *along)
+{
+    long double dy[FST_STATE_SIZE], change[FST_STATE_SIZE], expected_dy[FST_STATE_SIZE];
+    fst_pull_long_double pull;
+    fst_rhs_and_tangent_long_double(c, c->omega, y, along, dy, change);
+    fst_rhs_long_double(c, c->omega, y, expected_dy, &pull);
+    long double speed = 0, scale = 0, expected[FST_STATE_SIZE] = {0};
+    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+        long double products = 0;
+        for (int k = 0; k < FST_STATE_SIZE; ++k) {
+            expected[i] += jacobian[i][k] * along[k];
+            products += fabsl(jacobian[i][k] * along[k]);
+        }
+        scale = products > scale ? products : scale;
+        speed = fabsl(expected_dy[i]) > speed ? fabsl(expected_dy[i]) : speed;
+    }
+    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+        CHECK_CLOSE_LD(change[i] / scale, expected[i] / scale, 1e-17);
+        CHECK_CLOSE_LD(dy[i] / speed, expected_dy[i] / speed, 1e-17);
+    }
+}
+
+/* Along the axes, where no other entry hides one, and along a vector of all. */
+static void check_all_along(const coefficients_ld *c, const long double *y,
+                            long double jacobian[FST_STATE_SIZE][FST_STATE_SIZE])
+{
+    for (int axis = 0; axis <= FST_STATE_SIZE; ++axis) {
+        long double along[FST_STATE_SIZE];
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            along[i] = axis == FST_STATE_SIZE ? cosl(1.0L + 3.0L * i) : axis == i ? 1.0L : 0.0L;
+        check_along(c, y, jacobian, along);
+    }
+}
+
 static void check_at(const fst_params *p, const fst_model *model, const double *state)
 {
     const coefficients_ld c = coefficients_of(p);
@@ -31,6 +70,7 @@ static void check_at(const fst_params *p, const fst_model *model, const double *
     double jacobian[FST_STATE_SIZE][FST_STATE_SIZE];
     fst_jacobian(model, state, jacobian, NULL);
     fst_jacobian_long_double(&c, c.omega, y, exact);
+    check_all_along(&c, y, exact);
     for (int j = 0; j < FST_STATE_SIZE; ++j) {
         long double column[FST_STATE_SIZE];
         difference_column(&c, y, j, column);

@@ -280,6 +280,71 @@ static void test_exponents(void **state)
     }
 }
 
+/* Beads with a vector each, as many as an engine has lanes or two; their derivatives go into slope[]. */
+static void evaluate_tangents(const fst_tangent_engine *engine, fst_model *const *models,
+                              double (*y)[FST_TANGENT_DIM], double (*slope)[FST_TANGENT_DIM])
+{
+    double atol[FST_TANGENT_DIM], *values;
+    const double *slopes;
+    for (int i = 0; i < FST_TANGENT_DIM; ++i)
+        atol[i] = 1e-9;
+    const size_t bytes = (engine->bytes + 63) / 64 * 64;
+    void *memory = aligned_alloc(64, bytes);
+    assert_non_null(memory);
+    memset(memory, 0, bytes);
+    for (int l = 0; l < engine->width; ++l)
+        engine->load(memory, l, &models[l % 2]->coefficients, y[l % 2], 1e-9, atol);
+    engine->view(memory, &values, &slopes);
+    engine->evaluate(memory);
+    for (int l = 0; l < 2 && l < engine->width; ++l)
+        for (int i = 0; i < FST_TANGENT_DIM; ++i)
+            slope[l][i] = slopes[i * engine->width + l];
+    free(memory);
+}
+
+/* A tangent vector changes by the Jacobian times it, in every form, material, friction law and dynamics, and
+ * for the paper's lines as for other numbers; portable lanes have the scalar engine's bits. */
+static void test_tangents(void **state)
+{
+    (void)state;
+    static const int numbers[] = {5, 1, 4};
+    uint64_t seed = 41;
+    for (int which = 0; which < 3 * CASES; ++which) {
+        fst_params p = params_of_case(which % CASES);
+        p.magnet_lines = numbers[which / CASES];
+        fst_params stronger = p;
+        stronger.model_kappa *= 2.0;
+        fst_model *const models[2] = {model_of(&p), model_of(&stronger)};
+        double y[2][FST_TANGENT_DIM], scalar[2][FST_TANGENT_DIM], slope[2][FST_TANGENT_DIM];
+        double expected[2][FST_TANGENT_DIM] = {{0.0}, {0.0}}, jacobian[FST_STATE_SIZE][FST_STATE_SIZE];
+        for (int l = 0; l < 2; ++l) {
+            random_state(&seed, y[l]);
+            random_state(&seed, y[l] + FST_STATE_SIZE);
+            fst_rhs(models[l], y[l], expected[l]);
+            fst_jacobian(models[l], y[l], jacobian, NULL);
+            for (int i = 0; i < FST_STATE_SIZE; ++i)
+                for (int k = 0; k < FST_STATE_SIZE; ++k)
+                    expected[l][FST_STATE_SIZE + i] += jacobian[i][k] * y[l][FST_STATE_SIZE + k];
+        }
+        for (int l = 0; l < 2; ++l) {
+            evaluate_tangents(&fst_tangents_scalar, &models[l], &y[l], &scalar[l]);
+            assert_true(greatest_difference(scalar[l], expected[l], FST_TANGENT_DIM) < 1e-11);
+        }
+        for (int form = FST_ARITHMETIC_PORTABLE; form <= FST_ARITHMETIC_AVX512; ++form) {
+            const fst_lane_engine *engine = fst_lane_engine_of((fst_arithmetic)form, 0);
+            if (!engine)
+                continue;
+            evaluate_tangents(&engine->tangents, models, y, slope);
+            if (!engine->fused)
+                assert_memory_equal(slope, scalar, sizeof slope);
+            assert_true(greatest_difference(slope[0], expected[0], FST_TANGENT_DIM) < 1e-11);
+            assert_true(greatest_difference(slope[1], expected[1], FST_TANGENT_DIM) < 1e-11);
+        }
+        fst_model_free(models[0]);
+        fst_model_free(models[1]);
+    }
+}
+
 static void test_no_such_engine(void **state)
 {
     (void)state;
@@ -334,6 +399,7 @@ int main(void)
         cmocka_unit_test(test_fast_rows_depend_on_nothing_else),
         cmocka_unit_test(test_extremes_are_those_of_the_path),
         cmocka_unit_test(test_exponents),
+        cmocka_unit_test(test_tangents),
         cmocka_unit_test(test_no_such_engine),
         cmocka_unit_test(test_final_states),
     };

@@ -169,6 +169,18 @@ static inline fst_wide fst_wide_inverse_fifth(fst_wide x, fst_wide y)
     return ((y2 * y2) * y) * series;
 }
 
+/* 1/x = y^2/(1 - e) of the same. */
+static inline fst_wide fst_wide_inverse(fst_wide x, fst_wide y)
+{
+    const fst_wide one = fst_wide_of(1.0), y2 = y * y, e = WIDE_NEGMULADD(x, y2, one);
+#if FST_LANES == 8
+    const fst_wide rest = WIDE_MULADD(e, e, e); /* e + e^2 + e^3, and e^4 < 2.3e-16 */
+    return WIDE_MULADD(y2, WIDE_MULADD(e, rest, e), y2);
+#else
+    return WIDE_MULADD(y2, WIDE_MULADD(e, e, e), y2);
+#endif
+}
+
 /* 1/x to about 1e-8, for what needs no more: scaling errors. */
 static inline fst_wide fst_wide_rough_reciprocal(fst_wide x)
 {
@@ -205,6 +217,7 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_FAST_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x) /* where it is no root and a quotient */
 #define REAL_ESTIMATE_RECIPROCAL_SQRT(x) fst_wide_estimate_reciprocal_sqrt(x)
 #define REAL_INVERSE_FIFTH(x, estimate) fst_wide_inverse_fifth(x, estimate)
+#define REAL_INVERSE(x, estimate) fst_wide_inverse(x, estimate)
 #define REAL_ROUGH_RECIPROCAL(x) fst_wide_rough_reciprocal(x)
 #define REAL_OVER_SQRT(a, x) ((a)*fst_wide_rough_reciprocal_sqrt(x)) /* where four digits do */
 #define REAL_INVERSE_EIGHTH_ROOT(x) fst_wide_inverse_eighth_root(x)

@@ -5,7 +5,6 @@
 
 #include "ode/flow.h"
 
-#include "model/jacobian.inl"
 #include "ode/tangent_step.inl"
 
 #define TANGENT_WIDTH 1

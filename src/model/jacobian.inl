@@ -1,7 +1,7 @@
 /* jacobian.inl - the exact Jacobian of the equations of motion (rhs.inl), over REAL.
  *
- * The only second writing of the physics; a test holds it against differences of the right-hand side in long
- * double.  The field enters with its second derivatives,
+ * A second writing of the physics; a test holds it against differences of the right-hand side in long double.
+ * The field enters with its second derivatives,
  *     T_ijk = dG_ij/dx_k = sum of s [ -3 (delta_ij d_k + delta_ik d_j + delta_jk d_i)/d^5 + 15 d_i d_j d_k/d^7
  * ].
  */
@@ -11,68 +11,6 @@ typedef struct FN(field_derivatives) {
     REAL b[3], g[3][3], t[3][3][2];
 } FN(field_derivatives);
 
-#ifdef FIELD_KEEPS_GRADIENT
-/* Where B and G are made of moments (field.inl), T is too: with those of 1/|d|^7, q_m = sum of Y^m/|d|^7, for
- * an end of sign s. */
-typedef struct FN(end_moments) {
-    REAL p0, p1, q0, q1, q2, q3; /* p_m: of 1/|d|^5 */
-} FN(end_moments);
-
-static inline void FN(add_third_derivatives)(FN(field_derivatives) * out, REAL s, REAL x, REAL h,
-                                             const FN(end_moments) * m)
-{
-    const REAL s3 = R(3.0) * s, s15 = R(15.0) * s, x2 = x * x;
-    const REAL xxx = x * (s15 * x2 * m->q0 - R(3.0) * s3 * m->p0), xxy = s15 * x2 * m->q1 - s3 * m->p1;
-    const REAL xyy = x * (s15 * m->q2 - s3 * m->p0), yyy = s15 * m->q3 - R(3.0) * s3 * m->p1;
-    const REAL xxz = h * (s15 * x2 * m->q0 - s3 * m->p0), xyz = s15 * x * h * m->q1;
-    const REAL yyz = h * (s15 * m->q2 - s3 * m->p0);
-    const REAL by_x[3][3] = {{xxx, xxy, xxz}, {xxy, xyy, xyz}, {xxz, xyz, -(xxx + xyy)}};
-    const REAL by_y[3][3] = {{xxy, xyy, xyz}, {xyy, yyy, yyz}, {xyz, yyz, -(xxy + yyy)}};
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            out->t[i][j][0] = out->t[i][j][0] + by_x[i][j];
-            out->t[i][j][1] = out->t[i][j][1] + by_y[i][j];
-        }
-}
-
-static inline FN(end_moments) FN(moments_of_end)(const FN(coefficients) * c, REAL across2, REAL y)
-{
-    const REAL zero = R(0.0);
-    FN(end_moments) m = {zero, zero, zero, zero, zero, zero};
-    REAL place = c->first_line;
-    for (int count = c->lines; count > 0; --count, place = place + R(1.0)) {
-        const REAL dy = REAL_NEGMULADD(place, c->spacing, y), dy2 = dy * dy;
-        const REAL inverse = REAL_FAST_RECIPROCAL_SQRT(dy2 + across2), inverse2 = inverse * inverse;
-        const REAL p = (inverse2 * inverse2) * inverse, q = p * inverse2;
-        m.p0 = m.p0 + p;
-        m.p1 = REAL_MULADD(dy, p, m.p1);
-        m.q0 = m.q0 + q;
-        m.q1 = REAL_MULADD(dy, q, m.q1);
-        m.q2 = REAL_MULADD(dy2, q, m.q2);
-        m.q3 = REAL_MULADD(dy2 * dy, q, m.q3);
-    }
-    return m;
-}
-
-static inline void FN(field_with_derivatives)(const FN(coefficients) * c, REAL x, REAL y,
-                                              FN(field_derivatives) * out)
-{
-    const REAL h = c->height, zero = R(0.0), dx[2] = {x - R(1.0), x + R(1.0)};
-    FN(gradient) g;
-    FN(field_and_gradient)(c, x, y, out->b, &g);
-    const REAL whole[3][3] = {{g.xx, g.xy, g.xz}, {g.xy, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            out->g[i][j] = whole[i][j];
-            out->t[i][j][0] = out->t[i][j][1] = zero;
-        }
-    for (int end = 0; end < 2; ++end) {
-        const FN(end_moments) m = FN(moments_of_end)(c, REAL_MULADD(dx[end], dx[end], h * h), y);
-        const REAL strength = end == 0 ? c->line_strength : -c->line_strength;
-        FN(add_third_derivatives)(out, strength, dx[end], h, &m);
-    }
-}
-#else
 static inline void FN(add_charge)(FN(field_derivatives) * out, REAL s, const REAL d[3])
 {
     const REAL inverse2 = R(1.0) / (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
@@ -113,7 +51,6 @@ static inline void FN(field_with_derivatives)(const FN(coefficients) * c, REAL x
         FN(add_charge)(out, -c->line_strength, to_minus);
     }
 }
-#endif
 
 /* Derivatives of the magnetic force and of the torque's dW/dt by position (columns 0, 1) and by n. */
 static inline void FN(magnetic_jacobian)(const FN(coefficients) * c, const REAL *n,

@@ -75,9 +75,10 @@ static inline void FN(kinematics)(REAL omega, const REAL *y, REAL *dy)
     dy[FST_NZ] = REAL_MULSUB(w[0], n[1], w[1] * n[0]);
 }
 
-/* The others, of the velocities v and W, by the magnet's pull at the state. */
-static inline void FN(dynamics)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(pull) * p,
-                                REAL *dy)
+/* The others, of the velocities v and W, by the magnet's pull at the state; linear in v, W and the force, and
+ * in n where the pull is given. */
+static inline void FN(rigid_dynamics)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(pull) * p,
+                                      REAL *dy)
 {
     const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX, *b = p->b;
     const REAL torque = c->torque * p->strength;
@@ -90,7 +91,14 @@ static inline void FN(dynamics)(const FN(coefficients) * c, REAL omega, const RE
     dy[FST_WY] = REAL_NEGMULADD(
         omega, w[0], REAL_MULADD(torque, REAL_MULSUB(n[2], b[0], n[0] * b[2]), c->traction * friction_x));
     dy[FST_WZ] = torque * REAL_MULSUB(n[0], b[1], n[1] * b[0]);
+}
+
+static inline void FN(dynamics)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(pull) * p,
+                                REAL *dy)
+{
+    FN(rigid_dynamics)(c, omega, y, p, dy);
     if (c->gyroscopic_term_lost) {
+        const REAL *n = y + FST_NX, *w = y + FST_WX;
         const REAL spin = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
         dy[FST_WX] = dy[FST_WX] + spin * (w[1] * n[2] - w[2] * n[1]);
         dy[FST_WY] = dy[FST_WY] + spin * (w[2] * n[0] - w[0] * n[2]);
