@@ -143,37 +143,42 @@ void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integ
 
 /* ------------------------------------------------------------------ extremes */
 
-static double tracked_value(const fst_flow *flow, const double *state, const fst_pull_double *p, int which)
+/* A tracked quantity at the fraction x of the last step, with its bits at a stage; what it does not look at, of
+ * the state and of the magnet's pull, is not made. */
+static double tracked_at(fst_flow *flow, double x, const void *what)
 {
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const int which = *(const int *)what;
+    const int first = which == FST_TRACK_SLIP ? FST_VX : FST_X;
+    const int count = which == FST_TRACK_R || which == FST_TRACK_B ? 2 : FST_STATE_SIZE - first;
+    double state[FST_STATE_SIZE] = {0.0}, unused[3];
+    fst_pull_double p = {.strength = 0.0};
     fst_seen_double seen;
-    fst_see_double(&flow->step.context.coefficients, 0.0, state, p, &seen);
+    fst_flow_make_dense(flow);
+    fst_bead_evaluate_dense_double(count, &flow->step.dense[0][first], FST_STATE_SIZE, x, state + first);
     switch (which) {
     case FST_TRACK_R:
+        fst_see_double(c, 0.0, state, &p, &seen);
         return seen.r;
     case FST_TRACK_B:
+        fst_field_along_double(c, state[FST_X], state[FST_Y], state + FST_NX, p.b, unused);
+        fst_see_double(c, 0.0, state, &p, &seen);
         return seen.b_norm;
     case FST_TRACK_GAP:
+        (void)fst_renormalise_double(state);
+        fst_field_along_double(c, state[FST_X], state[FST_Y], state + FST_NX, p.b, unused);
+        fst_see_double(c, 0.0, state, &p, &seen);
         return seen.gap2;
     case FST_TRACK_SLIP:
+        fst_see_double(c, 0.0, state, &p, &seen);
         return seen.slip2;
     default:
+        (void)fst_renormalise_double(state);
+        fst_magnetic_pull_double(c, state, &p);
+        fst_see_double(c, 0.0, state, &p, &seen);
         return seen.load;
     }
 }
-
-#define TRACKED_FUNCTION(name, which)                                                                          \
-    static double name(const fst_flow *flow, const double *state, const fst_pull_double *p)                    \
-    {                                                                                                          \
-        return tracked_value(flow, state, p, which);                                                           \
-    }
-TRACKED_FUNCTION(tracked_r, FST_TRACK_R)
-TRACKED_FUNCTION(tracked_b, FST_TRACK_B)
-TRACKED_FUNCTION(tracked_gap, FST_TRACK_GAP)
-TRACKED_FUNCTION(tracked_slip, FST_TRACK_SLIP)
-TRACKED_FUNCTION(tracked_load, FST_TRACK_LOAD)
-
-static const fst_state_function TRACKED[FST_TRACK_COUNT] = {tracked_r, tracked_b, tracked_gap, tracked_slip,
-                                                            tracked_load};
 
 /* The greatest sign * value of one quantity in the last step, if it may beat the record. */
 static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record)
@@ -186,7 +191,7 @@ static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, d
     if (!(fst_may_exceed_double(&top, record) > 0.0))
         return record;
     double value;
-    (void)fst_flow_extreme(flow, TRACKED[which], sign, top.before, top.after, &value);
+    (void)fst_flow_extreme(flow, tracked_at, &which, sign, top.before, top.after, &value);
     return sign * value > record ? sign * value : record;
 }
 
