@@ -43,6 +43,9 @@ static inline fst_two_doubles fst_sqrt_two_doubles(fst_two_doubles x)
 #define REAL_SQRT(x) sqrt(x)
 #define REAL_ABS(x) fabs(x)
 #define REAL_MAX(a, b) ((a) > (b) ? (a) : (b))
+#define REAL_MASK int /* where a comparison holds */
+#define REAL_LESS(a, b) ((a) < (b))
+#define REAL_SELECT(mask, yes, no) ((mask) ? (yes) : (no))
 #define REAL_ROUGH_RECIPROCAL(x) (R(1.0) / (x)) /* where a kind of number may save digits */
 #define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))
 #define RHS_KIND static inline

@@ -25,6 +25,9 @@
 #undef REAL_SQRT
 #undef REAL_ABS
 #undef REAL_MAX
+#undef REAL_MASK
+#undef REAL_LESS
+#undef REAL_SELECT
 #undef REAL_RECIPROCAL_SQRT
 #undef REAL_OF
 #undef REAL_MULADD
@@ -260,5 +263,8 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_SQRT(x) WIDE_SQRT(x)
 #define REAL_ABS(x) fst_wide_abs(x)
 #define REAL_MAX(a, b) WIDE_MAX(a, b)
+#define REAL_MASK fst_wide_mask
+#define REAL_LESS(a, b) WIDE_LESS(a, b)
+#define REAL_SELECT(mask, yes, no) fst_wide_select(mask, yes, no)
 
 #endif

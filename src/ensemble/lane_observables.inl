@@ -63,36 +63,6 @@ static void integrate(batch *b, fst_wide_mask mask)
     }
 }
 
-/* The greatest of sign times a tracked quantity at the stages, and where it lies between which neighbours. */
-typedef struct summit {
-    REAL best, fall, before, after; /* the values of the neighbours are lower by up to `fall`; their nodes */
-} summit;
-
-static summit find_summit(const batch *b, int record)
-{
-    /* The nodes of the path's stages, with the first and the last once more as their own neighbours. */
-    const REAL zero = R(0.0), one = R(1.0);
-    const REAL node[FST_PATH_STAGES + 2] = {zero,   zero,    DOP_C7, DOP_C8, DOP_C6, DOP_C10,
-                                            DOP_C9, DOP_C11, one,    one,    one};
-    const int which = FST_RECORD_TRACKS[record];
-    const REAL sign = REAL_OF(fst_record_sign(record));
-    summit top = {sign * b->tracked[0][which], zero, zero, DOP_C7};
-    REAL before = top.best, after = sign * b->tracked[1][which];
-    for (int n = 1; n < FST_PATH_STAGES; ++n) {
-        const REAL value = sign * b->tracked[n][which];
-        const fst_wide_mask higher = WIDE_LESS(top.best, value);
-        const int next = n + 1 < FST_PATH_STAGES ? n + 1 : n;
-        before = fst_wide_select(higher, sign * b->tracked[n - 1][which], before);
-        after = fst_wide_select(higher, sign * b->tracked[next][which], after);
-        top.best = fst_wide_select(higher, value, top.best);
-        top.before = fst_wide_select(higher, node[n], top.before);
-        top.after = fst_wide_select(higher, node[n + 2], top.after);
-    }
-    top.before = -REAL_MAX(-top.before, -DOP_C11); /* the last two stages both lie at the end */
-    top.fall = REAL_MAX(top.best - before, top.best - after);
-    return top;
-}
-
 /* What a record must be beaten by: in the fast form by what counts, 1e-9 of it (and, for the squares of an
  * angle and of a slip, those of 1e-8), so that a bead at rest is not looked at for its rounding errors. */
 static REAL to_beat(REAL record)
@@ -108,9 +78,14 @@ static REAL to_beat(REAL record)
 static void find_beaten(batch *b, unsigned tracked, unsigned beaten[FST_RECORD_COUNT])
 {
     for (int i = 0; i < FST_RECORD_COUNT; ++i) {
-        const summit top = find_summit(b, i);
-        const REAL bound = top.best + R(EXTREME_MARGIN) * top.fall;
-        beaten[i] = tracked & fst_wide_lanes_of(WIDE_LESS(to_beat(b->records[i]), bound));
+        const FN(summit) top =
+            FN(find_summit)(&b->tracked[0][FST_RECORD_TRACKS[i]], FST_TRACK_COUNT, REAL_OF(fst_record_sign(i)));
+        const REAL more = FN(may_exceed)(&top, to_beat(b->records[i]));
+        beaten[i] = tracked & fst_wide_lanes_of(WIDE_LESS(R(0.0), more));
+#ifdef FST_FUSED
+        b->summit_from[i] = top.before;
+        b->summit_to[i] = top.after;
+#endif
 #ifdef FST_FUSED
         /* The end of a step lies on the trajectory; the stages within it do so but roughly, and a record that
          * one of them overshot would hide the ones to come. */

@@ -10,6 +10,7 @@
 #include "model/observe.inl"
 #include "model/jacobian.inl"
 #include "ode/bead_step.inl"
+#include "ode/summit.inl"
 #include "ode/tangent_step.inl"
 
 typedef struct batch {
@@ -29,8 +30,10 @@ typedef struct batch {
     REAL r_reference, b_reference;
     REAL integrands[FST_PATH_STAGES][FST_Q_COUNT], tracked[FST_PATH_STAGES][FST_TRACK_COUNT];
     REAL records[FST_RECORD_COUNT];
-    unsigned observed; /* the lanes whose last step was */
-    unsigned known;    /* those whose integrands at the start of the present step are there */
+    REAL summit_from[FST_RECORD_COUNT],
+        summit_to[FST_RECORD_COUNT]; /* between which nodes the step's extreme is */
+    unsigned observed;               /* the lanes whose last step was */
+    unsigned known;                  /* those whose integrands at the start of the present step are there */
 } batch;
 
 /* A wide value's lanes as doubles in memory. */

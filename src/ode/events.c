@@ -125,11 +125,11 @@ static void take_trial(minimum *m, double u, double fu)
     }
 }
 
-double fst_flow_extreme(fst_flow *flow, fst_state_function function, double sign, double lo, double hi,
-                        double *value)
+double fst_flow_extreme(fst_flow *flow, fst_step_function function, const void *what, double sign, double lo,
+                        double hi, double *value)
 {
     const double start = lo + 0.381966011250105151795 * (hi - lo);
-    const double f_start = -sign * fst_flow_function_at(flow, start, function);
+    const double f_start = -sign * function(flow, start, what);
     minimum m = {lo, hi, start, start, start, f_start, f_start, f_start};
     double last = 0, before_last = 0;
     for (int i = 0; i < 60 && m.hi - m.lo > 1e-7; ++i) {
@@ -139,10 +139,15 @@ double fst_flow_extreme(fst_flow *flow, fst_state_function function, double sign
             u = m.x + (u < m.x ? -2e-8 : 2e-8);
         if (u <= m.lo || u >= m.hi)
             break;
-        take_trial(&m, u, -sign * fst_flow_function_at(flow, u, function));
+        take_trial(&m, u, -sign * function(flow, u, what));
     }
     *value = -sign * m.fx;
     return m.x;
+}
+
+static double state_function_at(fst_flow *flow, double x, const void *function)
+{
+    return fst_flow_function_at(flow, x, *(const fst_state_function *)function);
 }
 
 int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double lo, double *x)
@@ -168,7 +173,8 @@ int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double 
         }
         if (i < PIECES && f[i] <= f[i - 1] && f[i] <= f[i + 1]) { /* a dip: it may go below zero in between */
             double bottom;
-            const double place = fst_flow_extreme(flow, function, -1.0, at[i - 1], at[i + 1], &bottom);
+            const double place =
+                fst_flow_extreme(flow, state_function_at, &function, -1.0, at[i - 1], at[i + 1], &bottom);
             if (bottom < 0) {
                 *x = fst_flow_locate(flow, function, at[i - 1], place, f[i - 1], bottom);
                 return 1;

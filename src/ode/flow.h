@@ -86,10 +86,13 @@ double fst_flow_function_at(fst_flow *flow, double x, fst_state_function functio
 double fst_flow_locate(fst_flow *flow, fst_state_function function, double lo, double hi, double f_lo,
                        double f_hi);
 
+/* A function of the fraction x of the last step; `what` is its caller's. */
+typedef double (*fst_step_function)(fst_flow *flow, double x, const void *what);
+
 /* The place in [lo, hi] where sign * function is greatest, by golden sections and a parabola; *value is the
  * function there. */
-double fst_flow_extreme(fst_flow *flow, fst_state_function function, double sign, double lo, double hi,
-                        double *value);
+double fst_flow_extreme(fst_flow *flow, fst_step_function function, const void *what, double sign, double lo,
+                        double hi, double *value);
 
 /* The functions of the events: X; plate radius minus r; the normal load. */
 double fst_section_function(const fst_flow *flow, const double *state, const fst_pull_double *p);

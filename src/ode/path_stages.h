@@ -7,8 +7,14 @@
 enum { FST_PATH_STAGES = 9 };
 static const int FST_PATH_STAGE[FST_PATH_STAGES] = {0, 6, 7, 5, 9, 8, 10, 11, 12};
 
-/* What the greatest value at these stages may at most be exceeded by between them, over its fall to the
- * neighbours: 2.4 for a parabola (fst_quadrature_track), and some more. */
-#define EXTREME_MARGIN 3.0
+/* Their nodes. */
+static const double FST_PATH_NODE[FST_PATH_STAGES] = {0.0,           0.25,      4.0 / 13.0, 1.0 / 3.0, 0.6,
+                                                      127.0 / 195.0, 6.0 / 7.0, 1.0,        1.0};
+
+/* The distance from each to the one before over that to the one after (negative); at the ends, where there are
+ * no two, that to the next one of another node over that to the one beyond. */
+static const double FST_PATH_RATIO[FST_PATH_STAGES] = {13.0 / 16.0,    -13.0 / 3.0,   -9.0 / 4.0,
+                                                       -5.0 / 52.0,    -26.0 / 5.0,   -70.0 / 281.0,
+                                                       -281.0 / 195.0, 195.0 / 476.0, 195.0 / 476.0};
 
 #endif

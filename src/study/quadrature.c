@@ -4,9 +4,7 @@
 
 #include "ode/dop853_tableau.h"
 #include "ode/path_stages.h"
-
-static const double ON_PATH_NODE[FST_PATH_STAGES] = {0.0,    DOP_C7,  DOP_C8, DOP_C6, DOP_C10,
-                                                     DOP_C9, DOP_C11, 1.0,    1.0};
+#include "ode/summit.inl"
 
 static void see_stage(const fst_flow *flow, int stage, fst_seen_double *seen)
 {
@@ -145,65 +143,55 @@ void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integ
 
 /* ------------------------------------------------------------------ extremes */
 
-static double tracked_value(const fst_flow *flow, const double *state, const fst_pull_double *p, int which)
+/* A tracked quantity at the fraction x of the last step, with its bits at a stage; what it does not look at, of
+ * the state and of the magnet's pull, is not made. */
+static double tracked_at(fst_flow *flow, double x, const void *what)
 {
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const int which = *(const int *)what;
+    const int first = which == FST_TRACK_SLIP ? FST_VX : FST_X;
+    const int count = which == FST_TRACK_R || which == FST_TRACK_B ? 2 : FST_STATE_SIZE - first;
+    double state[FST_STATE_SIZE] = {0.0}, unused[3];
+    fst_pull_double p = {.strength = 0.0};
     fst_seen_double seen;
-    fst_see_double(&flow->step.context.coefficients, 0.0, state, p, &seen);
+    fst_flow_make_dense(flow);
+    fst_bead_evaluate_dense_double(count, &flow->step.dense[0][first], FST_STATE_SIZE, x, state + first);
     switch (which) {
     case FST_TRACK_R:
+        fst_see_double(c, 0.0, state, &p, &seen);
         return seen.r;
     case FST_TRACK_B:
+        fst_field_along_double(c, state[FST_X], state[FST_Y], state + FST_NX, p.b, unused);
+        fst_see_double(c, 0.0, state, &p, &seen);
         return seen.b_norm;
     case FST_TRACK_GAP:
+        (void)fst_renormalise_double(state);
+        fst_field_along_double(c, state[FST_X], state[FST_Y], state + FST_NX, p.b, unused);
+        fst_see_double(c, 0.0, state, &p, &seen);
         return seen.gap2;
     case FST_TRACK_SLIP:
+        fst_see_double(c, 0.0, state, &p, &seen);
         return seen.slip2;
     default:
+        (void)fst_renormalise_double(state);
+        fst_magnetic_pull_double(c, state, &p);
+        fst_see_double(c, 0.0, state, &p, &seen);
         return seen.load;
     }
 }
 
-#define TRACKED_FUNCTION(name, which)                                                                          \
-    static double name(const fst_flow *flow, const double *state, const fst_pull_double *p)                    \
-    {                                                                                                          \
-        return tracked_value(flow, state, p, which);                                                           \
-    }
-TRACKED_FUNCTION(tracked_r, FST_TRACK_R)
-TRACKED_FUNCTION(tracked_b, FST_TRACK_B)
-TRACKED_FUNCTION(tracked_gap, FST_TRACK_GAP)
-TRACKED_FUNCTION(tracked_slip, FST_TRACK_SLIP)
-TRACKED_FUNCTION(tracked_load, FST_TRACK_LOAD)
-
-static const fst_state_function TRACKED[FST_TRACK_COUNT] = {tracked_r, tracked_b, tracked_gap, tracked_slip,
-                                                            tracked_load};
-
-/* The greatest sign * value of one quantity in the last step, if it may beat the record.  The stages show
- * roughly where it lies.  A parabola through the best one and its neighbours, at the distances a and b, rises
- * above it by at most a^2/(4 b (a + b)) of the greater fall; the stages lie unevenly, and where one neighbour
- * is ten times as far as the other that is 2.4. */
+/* The greatest sign * value of one quantity in the last step, if it may beat the record. */
 static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record)
 {
-    int best = 0;
-    for (int i = 1; i < FST_PATH_STAGES; ++i)
-        if (sign * q->tracked[i][which] > sign * q->tracked[best][which])
-            best = i;
-    const int before = best > 0 ? best - 1 : 0,
-              after = best < FST_PATH_STAGES - 1 ? best + 1 : FST_PATH_STAGES - 1;
-    const double top = sign * q->tracked[best][which];
-    const double fall_before = top - sign * q->tracked[before][which];
-    const double fall_after = top - sign * q->tracked[after][which];
-    const double fall = fall_before > fall_after ? fall_before : fall_after;
     const double end =
         sign * q->tracked[FST_PATH_STAGES - 1][which]; /* the end lies on the trajectory exactly */
     if (end > record)
         record = end;
-    if (top + EXTREME_MARGIN * fall <= record)
+    const fst_summit_double top = fst_find_summit_double(&q->tracked[0][which], FST_TRACK_COUNT, sign);
+    if (!(fst_may_exceed_double(&top, record) > 0.0))
         return record;
-    double lo = ON_PATH_NODE[before], hi = ON_PATH_NODE[after];
-    if (hi - lo < 0.05)
-        lo = ON_PATH_NODE[before > 0 ? before - 1 : 0];
     double value;
-    (void)fst_flow_extreme(flow, TRACKED[which], sign, lo, hi, &value);
+    (void)fst_flow_extreme(flow, tracked_at, &which, sign, top.before, top.after, &value);
     return sign * value > record ? sign * value : record;
 }
 
