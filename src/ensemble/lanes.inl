@@ -8,7 +8,6 @@
 #include "model/field.inl"
 #include "model/rhs.inl"
 #include "model/observe.inl"
-#include "model/jacobian.inl"
 #include "ode/bead_step.inl"
 #include "ode/summit.inl"
 #include "ode/tangent_step.inl"
