@@ -160,7 +160,7 @@ static int check_bead(int which, double tolerance)
 }
 
 /* With a third of both margins nothing is left out either; without the rise, or with three times the greater
- * fall at either end of a step, some are, by up to 1e-5 of the extreme. */
+ * fall at either end of a step, some are, by 1e-6 of the extreme and more. */
 static void test_none_is_left_out(void **state)
 {
     (void)state;
