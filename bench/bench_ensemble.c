@@ -73,6 +73,7 @@ typedef struct solver {
     int first_quarter;                                /* looser tolerances are not tried */
     int checked;                                      /* points at which the error is taken in the end */
     double tolerance, error, ms[ROUNDS], evaluations; /* the last: a trajectory */
+    double processor_ms[ROUNDS];                      /* of all threads */
 } solver;
 
 static fst_flow *flow_at(const point *p, double tolerance)
@@ -276,9 +277,10 @@ static void time_round(solver *s, int round)
         which[i] = spread(i < half ? 2 * i : 2 * (i - half) + 1, s->sample);
     evaluations = 0;
     const clockid_t clock = s->threads == 2 ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID;
-    const double start = seconds(clock);
+    const double start = seconds(clock), processor_start = seconds(CLOCK_PROCESS_CPUTIME_ID);
     (void)s->solve(s, which, s->sample, s->tolerance, ends);
     s->ms[round] = 1e3 * (seconds(clock) - start) / s->sample;
+    s->processor_ms[round] = 1e3 * (seconds(CLOCK_PROCESS_CPUTIME_ID) - processor_start) / s->sample;
     s->evaluations = (double)evaluations / s->sample;
 }
 
@@ -293,6 +295,15 @@ static void report(const solver *s, const solver *opponent)
         printf(" %9.0f %9.1f", s->evaluations, 1e6 * median(s->ms, ROUNDS) / s->evaluations);
     printf("\n");
     fflush(stdout);
+}
+
+/* What two threads lose to each other; their time by the clock has in it what else the machine does. */
+static void report_threads(const solver *one, const solver *two)
+{
+    double ratio[ROUNDS];
+    for (int i = 0; i < ROUNDS; ++i)
+        ratio[i] = two->processor_ms[i] / one->processor_ms[i];
+    printf("  two threads take %.3f times the processor time of one\n", median(ratio, ROUNDS));
 }
 
 /* Every other reference, from *part on; then *part is whether all are there. */
@@ -346,8 +357,11 @@ static void compare(solver *solvers, int count, double goal)
     for (int round = 0; round < ROUNDS; ++round)
         for (int i = 0; i < count; ++i)
             time_round(&solvers[i], round);
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < count; ++i) {
         report(&solvers[i], &solvers[0]);
+        if (solvers[i].threads == 2)
+            report_threads(&solvers[i - 1], &solvers[i]);
+    }
 }
 
 static void report_peak(void)

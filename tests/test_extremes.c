@@ -146,7 +146,7 @@ static int check_bead(int which, double tolerance)
         fst_quadrature_step(&q, flow);
         if (flow->t.high < 2.0 * period)
             continue;
-        fst_quadrature_track(&q, flow);
+        fst_quadrature_track(&q, flow, 0.0);
         sample_step(flow, &w);
     }
     for (int i = 0; i < FST_TRACK_COUNT; ++i) {

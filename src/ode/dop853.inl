@@ -1,17 +1,15 @@
 /* dop853.inl - one step of Dormand and Prince's method of order 8(5,3), and its dense output, over REAL.
  *
  * The including file defines STEP_DIM (number of components), STEP_CONTEXT (what the right-hand side needs),
- * STEP_NAME(name), by which what this body defines is named, and
+ * STEP_NAME(name), by which what this body defines is named, and STEP_DERIVATIVES(s, drive, j): fill k[j - 1]
+ * of the step with the derivative at its stage[j - 1].  Instead of the last it may define its parts:
  *
- *     STEP_DERIVATIVES(s, drive, j)   fill s->k[j - 1] with the derivative at s->stage[j - 1];
- *
- * or, instead of this, its parts:
- *
- *     STEP_KNOWN(i)                   whether component i is one of those whose derivative follows from the
- * state alone, as that of a place follows from a velocity; STEP_KINEMATICS(s, drive, j)    fill these
- * derivatives; STEP_FORCES(s, j)               make what the other derivatives need of these components of a
- * stage; STEP_DYNAMICS(s, drive, j)      fill the other derivatives; STEP_FORCES_AND_DYNAMICS(s, next, drive,
- * j)   the forces at stage `next`, and the dynamics at stage j.
+ * - STEP_KNOWN(i): whether component i is one of those whose derivative follows from the state alone, as that
+ * of a place follows from a velocity;
+ * - STEP_KINEMATICS(s, drive, j): fill these derivatives;
+ * - STEP_FORCES(s, j): make what the other derivatives need of these components of a stage;
+ * - STEP_DYNAMICS(s, drive, j): fill the other derivatives;
+ * - STEP_FORCES_AND_DYNAMICS(s, next, drive, j): the forces at stage `next`, and the dynamics at stage j.
  *
  * With the parts, a place is known before the forces at the stage before it are, and the forces at both, which
  * take most of the time, do not wait for each other: a processor that looks ahead works on both.

@@ -129,7 +129,7 @@ fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, i
                 fst_quadrature_set_references(&run->q, run->flow);
             fst_quadrature_step(&run->q, run->flow);
             if (extremes)
-                fst_quadrature_track(&run->q, run->flow);
+                fst_quadrature_track(&run->q, run->flow, 0.0);
             look_at_step(run->flow, &extremes_met, out);
         }
         if (status == FST_OK) {

@@ -5,6 +5,8 @@
 #include "ensemble/lanes.h"
 #include "study/run_state.h"
 
+enum { FST_MOST_MISFITS = 2 * FST_MOST_LANES };
+
 typedef struct fst_lane {
     fst_run_state *run; /* NULL: idle */
     fst_row_job job;
@@ -38,11 +40,10 @@ typedef struct fst_crew {
     /* Runs to their ends whose exponents are wanted: less than a batch, and those that end in one step. */
     fst_lane parked[2 * FST_MOST_LANES];
     int parked_count;
-    /* Jobs to come: at most one for each run that was begun, and one that does not fit. */
-    fst_row_job waiting[8 * FST_MOST_LANES];
-    int waiting_count;
+    /* Jobs to come: at most one for each run that was begun; and those that do not fit those at work. */
+    fst_row_job waiting[8 * FST_MOST_LANES], misfits[FST_MOST_MISFITS];
+    int waiting_count, misfit_count;
     fst_coefficients_double kind; /* of the runs at work, which share its integers */
-    int misfit;                   /* a job that waits has others */
     int no_more;
 } fst_crew;
 

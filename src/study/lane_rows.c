@@ -35,6 +35,7 @@ static void move_run(fst_lane *to, fst_lane *from)
 {
     *to = *from;
     from->run = NULL;
+    to->options.start = to->job.has_start ? to->job.start : NULL;
     to->run->params = &to->job.params;
     to->run->options = &to->options;
 }
@@ -51,18 +52,23 @@ static void vacate(fst_crew *c, fst_squad *s, int l)
     }
 }
 
-/* Runs that are at work. */
-static int population(const fst_crew *c)
+/* Runs that are on their way, and those too whose exponents are. */
+static int on_their_way(const fst_crew *c)
 {
     return c->run_up.occupied + c->observed.occupied + c->ready_count;
+}
+
+static int at_work(const fst_crew *c)
+{
+    return on_their_way(c) + c->parked_count;
 }
 
 /* Whether a model can share the batches with those at work: the integers of its coefficients are the same. */
 static int fits(const fst_crew *c, const fst_model *model)
 {
     const fst_coefficients_double *a = &c->kind, *b = &model->coefficients;
-    return population(c) == 0 || (a->lines == b->lines && a->magnetisable == b->magnetisable &&
-                                  a->gyroscopic_term_lost == b->gyroscopic_term_lost);
+    return at_work(c) == 0 || (a->lines == b->lines && a->magnetisable == b->magnetisable &&
+                               a->gyroscopic_term_lost == b->gyroscopic_term_lost);
 }
 
 typedef enum { BEGUN, REFUSED, FAILED } beginning;
@@ -136,7 +142,7 @@ static void enter_run_up(fst_crew *c, int l, fst_lane *from)
     c->engine->load(s->batch, l, s->lanes[l].run->flow, s->lanes[l].run->t_discard);
 }
 
-/* Begin the next job, unless there is none or it does not fit. */
+/* Begin the next job, or put it aside if it does not fit; 0 if there is none. */
 static int admit(fst_crew *c)
 {
     fst_lane fresh = {.run = NULL};
@@ -151,9 +157,8 @@ static int admit(fst_crew *c)
         fst_error error = {FST_OK, "", ""};
         const beginning begun = begin(c, &fresh, &status, &error);
         if (begun == REFUSED) {
-            c->waiting[c->waiting_count++] = fresh.job;
-            c->misfit = 1;
-            return 0;
+            c->misfits[c->misfit_count++] = fresh.job;
+            return 1;
         }
         if (begun == BEGUN)
             break;
@@ -168,16 +173,18 @@ static int admit(fst_crew *c)
     return 1;
 }
 
-/* Idle lanes take runs that are ready, and new jobs; where one fits not in, not before nothing is at work. */
+/* Idle lanes take runs that are ready, and new jobs; those that do not fit wait until nothing is at work. */
 static void occupy_idle(fst_crew *c)
 {
     const int width = c->engine->width;
-    c->misfit &= population(c) > 0;
+    const fst_squad *entrance = c->engine->fused ? &c->run_up : &c->observed;
+    while (at_work(c) == 0 && c->misfit_count > 0)
+        c->waiting[c->waiting_count++] = c->misfits[--c->misfit_count];
     do {
         while (c->ready_count > 0 && c->observed.occupied < width)
             enter_observed(c, idle_lane(c, &c->observed), &c->ready[--c->ready_count]);
-    } while (!c->misfit && c->ready_count == 0 &&
-             (c->engine->fused ? c->run_up.occupied : c->observed.occupied) < width && admit(c));
+    } while (c->ready_count == 0 && entrance->occupied < width && c->misfit_count < FST_MOST_MISFITS &&
+             admit(c));
 }
 
 /* The run of a lane is over; `status` other than FST_OK: it failed. */
@@ -310,7 +317,7 @@ static void step_run_up(fst_crew *c)
 
 /* ------------------------------------------------------------------ */
 
-static int make_bench(const fst_lane_engine *engine, fst_squad *s)
+static int make_squad(const fst_lane_engine *engine, fst_squad *s)
 {
     s->batch = aligned_alloc(64, (engine->bytes + 63) / 64 * 64);
     if (!s->batch)
@@ -331,7 +338,7 @@ static fst_crew *make_crew(const fst_row_work *work, const fst_lane_engine *engi
     c->slots = bytes > 0 ? aligned_alloc(64, bytes) : NULL;
     if (c->slots)
         memset(c->slots, 0, bytes);
-    if ((c->slots || bytes == 0) && make_bench(engine, &c->observed) && make_bench(engine, &c->run_up))
+    if ((c->slots || bytes == 0) && make_squad(engine, &c->observed) && make_squad(engine, &c->run_up))
         return c;
     free(c->run_up.batch);
     free(c->observed.batch);
@@ -363,7 +370,7 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine
         return fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
     fst_status status = FST_OK;
     occupy_idle(c);
-    for (unsigned steps = 1; status == FST_OK && population(c) > 0; ++steps) {
+    for (unsigned steps = 1; status == FST_OK && on_their_way(c) > 0; ++steps) {
         /* Those that are observed wait until they are as many as lanes, or no more are to come. */
         if (c->observed.occupied == engine->width || c->run_up.occupied == 0)
             step_observed(c);
@@ -371,7 +378,7 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine
             step_run_up(c);
         occupy_idle(c);
         while (status == FST_OK &&
-               (c->parked_count >= engine->width || (population(c) == 0 && c->parked_count > 0))) {
+               (c->parked_count >= engine->width || (on_their_way(c) == 0 && c->parked_count > 0))) {
             status = conclude_parked(c, error);
             occupy_idle(c);
         }

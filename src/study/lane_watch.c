@@ -4,6 +4,8 @@
 #include "ode/path_stages.h"
 #include "study/lane_crew.h"
 
+#define TWO_PI 6.283185307179586476925287
+
 /* Locate the extremes that were set aside. */
 void fst_crew_locate(fst_crew *c)
 {
@@ -88,7 +90,7 @@ void fst_crew_keep_phi_range(fst_crew *c, int l)
     const int width = c->engine->width;
     const fst_run_state *run = c->observed.lanes[l].run;
     const double range = run->greatest_phi - run->least_phi;
-    if (range > 7.0) {
+    if (range > TWO_PI) { /* as fst_run_watch_quietly() has it */
         c->turning |= fst_lane_bit(l);
         return;
     }

@@ -195,12 +195,33 @@ static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, d
     return sign * value > record ? sign * value : record;
 }
 
-void fst_quadrature_track(fst_quadrature *q, fst_flow *flow)
+/* The same from the fraction `from` on, looked for between all stages. */
+static double best_in_rest(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record,
+                           double from)
+{
+    double best = fmax(sign * q->tracked[FST_PATH_STAGES - 1][which], sign * tracked_at(flow, from, &which));
+    for (int n = 1; n < FST_PATH_STAGES - 1; ++n) {
+        const double before = fmax(FST_PATH_NODE[n - 1], from), after = FST_PATH_NODE[n + 1];
+        double value;
+        if (!(before < after))
+            continue;
+        (void)fst_flow_extreme(flow, tracked_at, &which, sign, before, after, &value);
+        best = fmax(best, sign * value);
+    }
+    return fmax(record, best);
+}
+
+void fst_quadrature_track(fst_quadrature *q, fst_flow *flow, double from)
 {
     for (int i = 0; i < FST_TRACK_COUNT; ++i) {
         fst_extreme *e = &q->extreme[i];
+        const int has_least = i != FST_TRACK_GAP && i != FST_TRACK_SLIP;
+        if (from > 0.0) {
+            e->greatest = best_in_rest(q, flow, i, 1.0, e->greatest, from);
+            e->least = has_least ? -best_in_rest(q, flow, i, -1.0, -e->least, from) : e->least;
+            continue;
+        }
         e->greatest = best_in_step(q, flow, i, 1.0, e->greatest);
-        if (i != FST_TRACK_GAP && i != FST_TRACK_SLIP)
-            e->least = -best_in_step(q, flow, i, -1.0, -e->least);
+        e->least = has_least ? -best_in_step(q, flow, i, -1.0, -e->least) : e->least;
     }
 }

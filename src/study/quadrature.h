@@ -38,8 +38,8 @@ void fst_quadrature_begin_phi(fst_quadrature *q, const double *state);
 /* Take in the flow's last step. */
 void fst_quadrature_step(fst_quadrature *q, fst_flow *flow);
 
-/* The extremes met in the last step; call it only where extremes count. */
-void fst_quadrature_track(fst_quadrature *q, fst_flow *flow);
+/* The extremes met in the last step, from its fraction `from` on. */
+void fst_quadrature_track(fst_quadrature *q, fst_flow *flow, double from);
 
 /* The integrals up to the fraction x of the last step, and phi there. */
 void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integrals[FST_Q_COUNT], double *phi);

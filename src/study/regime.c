@@ -165,13 +165,15 @@ static double activity_over(const fst_mark_series *marks, int from, int to)
 }
 
 /* The speed below which a bead at rest is not told from noise: that of the integrator, or what the torque of a
- * strong magnet makes of the errors of n. */
+ * strong magnet makes of the errors of n while the place is kept. */
 static double noise(const fst_run_state *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
     fst_pull_double p;
     fst_magnetic_pull_double(c, run->flow->step.end, &p);
     const double b = sqrt(p.b[0] * p.b[0] + p.b[1] * p.b[1] + p.b[2] * p.b[2]);
+    if (run->greatest_phi - run->least_phi > 1e-9)
+        return NOISE * run->params->run_rtol;
     return fmax(NOISE * run->params->run_rtol, STILL * (c->torque * fabs(p.strength) * b));
 }
 

@@ -131,6 +131,7 @@ void fst_run_mark_periods(fst_run_state *run)
         if (run->next_period == 0) {
             memcpy(run->window_start, mark.state, sizeof mark.state);
             run->in_window = 1;
+            run->window_from = x < 0 ? 0.0 : x;
             run->piece_start = mark;
         }
         fst_marks_offer(&run->period_marks, &mark);
@@ -183,6 +184,7 @@ void fst_run_watch_quietly(fst_run_state *run, double activity)
 
 void fst_run_watch_step(fst_run_state *run)
 {
+    run->window_from = 0.0;
     fst_run_mark_periods(run);
     fst_returns_step(run);
     const double *k = run->flow->step.k[12];
@@ -190,7 +192,7 @@ void fst_run_watch_step(fst_run_state *run)
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         activity = fabs(k[i]) > activity ? fabs(k[i]) : activity;
     if (run->in_window && !run->extremes_elsewhere)
-        fst_quadrature_track(&run->q, run->flow);
+        fst_quadrature_track(&run->q, run->flow, fmin(run->window_from, 1.0));
     fst_run_watch_quietly(run, activity);
 }
 

@@ -32,6 +32,7 @@ typedef struct fst_run_state {
     double least_phi, greatest_phi;      /* range of Phi since the discard */
     double window_start[FST_STATE_SIZE]; /* state at the first period mark, for the exponent */
     int in_window;
+    double window_from;     /* where in the last step the window begins; 0 in the steps after it */
     int extremes_elsewhere; /* someone else looks for them */
     int sparse_marks;       /* those that no conclusion needs are left out: the run is not interrupted */
     int exponent_elsewhere; /* someone else computes it, and asks for the conclusion once more */
