@@ -9,6 +9,7 @@
 
 #include <math.h>
 
+#include "base/real_scalar.h"
 #include "base/sums.h"
 #ifdef __SSE2__
 #include <emmintrin.h>
@@ -42,17 +43,5 @@ static inline fst_two_doubles fst_sqrt_two_doubles(fst_two_doubles x)
 #define FN(name) fst_##name##_double
 #define REAL_SQRT(x) sqrt(x)
 #define REAL_ABS(x) fabs(x)
-#define REAL_MAX(a, b) ((a) > (b) ? (a) : (b))
-#define REAL_MASK int /* where a comparison holds */
-#define REAL_LESS(a, b) ((a) < (b))
-#define REAL_SELECT(mask, yes, no) ((mask) ? (yes) : (no))
-#define REAL_ROUGH_RECIPROCAL(x) (R(1.0) / (x)) /* where a kind of number may save digits */
-#define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))
-#define RHS_KIND static inline
-#define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
-#define REAL_OF(x) ((REAL)(x)) /* a number of another type */
-#define REAL_MULADD(a, b, c) ((a) * (b) + (c))
-#define REAL_MULSUB(a, b, c) ((a) * (b) - (c))
-#define REAL_NEGMULADD(a, b, c) ((c) - (a) * (b))
 
 #endif

@@ -4,6 +4,7 @@
 
 #include <math.h>
 
+#include "base/real_scalar.h"
 #include "base/sums.h"
 
 #define ENDS long double /* ... or each on its own */
@@ -20,14 +21,5 @@
 #define FN(name) fst_##name##_long_double
 #define REAL_SQRT(x) sqrtl(x)
 #define REAL_ABS(x) fabsl(x)
-#define REAL_MAX(a, b) ((a) > (b) ? (a) : (b))
-#define REAL_ROUGH_RECIPROCAL(x) (R(1.0) / (x)) /* where a kind of number may save digits */
-#define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))
-#define RHS_KIND static inline
-#define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
-#define REAL_OF(x) ((REAL)(x)) /* a number of another type */
-#define REAL_MULADD(a, b, c) ((a) * (b) + (c))
-#define REAL_MULSUB(a, b, c) ((a) * (b) - (c))
-#define REAL_NEGMULADD(a, b, c) ((c) - (a) * (b))
 
 #endif
