@@ -19,7 +19,7 @@ from sweep_tools import FESTOON, SHORT, SMALL, Case, festoon
 MPIRUN = ["mpirun", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none"]
 # What Open MPI itself keeps until its end is no concern of the address sanitizer.
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
-MEDIUM = ["--set", "run.periods=30", "--set", "run.discard=15", "--set", "run.rtol=1e-8", "--over",
+MEDIUM = ["--set", "run.periods=90", "--set", "run.discard=45", "--set", "run.rtol=1e-8", "--over",
           "drive.frequency=9Hz:20Hz:40", "--over", "model.kappa=1:2:20"]
 
 
@@ -97,8 +97,8 @@ class Deaths(RankCase):
             self.wait_for_rows(name, process)
             time.sleep(rng.uniform(0, 0.5))
             before = self.committed(name)
-            if process.poll() is None:
-                victims = ranks_of(process)
+            victims = ranks_of(process) if process.poll() is None else []
+            if victims:  # else all have done their work
                 os.kill(victims[i % len(victims)], signal.SIGKILL)
                 self.assertNotEqual(self.finish(process)[0], 0)
             else:
