@@ -253,18 +253,14 @@ static double error_at(const solver *s, double tolerance, double goal)
  * so that no solver has to be much better than asked. */
 static void find_tolerance(solver *s, double goal)
 {
-    s->tolerance = 0.0;
-    for (int quarter = s->first_quarter; quarter <= 38 && s->tolerance == 0.0; ++quarter)
-        for (int sixteenth = 3; sixteenth >= 0; --sixteenth) {
-            const double tolerance = pow(10.0, -0.25 * (20 + quarter) + sixteenth / 16.0);
-            if (sixteenth == 3 && error_at(s, pow(10.0, -0.25 * (20 + quarter)), goal) > goal)
-                break;
-            s->error = error_at(s, tolerance, goal);
-            if (s->error <= goal) {
-                s->tolerance = tolerance;
-                break;
-            }
-        }
+    int quarter = s->first_quarter;
+    while (quarter <= 38 && error_at(s, pow(10.0, -0.25 * (20 + quarter)), goal) > goal)
+        ++quarter;
+    s->error = INFINITY;
+    for (int sixteenth = 3; sixteenth >= 0 && s->error > goal; --sixteenth) {
+        s->tolerance = pow(10.0, -0.25 * (20 + quarter) + sixteenth / 16.0);
+        s->error = error_at(s, s->tolerance, goal);
+    }
 }
 
 static void time_round(solver *s, int round)

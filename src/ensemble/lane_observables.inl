@@ -85,8 +85,6 @@ static void find_beaten(batch *b, unsigned tracked, unsigned beaten[FST_RECORD_C
 #ifdef FST_FUSED
         b->summit_from[i] = top.before;
         b->summit_to[i] = top.after;
-#endif
-#ifdef FST_FUSED
         /* The end of a step lies on the trajectory; the stages within it do so but roughly, and a record that
          * one of them overshot would hide the ones to come. */
         const REAL end = REAL_OF(fst_record_sign(i)) * b->tracked[FST_PATH_STAGES - 1][FST_RECORD_TRACKS[i]];

@@ -29,10 +29,10 @@ typedef struct batch {
     REAL r_reference, b_reference;
     REAL integrands[FST_PATH_STAGES][FST_Q_COUNT], tracked[FST_PATH_STAGES][FST_TRACK_COUNT];
     REAL records[FST_RECORD_COUNT];
-    REAL summit_from[FST_RECORD_COUNT],
-        summit_to[FST_RECORD_COUNT]; /* between which nodes the step's extreme is */
-    unsigned observed;               /* the lanes whose last step was */
-    unsigned known;                  /* those whose integrands at the start of the present step are there */
+    /* between which nodes the step's extreme lies */
+    REAL summit_from[FST_RECORD_COUNT], summit_to[FST_RECORD_COUNT];
+    unsigned observed; /* the lanes whose last step was */
+    unsigned known;    /* those whose integrands at the start of the present step are there */
 } batch;
 
 /* A wide value's lanes as doubles in memory. */

@@ -52,12 +52,13 @@ static void vacate(fst_crew *c, fst_squad *s, int l)
     }
 }
 
-/* Runs that are on their way, and those too whose exponents are. */
+/* Runs that are on their way to their ends. */
 static int on_their_way(const fst_crew *c)
 {
     return c->run_up.occupied + c->observed.occupied + c->ready_count;
 }
 
+/* These, and those at their ends whose exponents are wanted. */
 static int at_work(const fst_crew *c)
 {
     return on_their_way(c) + c->parked_count;

@@ -143,8 +143,8 @@ void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integ
 
 /* ------------------------------------------------------------------ extremes */
 
-/* A tracked quantity at the fraction x of the last step, with its bits at a stage; what it does not look at, of
- * the state and of the magnet's pull, is not made. */
+/* A tracked quantity at the fraction x of the last step; what it does not look at, of the state and of the
+ * magnet's pull, is not made. */
 static double tracked_at(fst_flow *flow, double x, const void *what)
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
@@ -211,17 +211,20 @@ static double best_in_rest(const fst_quadrature *q, fst_flow *flow, int which, d
     return fmax(record, best);
 }
 
+static double best_from(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record,
+                        double from)
+{
+    return from > 0.0 ? best_in_rest(q, flow, which, sign, record, from)
+                      : best_in_step(q, flow, which, sign, record);
+}
+
 void fst_quadrature_track(fst_quadrature *q, fst_flow *flow, double from)
 {
     for (int i = 0; i < FST_TRACK_COUNT; ++i) {
         fst_extreme *e = &q->extreme[i];
         const int has_least = i != FST_TRACK_GAP && i != FST_TRACK_SLIP;
-        if (from > 0.0) {
-            e->greatest = best_in_rest(q, flow, i, 1.0, e->greatest, from);
-            e->least = has_least ? -best_in_rest(q, flow, i, -1.0, -e->least, from) : e->least;
-            continue;
-        }
-        e->greatest = best_in_step(q, flow, i, 1.0, e->greatest);
-        e->least = has_least ? -best_in_step(q, flow, i, -1.0, -e->least) : e->least;
+        e->greatest = best_from(q, flow, i, 1.0, e->greatest, from);
+        if (has_least)
+            e->least = -best_from(q, flow, i, -1.0, -e->least, from);
     }
 }

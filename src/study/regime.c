@@ -11,6 +11,7 @@
 /* Thresholds, scaled.  docs/regimes.md says why these. */
 static const double AT_REST = 1e-8;  /* greatest |d(state)/dt| of a locked bead, or run.rtol if larger */
 static const double STILL = 1e-10;   /* n within this of rest is at rest */
+static const double KEPT = 1e-9;     /* Phi within this keeps its place */
 static const double NOISE = 100.0;   /* times run.rtol: slower motion is not told from the integrator's noise */
 static const double GROWING = 2.0;   /* activity of the last half over the first: above, it is no mere noise */
 static const double CLOSED = 1e-6;   /* greatest distance of successive section states of a closed orbit */
@@ -166,15 +167,16 @@ static double activity_over(const fst_mark_series *marks, int from, int to)
 
 /* The speed below which a bead at rest is not told from noise: that of the integrator, or what the torque of a
  * strong magnet makes of the errors of n while the place is kept. */
-static double noise(const fst_run_state *run)
+static double noise_of(const fst_run_state *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
+    const double of_steps = NOISE * run->params->run_rtol;
+    if (run->greatest_phi - run->least_phi > KEPT)
+        return of_steps;
     fst_pull_double p;
     fst_magnetic_pull_double(c, run->flow->step.end, &p);
     const double b = sqrt(p.b[0] * p.b[0] + p.b[1] * p.b[1] + p.b[2] * p.b[2]);
-    if (run->greatest_phi - run->least_phi > 1e-9)
-        return NOISE * run->params->run_rtol;
-    return fmax(NOISE * run->params->run_rtol, STILL * (c->torque * fabs(p.strength) * b));
+    return fmax(of_steps, STILL * (c->torque * fabs(p.strength) * b));
 }
 
 /* Phi stays within one turn: librating, chaotic, or dying out towards a locked state. */
@@ -183,9 +185,10 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
     const fst_mark_series *marks = &run->period_marks;
     const int half = 1 + (marks->count - 1) / 2;
     const double early = activity_over(marks, 1, half), late = activity_over(marks, half, marks->count);
+    const double noise = noise_of(run);
     /* At an equilibrium the step size grows until the error of a step is the tolerance, and the state jitters.
      */
-    if (late < noise(run) && late <= GROWING * early) {
+    if (late < noise && late <= GROWING * early) {
         result->regime = FST_REGIME_LOCKED;
         REASON("at rest in the turning frame to within the integrator's noise: |d(state)/dt| stays below %.2g, "
                "that is %.2g run.rtol, and does not grow",
@@ -198,7 +201,7 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
                early, late);
         return FST_OK;
     }
-    if (late < noise(run)) {
+    if (late < noise) {
         REASON("the motion is no faster than the integrator's noise but grows (speed in the turning frame from "
                "%.2g "
                "to %.2g): run longer, or lower run.rtol",

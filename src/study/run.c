@@ -131,7 +131,7 @@ void fst_run_mark_periods(fst_run_state *run)
         if (run->next_period == 0) {
             memcpy(run->window_start, mark.state, sizeof mark.state);
             run->in_window = 1;
-            run->window_from = x < 0 ? 0.0 : x;
+            run->window_from = fmin(fmax(x, 0.0), 1.0);
             run->piece_start = mark;
         }
         fst_marks_offer(&run->period_marks, &mark);
@@ -192,7 +192,7 @@ void fst_run_watch_step(fst_run_state *run)
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         activity = fabs(k[i]) > activity ? fabs(k[i]) : activity;
     if (run->in_window && !run->extremes_elsewhere)
-        fst_quadrature_track(&run->q, run->flow, fmin(run->window_from, 1.0));
+        fst_quadrature_track(&run->q, run->flow, run->window_from);
     fst_run_watch_quietly(run, activity);
 }
 
