@@ -1,0 +1,35 @@
+"""The sections of docs/reliability.md: each campaign rewrites its own and leaves the others alone.
+
+A section stands between two comment lines, <!-- begin NAME --> and <!-- end NAME -->.
+"""
+
+import os
+import re
+
+
+def page():
+    """Path of docs/reliability.md in the source tree."""
+    source = os.environ.get("SOURCE_DIR") or os.path.join(os.path.dirname(__file__), "..", "..")
+    return os.path.join(source, "docs", "reliability.md")
+
+
+def table(head, rows):
+    """A table in Markdown from a list of column names and a list of rows of the same length."""
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
+    return "\n".join(lines)
+
+
+def write(name, text):
+    """Replace the text of the section `name`; the page must have that section."""
+    with open(page(), encoding="utf-8") as file:
+        before = file.read()
+    begin, end = f"<!-- begin {name} -->\n", f"<!-- end {name} -->"
+    pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.S)
+    if len(pattern.findall(before)) != 1:
+        raise SystemExit(f"{page()} has no section {name}")
+    after = pattern.sub(lambda _: begin + text.strip() + "\n" + end, before)
+    part = page() + ".part"
+    with open(part, "w", encoding="utf-8") as file:
+        file.write(after)
+    os.replace(part, page())
