@@ -1,0 +1,70 @@
+/* watch.h - the caller of a long computation: he is told how far it is, and may want no more of it.
+ *
+ * One watch goes down with the work, into the innermost loop.  Work is counted in evaluations of the equations
+ * of motion, so that the caller is asked at even intervals whatever the loop.  Once he wants no more, the watch
+ * answers so for good: many loops take a failure for "nothing is here" and go on, and each then meets the same
+ * answer at its next step, without any work being done.
+ */
+#ifndef FST_BASE_WATCH_H
+#define FST_BASE_WATCH_H
+
+#include <festoon/festoon.h>
+
+enum { FST_WATCH_WORK = 4000 }; /* evaluations between two questions: a few milliseconds */
+
+typedef struct fst_watch {
+    const fst_progress *progress; /* NULL: nobody is told, and nobody stops the work */
+    double share[2];              /* of the whole work: where the present part begins and ends */
+    double fraction;              /* of the whole work; it never falls */
+    unsigned work;                /* since the last question */
+    fst_status status;            /* other than FST_OK once the caller wanted no more */
+    fst_error error;              /* what he said then */
+} fst_watch;
+
+static inline void fst_watch_begin(fst_watch *watch, const fst_progress *progress)
+{
+    *watch = (fst_watch){.progress = progress, .share = {0.0, 1.0}};
+}
+
+/* The present part of the work. */
+static inline void fst_watch_part(fst_watch *watch, double from, double to)
+{
+    if (watch) {
+        watch->share[0] = from;
+        watch->share[1] = to;
+    }
+}
+
+/* How much of the present part is done. */
+static inline void fst_watch_reach(fst_watch *watch, double x)
+{
+    if (!watch)
+        return;
+    const double fraction = watch->share[0] + x * (watch->share[1] - watch->share[0]);
+    watch->fraction = fraction > watch->fraction ? fraction : watch->fraction;
+}
+
+/* Tell the caller, and ask whether the work may go on: FST_OK, or what he answered.  No watch: FST_OK. */
+static inline fst_status fst_watch_ask(fst_watch *watch, fst_error *error)
+{
+    if (!watch)
+        return FST_OK;
+    watch->work = 0;
+    if (watch->status == FST_OK && watch->progress)
+        watch->status = watch->progress->tell(watch->progress->user, watch->fraction, &watch->error);
+    if (watch->status != FST_OK && error)
+        *error = watch->error;
+    return watch->status;
+}
+
+/* The same from an inner loop, which has done, or is about to do, so many evaluations: the caller is asked when
+ * enough have come together. */
+static inline fst_status fst_watch_count(fst_watch *watch, unsigned evaluations, fst_error *error)
+{
+    if (!watch)
+        return FST_OK;
+    watch->work += evaluations;
+    return watch->status != FST_OK || watch->work >= FST_WATCH_WORK ? fst_watch_ask(watch, error) : FST_OK;
+}
+
+#endif
