@@ -368,7 +368,7 @@ static int states_at(double omega, const char *dynamics, int *index_sum)
 {
     const fst_params params = scene_of(omega, dynamics);
     fst_locked_list list;
-    assert_int_equal(fst_locked_find(&params, &list, NULL), FST_OK);
+    assert_int_equal(fst_locked_find(&params, NULL, &list, NULL), FST_OK);
     const int count = (int)list.count;
     *index_sum = list.index_sum;
     fst_locked_free(&list);

@@ -186,14 +186,14 @@ static void festoons_up_to_the_ends_of_the_branch(void **state)
     fst_error error;
     assert_int_equal(fst_branch_follow(&params, &options, &branch, &error), FST_OK);
     for (size_t i = 0; i < sizeof near / sizeof *near; ++i) {
-        assert_int_equal(fst_festoons_on(&params, &branch, near[i].festoons, &list, &error), FST_OK);
+        assert_int_equal(fst_festoons_on(&params, &branch, near[i].festoons, NULL, &list, &error), FST_OK);
         assert_int_equal(list.count, 1);
         assert_int_equal(list.orbits[0].symmetry, near[i].symmetry);
         CHECK_CLOSE(list.orbits[0].means.festoons, near[i].festoons, 1e-8);
         assert_true(list.omegas[0] > near[i].low && list.omegas[0] < near[i].high);
         fst_festoons_free(&list);
     }
-    assert_int_equal(fst_festoons_on(&params, &branch, 6.0, &list, &error), FST_NO_CONVERGENCE);
+    assert_int_equal(fst_festoons_on(&params, &branch, 6.0, NULL, &list, &error), FST_NO_CONVERGENCE);
     CHECK_CONTAINS(
         error.sentence,
         "N is from 3.10358 to 5.7594 on its S1 orbits; N is from 11.5188 to 136.167 on its S2 orbits");
@@ -242,7 +242,7 @@ static void a_locked_bead_has_no_orbit(void **state)
         if (fst_orbit_find(&params, NULL, &orbit, &error) != FST_NO_CONVERGENCE)
             fail_msg("%s = %s: an orbit of period %g", locked[i].key, locked[i].value, orbit.means.period);
         CHECK_CONTAINS(error.sentence, "locks to the magnet");
-        assert_int_equal(fst_locked_find(&params, &list, &error), FST_OK);
+        assert_int_equal(fst_locked_find(&params, NULL, &list, &error), FST_OK);
         assert_true(list.states[0].stable);
         fst_locked_free(&list);
     }
@@ -287,7 +287,7 @@ static void locked_states(void **state)
         const fst_params params = scene(omegas[k], "rigid");
         fst_locked_list list;
         fst_model *model;
-        assert_int_equal(fst_locked_find(&params, &list, NULL), FST_OK);
+        assert_int_equal(fst_locked_find(&params, NULL, &list, NULL), FST_OK);
         assert_int_equal(fst_model_new(&params, &model, NULL), FST_OK);
         if (list.index_sum != 2)
             fail_msg("omega = %s: %zu states, sum of indices %d", omegas[k], list.count, list.index_sum);
@@ -316,7 +316,7 @@ static void the_stable_locked_state_is_where_a_run_ends(void **state)
     fst_params brief = params;
     brief.run_periods = 60;
     brief.run_discard = 40;
-    assert_int_equal(fst_locked_find(&params, &list, NULL), FST_OK);
+    assert_int_equal(fst_locked_find(&params, NULL, &list, NULL), FST_OK);
     assert_int_equal(fst_run(&brief, &options, &result, NULL), FST_OK);
     assert_int_equal(result.regime, FST_REGIME_LOCKED);
     assert_true(list.states[0].stable && list.states[1].stable && !list.states[2].stable);
@@ -348,7 +348,7 @@ static void exponents(void **state)
     params.run_discard = 60;
     fst_locked_list list;
     assert_int_equal(fst_lyapunov_find(&params, NULL, &l, NULL), FST_OK);
-    assert_int_equal(fst_locked_find(&params, &list, NULL), FST_OK);
+    assert_int_equal(fst_locked_find(&params, NULL, &list, NULL), FST_OK);
     double greatest = -INFINITY;
     for (int i = 0; i < FST_EIGENVALUE_COUNT; ++i)
         greatest = fmax(greatest, list.states[0].eigenvalue_re[i]);

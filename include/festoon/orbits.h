@@ -36,8 +36,9 @@ typedef struct fst_orbit {
     double state[FST_STATE_SIZE]; /* on Phi = pi/2, passed downward; a libration: where r is greatest */
 } fst_orbit;
 
-/* Who is told how far a long computation is.  A status other than FST_OK ends it, with that status and with
- * what the callback filled into `error`. */
+/* Who is told how far a long computation is: every few milliseconds, from its innermost loops.  A status other
+ * than FST_OK ends it, with that status and with what the callback filled into `error`; the callback is then
+ * not called again. */
 typedef struct fst_progress {
     void *user;
     fst_status (*tell)(void *user, double fraction, fst_error *error);
@@ -69,8 +70,10 @@ typedef struct fst_locked_list {
     int truncated; /* there are more states than the list has room for: they form continua */
 } fst_locked_list;
 
-/* Every equilibrium, by Newton's method from many starts.  Free the list with fst_locked_free(). */
-FST_API fst_status fst_locked_find(const fst_params *params, fst_locked_list *list, fst_error *error);
+/* Every equilibrium, by Newton's method from many starts.  Free the list with fst_locked_free().  `progress`
+ * may be NULL. */
+FST_API fst_status fst_locked_find(const fst_params *params, const fst_progress *progress,
+                                   fst_locked_list *list, fst_error *error);
 FST_API void fst_locked_free(fst_locked_list *list);
 
 typedef enum {
@@ -187,7 +190,7 @@ FST_API fst_status fst_festoons_find(const fst_params *params, double festoons, 
 /* The same on a branch of the kind FST_BRANCH_COUNTER over drive.omega that fst_branch_follow() made of the
  * same parameters: for many N. */
 FST_API fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
-                                   fst_festoon_list *list, fst_error *error);
+                                   const fst_progress *progress, fst_festoon_list *list, fst_error *error);
 FST_API void fst_festoons_free(fst_festoon_list *list);
 
 /* The spectrum of Lyapunov exponents. */

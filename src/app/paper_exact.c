@@ -30,7 +30,7 @@ static fst_status close_patterns(const fst_params *params, const fst_branch *bra
     fst_status status = FST_OK;
     for (int row = 0; row < FST_TABLE1_ROWS && status == FST_OK; row++) {
         fst_festoon_list list;
-        status = fst_festoons_on(params, branch, fst_table1[row].count, &list, error);
+        status = fst_festoons_on(params, branch, fst_table1[row].count, NULL, &list, error);
         if (status == FST_OK)
             exact->closed[row] = (fst_paper_pattern){list.omegas[0], list.orbits[0].means.symmetry};
         fst_festoons_free(&list);
@@ -61,7 +61,7 @@ static fst_status count_minima(fst_dynamics dynamics, fst_paper_exact *exact, fs
 {
     fst_params params = params_at(dynamics, LOCKED_AT);
     fst_locked_list list;
-    fst_status status = fst_locked_find(&params, &list, error);
+    fst_status status = fst_locked_find(&params, NULL, &list, error);
     if (status != FST_OK)
         return status;
     exact->locked_minima = 0.0;
@@ -77,7 +77,7 @@ static fst_status find_damping(fst_dynamics dynamics, fst_paper_exact *exact, fs
     fst_params params = params_at(dynamics, WEAK_DRIVE);
     params.model_kappa = WEAK;
     fst_locked_list list;
-    fst_status status = fst_locked_find(&params, &list, error);
+    fst_status status = fst_locked_find(&params, NULL, &list, error);
     if (status != FST_OK)
         return status;
     for (size_t i = 0; i < list.count; i++) {

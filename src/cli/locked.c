@@ -1,5 +1,6 @@
 /* locked.c - festoon locked: every state in which the bead goes round with the magnet. */
 #include "cli/command.h"
+#include "cli/terminal.h"
 
 static const option options[] = {
     SCENE_OPTIONS,
@@ -42,8 +43,13 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
         status = fst_model_new(&params, &model, error);
-    if (status == FST_OK)
-        status = fst_locked_find(&params, &list, error);
+    if (status == FST_OK) {
+        progress_line line;
+        const fst_progress progress = {&line, progress_tell};
+        progress_begin(&line);
+        status = fst_locked_find(&params, &progress, &list, error);
+        progress_end(&line);
+    }
     if (status == FST_OK) {
         const double omega = fst_model_groups(model).omega;
         if (option_value(given, "json"))

@@ -101,10 +101,9 @@ void fst_branch_reverse(fst_branch *out, size_t first)
 /* Nobody knows how long a branch is: forty points are taken for half of one. */
 fst_status fst_tracer_progress(fst_tracer *t, fst_error *error)
 {
-    const fst_branch_options *o = t->options;
     const double part = (t->done + t->nodes / (t->nodes + 40.0)) / (t->pending_count ? t->pending_count : 1);
-    t->furthest = fmax(t->furthest, t->share[0] + part * (t->share[1] - t->share[0]));
-    return o->progress ? o->progress(o->user, t->furthest, error) : FST_OK;
+    fst_watch_reach(&t->watch, part);
+    return fst_watch_ask(&t->watch, error);
 }
 
 static fst_status take_node(void *user, const fst_node *node, fst_error *error)
@@ -130,6 +129,9 @@ static fst_status take_special(void *user, fst_special_type type, const fst_node
 {
     fst_tracer *t = user;
     fst_branch *out = t->out;
+    const fst_status status = fst_watch_ask(&t->watch, error); /* what was stopped may be half known */
+    if (status != FST_OK)
+        return status;
     if (known_special(out, type, at, t->family.scale))
         return FST_OK; /* met again: a curve that closes, or a conjugate */
     if (!grow((void **)&out->specials, out->special_count, sizeof *out->specials))
@@ -314,7 +316,7 @@ static int search_at(const fst_tracer *t, double value, fst_node *start, fst_err
     fixed.params = fst_family_params(&t->family, value);
     fixed.params.run_periods = fmin(fixed.params.run_periods, 200.0);
     fixed.params.run_discard = 0.0;
-    if (fst_search_orbit(&fixed, NULL, &s, why) != FST_OK)
+    if (fst_search_orbit(&fixed, &s, why) != FST_OK)
         return 0;
     s.value = value;
     s.on_section = 0;
@@ -331,13 +333,14 @@ static int search_at(const fst_tracer *t, double value, fst_node *start, fst_err
 /* The symmetric orbit on which a curve of S1 orbits ends: followed there on trial. */
 typedef struct climb {
     fst_node last;
+    fst_watch *watch;
 } climb;
 
 static fst_status remember(void *user, const fst_node *node, fst_error *error)
 {
-    (void)error;
-    ((climb *)user)->last = *node;
-    return FST_OK;
+    climb *c = user;
+    c->last = *node;
+    return fst_watch_ask(c->watch, error);
 }
 
 static fst_status ignore_special(void *user, fst_special_type type, const fst_node *at, int criticality,
@@ -347,10 +350,10 @@ static fst_status ignore_special(void *user, fst_special_type type, const fst_no
     return FST_OK;
 }
 
-static void climb_to_symmetric(const fst_tracer *t, fst_node *start)
+static void climb_to_symmetric(fst_tracer *t, fst_node *start)
 {
     for (int sign = -1; sign <= 1; sign += 2) {
-        climb c = {*start};
+        climb c = {*start, &t->watch};
         fst_error why;
         fst_curve curve = {.family = &t->family,
                            .from = fmin(t->options->from, t->options->to),
@@ -374,9 +377,9 @@ static void climb_to_symmetric(const fst_tracer *t, fst_node *start)
 
 /* Counter-rotating orbits to begin with: a symmetric one where there is one, for from it the others are born,
  * and before it the first that was met, in case it lies on none of the branches that are followed from the
- * other.
+ * other.  `end`: where this part of the work ends.
  */
-static fst_status first_orbits(fst_tracer *t, fst_node start[2], int *count, fst_error *error)
+static fst_status first_orbits(fst_tracer *t, double end, fst_node start[2], int *count, fst_error *error)
 {
     enum { TRIALS = 8 };
     static const double part[TRIALS] = {0.5, 0.25, 0.1, 0.75, 0.35, 0.05, 0.9, 0.02};
@@ -385,19 +388,21 @@ static fst_status first_orbits(fst_tracer *t, fst_node start[2], int *count, fst
     fst_error why;
     memset(&why, 0, sizeof why);
     *count = 0;
-    for (int i = -1; i < TRIALS && *count < 2; ++i) {
+    for (int i = -1; i < TRIALS && *count < 2 && t->watch.status == FST_OK; ++i) {
         const double value = i < 0 ? given : lo + (hi - lo) * part[i];
+        fst_watch_part(&t->watch, end * (i + 1) / (TRIALS + 1), end * (i + 2) / (TRIALS + 1));
         if (!(value >= lo && value <= hi) || !search_at(t, value, &start[*count], &why))
             continue;
         if (start[*count].s.symmetric || *count == 0)
             *count += 1;
         if (start[*count - 1].s.symmetric)
-            return FST_OK;
+            return fst_watch_ask(&t->watch, error);
     }
-    if (*count > 0) {
+    if (*count > 0)
         climb_to_symmetric(t, start);
-        return FST_OK;
-    }
+    const fst_status status = fst_watch_ask(&t->watch, error);
+    if (*count > 0 || status != FST_OK)
+        return status;
     const char *advice = strstr(why.sentence, ". "); /* what follows is about a single orbit */
     const int length = advice ? (int)(advice - why.sentence) : (int)strlen(why.sentence);
     return fst_fail(
@@ -411,7 +416,9 @@ static fst_status follow_counter(fst_tracer *t, fst_error *error)
 {
     fst_node start[2];
     int count;
-    fst_status status = first_orbits(t, start, &count, error);
+    const double end = t->watch.share[1], searching = 0.1 * end;
+    fst_status status = first_orbits(t, searching, start, &count, error);
+    fst_watch_part(&t->watch, searching, end);
     for (int i = count - 1; i >= 0 && status == FST_OK; --i) {
         if (orbit_branch(t->out, &start[i].seen) >= 0)
             continue;
@@ -456,18 +463,6 @@ double fst_branch_scale(const char *key, double from, double to)
     return strcmp(key, "drive.omega") == 0 ? 1.0 : fmax(fabs(from), fabs(to));
 }
 
-/* The curves' part of the progress, the second half. */
-typedef struct second_half {
-    const fst_branch_options *options;
-    int curve, curves;
-} second_half;
-
-static fst_status progress_of_curve(void *user, double fraction, fst_error *error)
-{
-    const second_half *s = user;
-    return s->options->progress(s->options->user, 0.5 + 0.5 * (s->curve + fraction) / s->curves, error);
-}
-
 /* Over two parameters: the branches over the first were followed for their special points; now the curve of
  * each. */
 static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_error *error)
@@ -496,13 +491,12 @@ static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_e
                         "no %s lies between %s = %.10g and %.10g, so none can be followed over %s: try another "
                         "range",
                         fst_special_name(o->special), o->key, o->from, o->to, o->second_key);
-    second_half progress = {o, 0, t->start_count};
-    fst_branch_options of_curve = *o;
-    of_curve.user = &progress;
-    of_curve.progress = o->progress ? progress_of_curve : NULL;
-    for (; progress.curve < t->start_count && status == FST_OK; ++progress.curve)
-        status =
-            fst_special_curve_follow(&of_curve, params, &t->starts[progress.curve], progress.curve, out, error);
+    for (int curve = 0; curve < t->start_count && status == FST_OK; ++curve) {
+        const double begin =
+            0.5 + 0.5 * curve / t->start_count; /* the curves are the second half of the work */
+        fst_watch_part(&t->watch, begin, begin + 0.5 / t->start_count);
+        status = fst_special_curve_follow(o, params, &t->starts[curve], curve, &t->watch, out, error);
+    }
     return status;
 }
 
@@ -539,7 +533,9 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     t->options = options;
     t->out = branch;
     t->follow_hopf = options->kind == FST_BRANCH_ALL;
-    t->share[1] = options->second_key ? 0.5 : 1.0;
+    t->caller = (fst_progress){options->user, options->progress};
+    fst_watch_begin(&t->watch, options->progress ? &t->caller : NULL);
+    fst_watch_part(&t->watch, 0.0, options->second_key ? 0.5 : 1.0);
     branch->kind = options->kind;
     branch->from = options->from;
     branch->to = options->to;
@@ -553,6 +549,7 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     status = fst_family_begin(&t->family, params, options->key, error);
     t->family.scale = fst_branch_scale(options->key, options->from, options->to);
     fst_family_tighten(&t->family, options->tolerance);
+    t->family.watch = &t->watch;
     if (status == FST_OK)
         status = options->kind == FST_BRANCH_COUNTER ? follow_counter(t, error) : fst_follow_locked(t, error);
     if (status == FST_OK && options->second_key)

@@ -24,10 +24,10 @@ typedef struct fst_tracer {
     int branch, depth; /* of the curve being followed */
     int follow_hopf;   /* follow orbits born from equilibria */
     double last_value;
-    double share[2]; /* of the whole work: where the branches that are pending begin and end */
-    double furthest; /* that was told: new branches take the work back, but not what is said of it */
-    int done;        /* of the pending ones */
-    int nodes;       /* on the present one */
+    fst_watch watch; /* its present part: the branches that are pending */
+    fst_progress caller;
+    int done;                              /* of the pending ones */
+    int nodes;                             /* on the present one */
     fst_special_start starts[FST_PENDING]; /* of curves over two parameters */
     int start_count;
 } fst_tracer;
@@ -35,7 +35,7 @@ typedef struct fst_tracer {
 /* Put a branch that passes through `start` on the list. */
 fst_status fst_tracer_add(fst_tracer *t, const fst_node *start, fst_error *error);
 
-/* Tell the caller how far the work is; FST_INTERRUPTED if he wants no more. */
+/* Tell the caller how far the work is; what he answers. */
 fst_status fst_tracer_progress(fst_tracer *t, fst_error *error);
 
 /* Follow every pending branch, and those that are born on the way. */

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "ode/flow.h"
 #include "orbit/normal_form.h"
 
 /* Coordinates beside a state: along the tangent basis for an equilibrium; for an orbit along the eight vectors
@@ -62,12 +63,11 @@ static fst_status return_at(void *user, const double *x, double *out, fst_error 
     for (int i = 0; i < 12 && fabs(off) > 1e-14; ++i) {
         fst_model *model;
         fst_flow *flow;
-        fst_stop stop;
         status = fst_solution_flow(b->family, s->value, y, 1e-14, &model, &flow, error);
         if (status == FST_OK)
-            status = fst_flow_advance(flow, time, 0, &stop, error);
+            status = fst_solution_advance(b->family, flow, time, error);
         if (status == FST_OK)
-            memcpy(end, fst_flow_get(flow).state, sizeof end);
+            memcpy(end, flow->step.end, sizeof end);
         fst_flow_free(flow);
         fst_model_free(model);
         if (status != FST_OK)

@@ -200,7 +200,7 @@ static int next_node(fst_curve *curve, const fst_node *last, const fst_node *her
     return 0;
 }
 
-fst_status fst_curve_follow(fst_curve *curve, const fst_node *start, int sign, fst_error *error)
+static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_error *error)
 {
     fst_node last, here = *start, next;
     /* Points of equilibria cost next to nothing, and their pairs cross the axis one soon after another. */
@@ -238,4 +238,11 @@ fst_status fst_curve_follow(fst_curve *curve, const fst_node *start, int sign, f
         h = h > longest ? longest : h;
     }
     return FST_OK;
+}
+
+/* A curve that the caller stopped looks as if it could not be followed: its reason is none. */
+fst_status fst_curve_follow(fst_curve *curve, const fst_node *start, int sign, fst_error *error)
+{
+    const fst_status status = follow(curve, start, sign, error);
+    return status == FST_OK ? fst_watch_ask(curve->family->watch, error) : status;
 }

@@ -35,7 +35,7 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
 
 /* The curve on from `start` (corrected, with its tangent; its sign is the way), until it leaves the range,
  * ends, or cannot be followed: curve->reason.  `start` itself is not reported.  Fails only where the sink does,
- * or where memory or parameters do. */
+ * where memory or parameters do, or with what the family's watch answers. */
 fst_status fst_curve_follow(fst_curve *curve, const fst_node *start, int sign, fst_error *error);
 
 /* ---- special points, special.c */

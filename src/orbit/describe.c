@@ -123,6 +123,8 @@ fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, i
         fst_marks_offer(&run->section_marks, &mark);
         while (status == FST_OK && fst_twofold_difference(end, run->flow->t) > 0) {
             status = fst_flow_step(run->flow, end.high, error);
+            if (status == FST_OK)
+                status = fst_watch_count(family->watch, 2 * FST_FLOW_STEP_WORK, error);
             if (status != FST_OK)
                 break;
             if (run->flow->accepted == 1)

@@ -10,6 +10,9 @@
 
 /* ------------------------------------------------------------------ the state with its tangents */
 
+/* A try of a step, in evaluations of the equations alone: twelve, each with its Jacobian and the columns. */
+enum { TRY_WORK = 50 };
+
 typedef struct bundle_context {
     const fst_setup *setup;
 } bundle_context;
@@ -85,6 +88,9 @@ fst_status fst_carry(const fst_setup *setup, double tolerance, double duration, 
         const double rest = duration - t;
         const int lands = h * 1.01 >= rest;
         s.h = lands ? rest : h;
+        const fst_status status = fst_watch_count(setup->watch, TRY_WORK, error);
+        if (status != FST_OK)
+            return status;
         fst_bundle_try_step_double(&s);
         const double e = fst_bundle_step_error_double(&s, 0.3 * tolerance, atol);
         if (!(e <= 1.0)) {
@@ -215,6 +221,7 @@ fst_status fst_family_setup(const fst_family *family, double value, fst_setup *s
 {
     memset(setup, 0, sizeof *setup);
     fst_status status = model_at(family, value, &setup->model, error);
+    setup->watch = family->watch;
     setup->differs = family->key >= 0;
     setup->exact = setup->differs && strcmp(fst_param_at(family->key)->key, "drive.omega") == 0;
     if (status != FST_OK || !setup->differs || setup->exact)

@@ -2,6 +2,7 @@
 #ifndef FST_ORBIT_FAMILY_H
 #define FST_ORBIT_FAMILY_H
 
+#include "base/watch.h"
 #include "model/model.h"
 #include "orbit/lapack.h"
 
@@ -20,6 +21,7 @@ typedef struct fst_family {
     double residual;  /* at which a solution counts as found */
     double location;  /* value of a test at which a special point counts as found */
     const fst_lapack *lapack;
+    fst_watch *watch; /* NULL: nobody is told, and nobody stops the work */
 } fst_family;
 
 /* One of them: the coefficients, and two neighbours for the derivative by the parameter.  The drive's omega
@@ -30,7 +32,8 @@ typedef struct fst_setup {
     int exact;   /* the parameter is omega */
     int differs; /* the derivative by the parameter is wanted */
     fst_coefficients_double below, above;
-    double spread; /* of the parameter between them */
+    double spread;    /* of the parameter between them */
+    fst_watch *watch; /* the family's */
 } fst_setup;
 
 /* A family over `key` (NULL: none free); clears the other forms of the quantity.  FST_BAD_INPUT: no such key,
@@ -54,7 +57,8 @@ void fst_setup_rhs(const fst_setup *setup, const double *y, double *dy);
 void fst_setup_by_parameter(const fst_setup *setup, const double *y, double *by);
 
 /* Carry a state and FST_COLUMNS tangent vectors (tangent[i][c]: component i of column c) over `duration`.  The
- * last column is the derivative by the free parameter.  FST_STEP_UNDERFLOW, FST_NOT_FINITE. */
+ * last column is the derivative by the free parameter.  FST_STEP_UNDERFLOW, FST_NOT_FINITE, and
+ * what the watch answers. */
 fst_status fst_carry(const fst_setup *setup, double tolerance, double duration, double y[FST_STATE_SIZE],
                      double tangent[FST_STATE_SIZE][FST_COLUMNS], fst_error *error);
 

@@ -224,8 +224,8 @@ static fst_status check_number(double festoons, fst_error *error)
                           "%g festoons: the number must be greater than 1 and less than 1e6", festoons);
 }
 
-fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
-                           fst_festoon_list *list, fst_error *error)
+static fst_status festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
+                              fst_watch *watch, fst_festoon_list *list, fst_error *error)
 {
     memset(list, 0, sizeof *list);
     fst_status status = check_number(festoons, error);
@@ -236,13 +236,16 @@ fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, d
                         "the branch is none of counter-rotation over drive.omega");
     fst_family family;
     status = fst_family_begin(&family, params, "drive.omega", error);
+    family.watch = watch;
     list->least[0] = list->least[1] = list->from = INFINITY;
     list->greatest[0] = list->greatest[1] = list->to = -INFINITY;
     for (size_t i = 0; i < branch->point_count; ++i)
         if (counter_rotates(&branch->points[i]))
             note_reach(list, &branch->points[i]);
-    for (size_t i = 0; i + 1 < branch->point_count && status == FST_OK; ++i)
+    for (size_t i = 0; i + 1 < branch->point_count && status == FST_OK; ++i) {
+        fst_watch_reach(watch, (double)i / (double)branch->point_count);
         status = look_between(&family, &branch->points[i], &branch->points[i + 1], 0, festoons, list, error);
+    }
     for (size_t i = 0; i < branch->special_count && status == FST_OK; ++i)
         status = look_beside(&family, branch, &branch->specials[i], festoons, list, error);
     if (status == FST_OK && list->count == 0)
@@ -250,6 +253,26 @@ fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, d
     if (status != FST_OK)
         fst_festoons_free(list);
     return status;
+}
+
+fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
+                           const fst_progress *progress, fst_festoon_list *list, fst_error *error)
+{
+    fst_watch watch;
+    fst_watch_begin(&watch, progress);
+    return festoons_on(params, branch, festoons, &watch, list, error);
+}
+
+/* The branch takes nearly all of the time. */
+typedef struct first_part {
+    const fst_progress *caller;
+    double end;
+} first_part;
+
+static fst_status tell_first_part(void *user, double fraction, fst_error *error)
+{
+    const first_part *part = user;
+    return part->caller->tell(part->caller->user, part->end * fraction, error);
 }
 
 fst_status fst_festoons_find(const fst_params *params, double festoons, const fst_progress *progress,
@@ -263,13 +286,15 @@ fst_status fst_festoons_find(const fst_params *params, double festoons, const fs
     fst_branch_options o = fst_default_branch_options();
     o.from = 0.02;
     o.to = 10.0;
-    if (progress) {
-        o.user = progress->user;
-        o.progress = progress->tell;
-    }
+    first_part part = {progress, 0.9};
+    o.user = &part;
+    o.progress = progress ? tell_first_part : NULL;
+    fst_watch watch;
+    fst_watch_begin(&watch, progress);
+    fst_watch_part(&watch, part.end, 1.0);
     status = fst_branch_follow(params, &o, &branch, error);
     if (status == FST_OK)
-        status = fst_festoons_on(params, &branch, festoons, list, error);
+        status = festoons_on(params, &branch, festoons, &watch, list, error);
     fst_branch_free(&branch);
     return status;
 }

@@ -60,6 +60,7 @@ typedef struct found_state {
 typedef struct finder {
     const fst_family *family;
     double value;
+    double searching; /* which part of the watch's present part the search is */
     found_state *found;
     int count;
 } finder;
@@ -95,9 +96,11 @@ static int settle(finder *f, fst_solution *s)
 static fst_status search(finder *f, int starts, fst_error *error)
 {
     fst_setup setup;
-    const fst_status status = fst_family_setup(f->family, f->value, &setup, error);
+    fst_status status = fst_family_setup(f->family, f->value, &setup, error);
     for (int i = 1; i <= starts && status == FST_OK; ++i) {
         fst_solution s;
+        fst_watch_reach(f->family->watch, f->searching * i / starts);
+        status = fst_watch_count(f->family->watch, 0, error);
         memset(&s, 0, sizeof s);
         s.value = f->value;
         start_at(&setup, i, s.y[0]);
@@ -109,12 +112,14 @@ static fst_status search(finder *f, int starts, fst_error *error)
         if (settle(f, &image))
             note(f, &image, 0);
     }
-    return status;
+    return status == FST_OK ? fst_watch_count(f->family->watch, 0, error) : status;
 }
 
-static fst_status find_all(const fst_family *family, double value, int starts, finder *f, fst_error *error)
+static fst_status find_all(const fst_family *family, double value, int starts, double searching, finder *f,
+                           fst_error *error)
 {
     memset(f, 0, sizeof *f);
+    f->searching = searching;
     f->family = family;
     f->value = value;
     f->found = calloc(MOST, sizeof *f->found);
@@ -161,14 +166,18 @@ static fst_status fill(const fst_family *family, found_state *found, fst_locked 
     return FST_OK;
 }
 
-fst_status fst_locked_find(const fst_params *params, fst_locked_list *list, fst_error *error)
+fst_status fst_locked_find(const fst_params *params, const fst_progress *progress, fst_locked_list *list,
+                           fst_error *error)
 {
     memset(list, 0, sizeof *list);
     fst_family family;
     finder f = {.found = NULL};
+    fst_watch watch;
+    fst_watch_begin(&watch, progress);
     fst_status status = fst_family_begin(&family, params, NULL, error);
+    family.watch = &watch;
     if (status == FST_OK)
-        status = find_all(&family, 0.0, STARTS, &f, error);
+        status = find_all(&family, 0.0, STARTS, 0.95, &f, error);
     if (status == FST_OK && !(list->states = calloc((size_t)f.count + 1, sizeof *list->states)))
         status = fst_fail(error, FST_NO_MEMORY, "locked", "out of memory");
     for (int i = 0; i < f.count && status == FST_OK; ++i) {
@@ -200,24 +209,26 @@ fst_status fst_follow_locked(fst_tracer *t, fst_error *error)
 {
     enum { SLICES = 12, FEWER_STARTS = 900 };
     const double lo = fmin(t->options->from, t->options->to), hi = fmax(t->options->from, t->options->to);
-    const double whole = t->share[1], first = 0.75; /* most branches are met in the first slice */
+    const double whole = t->watch.share[1], first = 0.75; /* most branches are met in the first slice */
     fst_status status = FST_OK;
     for (int slice = 0; slice < SLICES && status == FST_OK; ++slice) {
         finder f;
         const double part = (slice + 0.5) / SLICES; /* most states live at the low end of omega */
-        t->share[0] = slice ? whole * (first + (1.0 - first) * (slice - 1) / (SLICES - 1)) : 0.0;
-        t->share[1] = whole * (first + (1.0 - first) * slice / (SLICES - 1));
-        status = fst_tracer_progress(t, error);
+        const double begin = slice ? whole * (first + (1.0 - first) * (slice - 1) / (SLICES - 1)) : 0.0;
+        fst_watch_part(&t->watch, begin, whole * (first + (1.0 - first) * slice / (SLICES - 1)));
+        status = fst_watch_ask(&t->watch, error);
         if (status != FST_OK)
             break;
-        status = find_all(&t->family, lo + (hi - lo) * (part * part), FEWER_STARTS, &f, error);
+        status = find_all(&t->family, lo + (hi - lo) * (part * part), FEWER_STARTS, 0.0, &f, error);
         for (int i = 0; i < f.count && status == FST_OK; ++i) {
             fst_node node;
             fst_solution s = f.found[i].s;
             fst_error ignored;
             if (fst_solution_correct(&t->family, &s, NULL, &ignored) != FST_OK ||
-                fst_node_make(&t->family, &s, &node, &ignored) != FST_OK || fst_tracer_knows(t, &node.seen))
+                fst_node_make(&t->family, &s, &node, &ignored) != FST_OK || fst_tracer_knows(t, &node.seen)) {
+                status = fst_watch_ask(&t->watch, error);
                 continue;
+            }
             status = fst_tracer_add(t, &node, error);
             if (status == FST_OK)
                 status = fst_tracer_run(t, error);

@@ -9,6 +9,9 @@
 #define LONGEST_CORRECTION                                                                                     \
     0.3 /* of an orbit; a longer one leaves the range in which the linear system means anything */
 
+/* Of an iteration without the integrations, in evaluations of the equations: the linear system. */
+enum { ITERATION_WORK = 20 };
+
 static double dot(const double *a, const double *b, int n)
 {
     double sum = 0.0;
@@ -201,7 +204,9 @@ fst_status fst_newton_equations(const fst_family *family, fst_solution *s, fst_n
                                 fst_error *error)
 {
     fst_setup setup;
-    const fst_status status = fst_family_setup(family, s->value, &setup, error);
+    fst_status status = fst_watch_count(family->watch, ITERATION_WORK, error);
+    if (status == FST_OK)
+        status = fst_family_setup(family, s->value, &setup, error);
     if (status != FST_OK)
         return status;
     memset(l->a, 0, sizeof l->a);

@@ -236,14 +236,14 @@ static fst_status never_settled(const search *s, double t_end, fst_error *error)
         t_end / s->drive_period, s->model->groups.omega, motion, s->attempts);
 }
 
-static fst_status follow(search *s, double t_end, const fst_progress *progress, fst_solution *out,
-                         fst_error *error)
+static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *error)
 {
     int turns = 0, peaks = 0;
     while (s->flow->t.high < t_end) {
         fst_status status = fst_flow_step(s->flow, t_end, error);
-        if (status == FST_OK && s->flow->accepted % 64 == 0)
-            status = fst_tell(progress, s->flow->t.high / t_end, error);
+        fst_watch_reach(s->family->watch, s->flow->t.high / t_end);
+        if (status == FST_OK)
+            status = fst_watch_count(s->family->watch, FST_FLOW_STEP_WORK, error);
         if (status != FST_OK)
             return status;
         const double r = hypot(s->flow->step.end[FST_X], s->flow->step.end[FST_Y]);
@@ -268,11 +268,11 @@ static fst_status follow(search *s, double t_end, const fst_progress *progress, 
         if (s->flow->accepted % 64 == 0 && is_locked(s))
             return went_elsewhere(s, "locks to the magnet", error);
     }
-    return never_settled(s, t_end, error);
+    const fst_status status = fst_watch_ask(s->family->watch, error);
+    return status == FST_OK ? never_settled(s, t_end, error) : status;
 }
 
-fst_status fst_search_orbit(const fst_family *family, const fst_progress *progress, fst_solution *out,
-                            fst_error *error)
+fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_error *error)
 {
     search *s = calloc(1, sizeof *s);
     if (!s)
@@ -288,7 +288,7 @@ fst_status fst_search_orbit(const fst_family *family, const fst_progress *progre
         status = fst_solution_flow(family, 0.0, start, SEARCH_TOLERANCE, &s->model, &s->flow, error);
     if (status == FST_OK) {
         s->drive_period = TWO_PI / model->groups.omega;
-        status = follow(s, family->params.run_periods * s->drive_period, progress, out, error);
+        status = follow(s, family->params.run_periods * s->drive_period, out, error);
     }
     fst_flow_free(s->flow);
     fst_model_free(s->model);
@@ -302,11 +302,14 @@ fst_status fst_orbit_find(const fst_params *params, const fst_progress *progress
 {
     fst_family family;
     fst_solution solution;
+    fst_watch watch;
     memset(orbit, 0, sizeof *orbit);
     fst_result_clear(&orbit->means);
+    fst_watch_begin(&watch, progress);
     fst_status status = fst_family_begin(&family, params, NULL, error);
+    family.watch = &watch;
     if (status == FST_OK)
-        status = fst_search_orbit(&family, progress, &solution, error);
+        status = fst_search_orbit(&family, &solution, error);
     if (status == FST_OK)
         status = fst_orbit_from_solution(&family, &solution, orbit, error);
     return status;

@@ -5,9 +5,8 @@
 #include "orbit/solution.h"
 
 /* Integrate from start.* of the family's parameters (which has no free one) for at most run.periods drive
- * periods, until returns come close and Newton's method finds the attracting orbit that they approach.
- * `progress` may be NULL. */
-fst_status fst_search_orbit(const fst_family *family, const fst_progress *progress, fst_solution *out,
-                            fst_error *error);
+ * periods, until returns come close and Newton's method finds the attracting orbit that they approach.  The
+ * present part of the family's watch is told how far the bead was followed. */
+fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_error *error);
 
 #endif

@@ -13,7 +13,8 @@
 enum {
     FST_SEGMENTS = 4,
     FST_UNKNOWNS = FST_SEGMENTS * FST_TANGENT_SIZE + 2,
-    FST_MULTIPLIERS = FST_TANGENT_SIZE
+    FST_MULTIPLIERS = FST_TANGENT_SIZE,
+    FST_FLOW_STEP_WORK = 14 /* of a step of a flow with its dense output, in evaluations of the equations */
 };
 
 /* A direction in the space of states, period and parameter. */
@@ -99,6 +100,9 @@ int fst_solution_moves(const fst_family *family, const fst_solution *s);
 
 /* The time in which a small disturbance falls by e; NAN: it does not. */
 double fst_solution_relaxation(const fst_solution *s);
+
+/* Carry such a flow on to a time; stops with what the family's watch answers. */
+fst_status fst_solution_advance(const fst_family *family, fst_flow *flow, double time, fst_error *error);
 
 /* Fill in the states of a chain of `segments` from the first one and the period. */
 fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int segments, fst_error *error);

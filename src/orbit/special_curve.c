@@ -21,6 +21,7 @@ enum { HISTORY = 3, MOST_PLACES = 1000 };
 typedef struct walk {
     const fst_branch_options *options;
     fst_surface surface;
+    fst_watch *watch;
     fst_special_type type;
     double angle;            /* of the critical pair: its frequency, or that on the unit circle */
     fst_place past[HISTORY]; /* the latest places, the last one first */
@@ -379,15 +380,16 @@ static fst_status walk_on(walk *w, int branch, fst_branch *out, fst_error *error
                 (void)snprintf(w->reason, sizeof w->reason,
                                "it could not be followed beyond %.10g, %.10g: %.90s", w->past[0].s.value,
                                w->past[0].second, why.sentence);
-                return FST_OK;
+                return fst_watch_ask(w->watch, error);
             }
         const int left = excess(w, &next, &key) > 0;
         if (left && !land(w, h, &next))
-            return FST_OK;
+            return fst_watch_ask(w->watch, error);
         remember(w, &next);
         fst_status status = report(w, &next, branch, out, error);
-        if (status == FST_OK && w->options->progress)
-            status = w->options->progress(w->options->user, places / (places + 20.0), error);
+        fst_watch_reach(w->watch, places / (places + 20.0));
+        if (status == FST_OK)
+            status = fst_watch_ask(w->watch, error);
         if (status != FST_OK || left || has_ended(w, &start, places, h))
             return status;
         h *= tries <= 3 ? 1.5 : tries > 5 ? 0.6 : 1.0;
@@ -409,23 +411,29 @@ static fst_status begin_surface(walk *w, const fst_params *params, fst_error *er
     w->surface.first.params = w->surface.second.params; /* the other forms of both are cleared */
     w->surface.first.scale = fst_branch_scale(o->key, o->from, o->to);
     w->surface.second.scale = fst_branch_scale(o->second_key, o->second_from, o->second_to);
+    w->surface.first.watch = w->surface.second.watch = w->watch;
     fst_family_tighten(&w->surface.first, o->tolerance);
     fst_family_tighten(&w->surface.second, o->tolerance);
     return FST_OK;
 }
 
 fst_status fst_special_curve_follow(const fst_branch_options *options, const fst_params *params,
-                                    const fst_special_start *start, int branch, fst_branch *out,
-                                    fst_error *error)
+                                    const fst_special_start *start, int branch, fst_watch *watch,
+                                    fst_branch *out, fst_error *error)
 {
     walk w;
     memset(&w, 0, sizeof w);
+    w.watch = watch;
     w.options = options;
     w.type = start->type;
     fst_status status = begin_surface(&w, params, error);
     if (status != FST_OK)
         return status;
-    if (begin(&w, start, error) != FST_OK)
+    const fst_status begun = begin(&w, start, error);
+    status = fst_watch_ask(watch, error);
+    if (status != FST_OK)
+        return status;
+    if (begun != FST_OK)
         return fst_branch_add_end(out, branch, -1, start->at.s.value,
                                   "its curve could not be begun: the test is not regular here", error);
     const size_t first = out->point_count;

@@ -5,6 +5,9 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "ode/flow.h"
+
+enum { SPECTRUM_WORK = 100 }; /* of LAPACK on a matrix of this size, in evaluations of the equations */
 
 /* An orthogonal matrix (by a Householder reflection) whose first column is f/|f|. */
 static void reflection(const double *f, double q[FST_TANGENT_SIZE][FST_TANGENT_SIZE])
@@ -97,7 +100,9 @@ fst_status fst_solution_section(const fst_family *family, const fst_solution *s,
 fst_status fst_solution_spectrum(const fst_family *family, fst_solution *s, fst_error *error)
 {
     double matrix[FST_TANGENT_SIZE * FST_TANGENT_SIZE], q[FST_TANGENT_SIZE][FST_TANGENT_SIZE];
-    const fst_status status = reduced_matrix(family, s, matrix, q, error);
+    fst_status status = fst_watch_count(family->watch, SPECTRUM_WORK, error);
+    if (status == FST_OK)
+        status = reduced_matrix(family, s, matrix, q, error);
     if (status != FST_OK)
         return status;
     if (family->lapack->eigen(s->multipliers, matrix, s->re, s->im, NULL) != 0)
@@ -196,6 +201,18 @@ fst_status fst_solution_flow(const fst_family *family, double value, const doubl
     return status;
 }
 
+fst_status fst_solution_advance(const fst_family *family, fst_flow *flow, double time, fst_error *error)
+{
+    const fst_twofold end = {time, 0.0};
+    fst_status status = fst_watch_count(family->watch, 0, error);
+    while (status == FST_OK && fst_twofold_difference(end, flow->t) != 0.0) {
+        status = fst_flow_step(flow, time, error);
+        if (status == FST_OK)
+            status = fst_watch_count(family->watch, FST_FLOW_STEP_WORK, error);
+    }
+    return status;
+}
+
 fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int segments, fst_error *error)
 {
     fst_model *model;
@@ -203,9 +220,8 @@ fst_status fst_solution_chain(const fst_family *family, fst_solution *s, int seg
     fst_status status = fst_solution_flow(family, s->value, s->y[0], family->tolerance, &model, &flow, error);
     s->segments = segments;
     for (int i = 1; i < segments && status == FST_OK; ++i) {
-        fst_stop stop;
-        status = fst_flow_advance(flow, s->period * i / segments, 0, &stop, error);
-        memcpy(s->y[i], fst_flow_get(flow).state, sizeof s->y[i]);
+        status = fst_solution_advance(family, flow, s->period * i / segments, error);
+        memcpy(s->y[i], flow->step.end, sizeof s->y[i]);
     }
     fst_flow_free(flow);
     fst_model_free(model);

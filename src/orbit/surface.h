@@ -51,9 +51,10 @@ typedef struct fst_special_start {
     fst_node at;
 } fst_special_start;
 
-/* Follow it both ways through the ranges of the options; points go into `out` as branch number `branch`. */
+/* Follow it both ways through the ranges of the options; points go into `out` as branch number `branch`.  The
+ * present part of the watch is this curve. */
 fst_status fst_special_curve_follow(const fst_branch_options *options, const fst_params *params,
-                                    const fst_special_start *start, int branch, fst_branch *out,
-                                    fst_error *error);
+                                    const fst_special_start *start, int branch, fst_watch *watch,
+                                    fst_branch *out, fst_error *error);
 
 #endif
