@@ -113,6 +113,9 @@ static inline void FN(lost_term_jacobian)(const REAL *n, const REAL *w, REAL j[F
 static inline void FN(jacobian)(const FN(coefficients) * c, REAL omega, const REAL *y,
                                 REAL j[FST_STATE_SIZE][FST_STATE_SIZE])
 {
+#ifdef FST_COUNT_EVALUATION
+    FST_COUNT_EVALUATION(); /* as in rhs.inl */
+#endif
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         for (int k = 0; k < FST_STATE_SIZE; ++k)
             j[i][k] = R(0.0);

@@ -42,6 +42,9 @@ static inline void FN(gradient_along)(const FN(coefficients) * c, REAL x, REAL y
 
 static inline void FN(magnetic_pull)(const FN(coefficients) * c, const REAL *state, FN(pull) * p)
 {
+#ifdef FST_COUNT_EVALUATION
+    FST_COUNT_EVALUATION(); /* in a library that a test has made for itself */
+#endif
     const REAL x = state[FST_X], y = state[FST_Y], *n = state + FST_NX;
     REAL gn[3];
 #ifdef FIELD_KEEPS_GRADIENT

@@ -463,20 +463,14 @@ double fst_branch_scale(const char *key, double from, double to)
     return strcmp(key, "drive.omega") == 0 ? 1.0 : fmax(fabs(from), fabs(to));
 }
 
-/* Over two parameters: the branches over the first were followed for their special points; now the curve of
- * each. */
-static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_error *error)
+/* Over two parameters the branches over the first are followed for their special points alone: of these, which
+ * are at the value `at` of the second, only the ones to be followed stay. */
+static void keep_followed(fst_tracer *t, double at)
 {
-    const fst_branch_options *o = t->options;
     fst_branch *out = t->out;
-    fst_family second;
-    fst_status status = fst_family_begin(&second, params, o->second_key, error);
-    if (status != FST_OK)
-        return status;
-    const double at = fst_family_value(&second);
     size_t kept = 0;
     for (size_t i = 0; i < out->special_count; ++i)
-        if (out->specials[i].type == o->special) {
+        if (out->specials[i].type == t->options->special) {
             out->specials[kept] = out->specials[i];
             out->specials[kept].born = -1;
             out->specials[kept].at.second = at;
@@ -486,7 +480,15 @@ static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_e
     out->special_count = kept;
     out->point_count = out->end_count = 0;
     out->branches = t->start_count;
-    if (kept == 0)
+}
+
+/* Their curves, one after another. */
+static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_error *error)
+{
+    const fst_branch_options *o = t->options;
+    fst_branch *out = t->out;
+    fst_status status = FST_OK;
+    if (out->special_count == 0)
         return fst_fail(error, FST_NO_CONVERGENCE, "branch",
                         "no %s lies between %s = %.10g and %.10g, so none can be followed over %s: try another "
                         "range",
@@ -500,21 +502,23 @@ static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_e
     return status;
 }
 
-/* Curves over two parameters begin at the scene's value of the second: it must lie within its range. */
-static fst_status check_second(const fst_params *params, const fst_branch_options *o, fst_error *error)
+/* Curves over two parameters begin at the scene's value of the second, *at: it must lie within its range. */
+static fst_status check_second(const fst_params *params, const fst_branch_options *o, double *at,
+                               fst_error *error)
 {
     fst_family second;
+    *at = NAN;
     if (!o->second_key)
         return FST_OK;
     const fst_status status = fst_family_begin(&second, params, o->second_key, error);
     if (status != FST_OK)
         return status;
-    const double at = fst_family_value(&second);
-    if (at < fmin(o->second_from, o->second_to) || at > fmax(o->second_from, o->second_to))
+    *at = fst_family_value(&second);
+    if (*at < fmin(o->second_from, o->second_to) || *at > fmax(o->second_from, o->second_to))
         return fst_fail(
             error, FST_BAD_INPUT, "fst_branch_follow",
             "the curves begin at the scene's %s = %.10g, which must lie within the range %.10g to %.10g",
-            o->second_key, at, o->second_from, o->second_to);
+            o->second_key, *at, o->second_from, o->second_to);
     return FST_OK;
 }
 
@@ -522,9 +526,10 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
                              fst_error *error)
 {
     memset(branch, 0, sizeof *branch);
+    double second_at;
     fst_status status = check(options, error);
     if (status == FST_OK)
-        status = check_second(params, options, error);
+        status = check_second(params, options, &second_at, error);
     if (status != FST_OK)
         return status;
     fst_tracer *t = calloc(1, sizeof *t);
@@ -552,6 +557,8 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     t->family.watch = &t->watch;
     if (status == FST_OK)
         status = options->kind == FST_BRANCH_COUNTER ? follow_counter(t, error) : fst_follow_locked(t, error);
+    if (options->second_key)
+        keep_followed(t, second_at);
     if (status == FST_OK && options->second_key)
         status = follow_specials(t, params, error);
     branch->complete = status == FST_OK;

@@ -1,0 +1,3 @@
+#include "count_evaluations.h"
+
+long long fst_test_evaluations = 0;
