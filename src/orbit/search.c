@@ -26,6 +26,7 @@ typedef struct search {
     fst_flow *flow;
     double section[3][FST_STATE_SIZE]; /* the latest passages of X = 0, on the side Y > 0 (images under S2) */
     double section_time[3];
+    int section_is_image; /* the latest is one: the bead was on the side Y < 0 */
     int passages;    /* since the turning was last irregular */
     int peaks_since; /* the latest passage: a bead that turns has one or two to a half turn */
     int last_half;
@@ -108,6 +109,13 @@ static void prefer_symmetric(search *s, fst_solution *orbit)
         *orbit = half;
 }
 
+/* Of two conjugate orbits, each the image of the other under S2, the one on which the bead is. */
+static void choose_conjugate(const search *s, fst_solution *orbit)
+{
+    for (int i = 0; i < orbit->segments && !orbit->symmetric && s->section_is_image; ++i)
+        fst_apply_s2(orbit->y[i], orbit->y[i]);
+}
+
 static int try_turning(search *s, fst_solution *out, fst_error *error)
 {
     for (int symmetric = 1; symmetric >= 0; --symmetric) {
@@ -125,6 +133,7 @@ static int try_turning(search *s, fst_solution *out, fst_error *error)
         if (polish(s, out, gap, error)) {
             if (!symmetric)
                 prefer_symmetric(s, out);
+            choose_conjugate(s, out);
             return 1;
         }
     }
@@ -163,6 +172,7 @@ static int note_passage(search *s)
     s->peaks_since = 0;
     s->passages = downward && half != s->last_half ? s->passages + 1 : 1;
     s->last_half = downward ? half : 0;
+    s->section_is_image = half < 0;
     if (half < 0)
         fst_apply_s2(y, y);
     memmove(s->section[1], s->section[0], 2 * sizeof s->section[0]);
