@@ -61,7 +61,9 @@ FST_API char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *ly
 FST_API fst_status fst_branch_write(const char *path, const fst_params *params, const fst_branch *branch,
                                     fst_error *error);
 
-/* A branch read back from the JSON above: points and specials.  FST_BAD_INPUT: the file is none. */
+/* A branch read back whole from the JSON above (crossings after the other special points).  FST_BAD_INPUT: the
+ * file is none, or a member of it is not what it may be: which, and what it is, stands in the sentence. FST_IO:
+ * the disk failed. */
 FST_API fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *error);
 
 /* Pairs (parameter, observable) from a file of one or more documents that `run --json` printed; free(*dots). */

@@ -12,6 +12,14 @@ json_t *fst_json_numbers(const double *values, int count);
 /* The parameters by key, in SI; what was not given, or is overridden by its other form, is null. */
 json_t *fst_json_scene(const fst_params *params);
 
+/* The numbers of a point of a branch under their keys, for writing and reading. */
+typedef struct fst_point_number {
+    const char *key;
+    size_t offset; /* in fst_branch_point */
+} fst_point_number;
+enum { FST_POINT_NUMBER_COUNT = 13 };
+extern const fst_point_number fst_point_numbers[FST_POINT_NUMBER_COUNT];
+
 /* The numbers of a run. */
 json_t *fst_json_run(const fst_params *params, const fst_run_result *result);
 

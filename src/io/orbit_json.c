@@ -1,4 +1,4 @@
-/* orbit_json.c - orbits, equilibria, branches and exponents as JSON, and branches read back. */
+/* orbit_json.c - orbits, equilibria, branches and exponents as JSON. */
 #include <festoon/festoon_tools.h>
 
 #include <stdio.h>
@@ -96,11 +96,7 @@ char *fst_locked_json(const fst_params *params, double omega, const fst_locked_l
     return fst_json_dump(object, JSON_INDENT(INDENT));
 }
 
-/* The numbers of a point under their keys, for writing and reading. */
-static const struct {
-    const char *key;
-    size_t offset;
-} NUMBERS[] = {
+const fst_point_number fst_point_numbers[FST_POINT_NUMBER_COUNT] = {
     {"value", offsetof(fst_branch_point, value)},
     {"second", offsetof(fst_branch_point, second)},
     {"omega", offsetof(fst_branch_point, omega)},
@@ -115,15 +111,14 @@ static const struct {
     {"relaxation_time", offsetof(fst_branch_point, relaxation_time)},
     {"swing_ratio", offsetof(fst_branch_point, swing_ratio)},
 };
-enum { NUMBER_COUNT = sizeof NUMBERS / sizeof *NUMBERS };
 
 static json_t *point_object(const fst_branch_point *p)
 {
     json_t *object = json_object();
-    for (int i = 0; i < NUMBER_COUNT; i++) {
+    for (int i = 0; i < FST_POINT_NUMBER_COUNT; i++) {
         double value;
-        memcpy(&value, (const char *)p + NUMBERS[i].offset, sizeof value);
-        json_object_set_new(object, NUMBERS[i].key, fst_json_number(value));
+        memcpy(&value, (const char *)p + fst_point_numbers[i].offset, sizeof value);
+        json_object_set_new(object, fst_point_numbers[i].key, fst_json_number(value));
     }
     json_object_set_new(object, "symmetry", symmetry_of(p->symmetry));
     json_object_set_new(object, "stable", json_boolean(p->stable));
@@ -185,6 +180,7 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
         json_object_set_new(object, "second_to", fst_json_number(branch->second_to));
     }
     json_object_set_new(object, "complete", json_boolean(branch->complete));
+    json_object_set_new(object, "branches", json_integer(branch->branches));
     json_object_set_new(object, "specials", specials);
     json_object_set_new(object, "crossings", crossings);
     json_object_set_new(object, "ends", ends);
@@ -229,117 +225,6 @@ char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *l)
     json_object_set_new(object, "trace", trace);
     json_object_set_new(object, "scene", fst_json_scene(params));
     return fst_json_dump(object, JSON_INDENT(INDENT));
-}
-
-/* ---------------------------------------------------------------- reading a branch */
-
-static void read_pairs(const json_t *object, fst_branch_point *p)
-{
-    const json_t *array = json_object_get(object, "multipliers");
-    if (!array)
-        array = json_object_get(object, "eigenvalues");
-    const size_t count = json_array_size(array);
-    p->multipliers = (int)(count < FST_EIGENVALUE_COUNT ? count : FST_EIGENVALUE_COUNT);
-    for (int i = 0; i < p->multipliers; i++) {
-        const json_t *pair = json_array_get(array, (size_t)i);
-        p->multiplier_re[i] = json_number_value(json_array_get(pair, 0));
-        p->multiplier_im[i] = json_number_value(json_array_get(pair, 1));
-    }
-}
-
-static void read_point(const json_t *object, fst_branch_point *p)
-{
-    for (int i = 0; i < NUMBER_COUNT; i++) {
-        const json_t *number = json_object_get(object, NUMBERS[i].key);
-        const double value = json_is_number(number) ? json_number_value(number) : NAN;
-        memcpy((char *)p + NUMBERS[i].offset, &value, sizeof value);
-    }
-    p->stable = json_is_true(json_object_get(object, "stable"));
-    p->turns = (int)json_integer_value(json_object_get(object, "turns"));
-    p->branch = (int)json_integer_value(json_object_get(object, "branch"));
-    const char *symmetry = json_string_value(json_object_get(object, "symmetry"));
-    p->symmetry = !symmetry                     ? FST_SYMMETRY_NONE
-                  : strcmp(symmetry, "S2") == 0 ? FST_SYMMETRY_S2
-                                                : FST_SYMMETRY_S1;
-    read_pairs(object, p);
-}
-
-static fst_special_type type_named(const char *name)
-{
-    for (int i = FST_SPECIAL_FOLD; name && i <= FST_SPECIAL_TRANSCRITICAL; i++)
-        if (strcmp(name, fst_special_name((fst_special_type)i)) == 0)
-            return (fst_special_type)i;
-    return FST_SPECIAL_FOLD;
-}
-
-static void read_special(const json_t *object, fst_special *s)
-{
-    s->type = type_named(json_string_value(json_object_get(object, "type")));
-    s->value = json_number_value(json_object_get(object, "value"));
-    s->omega = json_number_value(json_object_get(object, "omega"));
-    s->branch = (int)json_integer_value(json_object_get(object, "branch"));
-    read_point(json_object_get(object, "at"), &s->at);
-}
-
-/* What the figures need of an end: which branch is the image of which. */
-static void read_end(const json_t *object, fst_branch_end *end)
-{
-    const json_t *image = json_object_get(object, "image_under_s2");
-    memset(end, 0, sizeof *end);
-    end->branch = (int)json_integer_value(json_object_get(object, "branch"));
-    end->value = json_number_value(json_object_get(object, "value"));
-    end->image = json_is_integer(image) ? (int)json_integer_value(image) : end->branch;
-}
-
-fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *error)
-{
-    json_error_t why;
-    memset(branch, 0, sizeof *branch);
-    json_t *object = json_load_file(path, 0, &why);
-    const json_t *points = json_object_get(object, "points"), *specials = json_object_get(object, "specials"),
-                 *crossings = json_object_get(object, "crossings"), *ends = json_object_get(object, "ends");
-    const char *key = json_string_value(json_object_get(object, "parameter"));
-    if (!object || !json_is_array(points) || !json_is_array(specials) || !key) {
-        const fst_status status =
-            fst_fail(error, FST_BAD_INPUT, path, "%s",
-                     object ? "this is no branch: make one with festoon branch -o FILE.json" : why.text);
-        json_decref(object);
-        return status;
-    }
-    const char *kind = json_string_value(json_object_get(object, "kind"));
-    for (int k = FST_BRANCH_COUNTER; kind && k <= FST_BRANCH_ALL; k++)
-        if (strcmp(kind, fst_branch_kind_name((fst_branch_kind)k)) == 0)
-            branch->kind = (fst_branch_kind)k;
-    branch->from = json_number_value(json_object_get(object, "from"));
-    branch->to = json_number_value(json_object_get(object, "to"));
-    (void)snprintf(branch->key, sizeof branch->key, "%s", key);
-    const char *second = json_string_value(json_object_get(object, "second_parameter"));
-    if (second) {
-        (void)snprintf(branch->second_key, sizeof branch->second_key, "%s", second);
-        branch->second_from = json_number_value(json_object_get(object, "second_from"));
-        branch->second_to = json_number_value(json_object_get(object, "second_to"));
-        branch->followed = type_named(json_string_value(json_object_get(object, "followed")));
-    }
-    branch->points = calloc(json_array_size(points) + 1, sizeof *branch->points);
-    branch->specials =
-        calloc(json_array_size(specials) + json_array_size(crossings) + 1, sizeof *branch->specials);
-    branch->ends = calloc(json_array_size(ends) + 1, sizeof *branch->ends);
-    fst_status status = FST_OK;
-    if (!branch->points || !branch->specials || !branch->ends) {
-        fst_branch_free(branch);
-        status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-    } else {
-        for (size_t i = 0; i < json_array_size(points); i++)
-            read_point(json_array_get(points, i), &branch->points[branch->point_count++]);
-        for (size_t i = 0; i < json_array_size(specials); i++)
-            read_special(json_array_get(specials, i), &branch->specials[branch->special_count++]);
-        for (size_t i = 0; i < json_array_size(crossings); i++)
-            read_special(json_array_get(crossings, i), &branch->specials[branch->special_count++]);
-        for (size_t i = 0; i < json_array_size(ends); i++)
-            read_end(json_array_get(ends, i), &branch->ends[branch->end_count++]);
-    }
-    json_decref(object);
-    return status;
 }
 
 /* ---------------------------------------------------------------- simulated points */

@@ -295,7 +295,7 @@ static void find_images(fst_branch *out)
         const fst_branch_point *middle = &out->points[first + count / 2];
         double image[FST_STATE_SIZE];
         end->image = -1;
-        if (count == 0)
+        if (count == 0 || out->second_key[0])
             continue;
         fst_apply_s2(middle->state, image);
         if (middle->symmetry == FST_SYMMETRY_S2)
@@ -479,7 +479,7 @@ static void keep_followed(fst_tracer *t, double at)
         }
     out->special_count = kept;
     out->point_count = out->end_count = 0;
-    out->branches = t->start_count;
+    out->branches = (int)kept;
 }
 
 /* Their curves, one after another. */

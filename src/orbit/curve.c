@@ -44,8 +44,8 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     p->relaxation_time = fst_solution_relaxation(&node->s);
     p->stable = fst_solution_is_stable(&node->s);
     p->multipliers = node->s.multipliers;
-    memcpy(p->multiplier_re, node->s.re, sizeof p->multiplier_re);
-    memcpy(p->multiplier_im, node->s.im, sizeof p->multiplier_im);
+    memcpy(p->multiplier_re, node->s.re, (size_t)p->multipliers * sizeof *p->multiplier_re);
+    memcpy(p->multiplier_im, node->s.im, (size_t)p->multipliers * sizeof *p->multiplier_im);
     memcpy(p->state, s->y[0], sizeof p->state);
     if (s->segments == 0) {
         see_equilibrium(&setup, s, p);

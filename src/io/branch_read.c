@@ -1,0 +1,384 @@
+/* branch_read.c - branches read back from the files that fst_branch_write() makes.
+ *
+ * Such a file may have been edited, cut short or made by something else: every member is checked against what
+ * it may be, and the first that is anything else is refused by its name.  Nothing is guessed, for most members
+ * have a value (0, a fold) that a guess would turn into a wrong result.
+ */
+#include <festoon/festoon_tools.h>
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/json_parts.h"
+
+enum { MOST_BRANCHES = 1000000 };
+
+/* A file being read; once something was refused, nothing more is. */
+typedef struct reader {
+    const char *path;
+    const char *key; /* of the branch: the parameter of its special points */
+    char place[48];  /* of the object that is read, as in "points[3]." */
+    int branches;    /* numbers of branches are less */
+    fst_status status;
+    fst_error *error;
+} reader;
+
+static void refuse(reader *r, const char *key, const json_t *found, const char *expected)
+{
+    if (r->status != FST_OK)
+        return;
+    char *text = found ? json_dumps(found, JSON_ENCODE_ANY | JSON_COMPACT | JSON_ENSURE_ASCII) : NULL;
+    char quoted[FST_QUOTE_SIZE];
+    r->status = fst_fail(r->error, FST_BAD_INPUT, r->path, "%s%s must be %s, not %s", r->place, key, expected,
+                         !found ? "missing"
+                         : text ? fst_quote(text, quoted)
+                                : "what it is");
+    free(text);
+}
+
+static void read_number(reader *r, const json_t *object, const char *key, double *out)
+{
+    const json_t *found = json_object_get(object, key);
+    if (!json_is_number(found) && !json_is_null(found))
+        refuse(r, key, found, "a number or null");
+    *out = json_is_number(found) ? json_number_value(found) : NAN;
+}
+
+static void read_finite(reader *r, const json_t *object, const char *key, double *out)
+{
+    const json_t *found = json_object_get(object, key);
+    if (!json_is_number(found))
+        refuse(r, key, found, "a number");
+    *out = json_number_value(found);
+}
+
+/* An integer from `least` to `most`. */
+static int read_integer(reader *r, const json_t *object, const char *key, int least, int most)
+{
+    const json_t *found = json_object_get(object, key);
+    const json_int_t value = json_integer_value(found);
+    char expected[64];
+    (void)snprintf(expected, sizeof expected, "an integer from %d to %d", least, most);
+    if (!json_is_integer(found) || value < least || value > most) {
+        refuse(r, key, found, expected);
+        return least;
+    }
+    return (int)value;
+}
+
+static int read_flag(reader *r, const json_t *object, const char *key)
+{
+    const json_t *found = json_object_get(object, key);
+    if (!json_is_boolean(found))
+        refuse(r, key, found, "true or false");
+    return json_is_true(found);
+}
+
+/* The number of a branch; null: none, -1. */
+static int read_branch_or_none(reader *r, const json_t *object, const char *key)
+{
+    return json_is_null(json_object_get(object, key)) ? -1 : read_integer(r, object, key, 0, r->branches - 1);
+}
+
+/* The index of a text among names; the first where it is none of them. */
+static int read_name(reader *r, const json_t *object, const char *key, const char *(*name_of)(int index),
+                     int count)
+{
+    const json_t *found = json_object_get(object, key);
+    const char *text = json_string_value(found);
+    char names[256] = "", nearest[48], expected[400];
+    for (int i = 0; i < count; ++i) {
+        const size_t used = strlen(names);
+        if (text && strcmp(text, name_of(i)) == 0 && strlen(text) == json_string_length(found))
+            return i;
+        (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name_of(i));
+    }
+    (void)fst_nearest_name(text ? text : "", names, nearest, sizeof nearest);
+    (void)snprintf(expected, sizeof expected, "one of %s%s%s", names, text ? " (the nearest is " : "",
+                   text ? nearest : "");
+    refuse(r, key, found, text ? strcat(expected, ")") : expected);
+    return 0;
+}
+
+static const char *special_name(int index)
+{
+    return fst_special_name((fst_special_type)index);
+}
+
+static const char *kind_name(int index)
+{
+    return fst_branch_kind_name((fst_branch_kind)index);
+}
+
+/* A parameter with real values, whose name goes into figures. */
+static void read_parameter(reader *r, const json_t *object, const char *key, char out[64])
+{
+    const json_t *found = json_object_get(object, key);
+    const char *text = json_string_value(found);
+    const int row = text && strlen(text) == json_string_length(found) ? fst_param_find(text) : -1;
+    out[0] = '\0';
+    if (row >= 0 && fst_param_at(row)->kind == FST_KIND_REAL)
+        (void)snprintf(out, 64, "%s", fst_param_at(row)->key);
+    else
+        refuse(r, key, found, "a key of the scene with real values, as \"drive.omega\"");
+}
+
+/* Text that goes into messages: no control characters. */
+static void read_text(reader *r, const json_t *object, const char *key, char *out, size_t size)
+{
+    const json_t *found = json_object_get(object, key);
+    const char *text = json_string_value(found);
+    const size_t length = json_string_length(found);
+    int fit = text && length < size && strlen(text) == length;
+    for (size_t i = 0; fit && i < length; ++i)
+        fit = (unsigned char)text[i] >= 0x20 && text[i] != 0x7f;
+    if (fit)
+        memcpy(out, text, length + 1);
+    else
+        refuse(r, key, found, "a short text without control characters");
+}
+
+/* ---------------------------------------------------------------- a point */
+
+static void read_pairs(reader *r, const json_t *object, fst_branch_point *p)
+{
+    const json_t *found = json_object_get(object, "multipliers"),
+                 *other = json_object_get(object, "eigenvalues");
+    const char *key = other ? "eigenvalues" : "multipliers";
+    const size_t count = json_array_size(other ? other : found);
+    if ((found && other) || !(json_is_array(other) ? count == FST_EIGENVALUE_COUNT
+                                                   : json_is_array(found) && count <= FST_MULTIPLIER_COUNT)) {
+        refuse(r, key, other ? other : found, "8 multipliers, or 9 eigenvalues instead, each of two numbers");
+        return;
+    }
+    p->multipliers = (int)count;
+    for (size_t i = 0; i < count; ++i) {
+        const json_t *pair = json_array_get(other ? other : found, i);
+        const json_t *re = json_array_get(pair, 0), *im = json_array_get(pair, 1);
+        if (json_array_size(pair) != 2 || !(json_is_number(re) || json_is_null(re)) ||
+            !(json_is_number(im) || json_is_null(im)))
+            refuse(r, key, pair, "pairs of two numbers");
+        p->multiplier_re[i] = json_is_number(re) ? json_number_value(re) : NAN;
+        p->multiplier_im[i] = json_is_number(im) ? json_number_value(im) : NAN;
+    }
+}
+
+static void read_state(reader *r, const json_t *object, double state[FST_STATE_SIZE])
+{
+    const json_t *found = json_object_get(object, "state");
+    int fit = json_array_size(found) == FST_STATE_SIZE;
+    for (size_t i = 0; i < FST_STATE_SIZE; ++i) {
+        const json_t *number = json_array_get(found, i);
+        fit = fit && (json_is_number(number) || json_is_null(number));
+        state[i] = json_is_number(number) ? json_number_value(number) : NAN;
+    }
+    if (!fit)
+        refuse(r, "state", found, "10 numbers");
+}
+
+static void read_point(reader *r, const json_t *object, fst_branch_point *p)
+{
+    if (!json_is_object(object)) {
+        refuse(r, "", object, "an object");
+        return;
+    }
+    for (int i = 0; i < FST_POINT_NUMBER_COUNT; ++i) {
+        double value;
+        read_number(r, object, fst_point_numbers[i].key, &value);
+        memcpy((char *)p + fst_point_numbers[i].offset, &value, sizeof value);
+    }
+    const json_t *symmetry = json_object_get(object, "symmetry");
+    const char *name = json_string_value(symmetry);
+    if (name && strcmp(name, "S1") == 0)
+        p->symmetry = FST_SYMMETRY_S1;
+    else if (name && strcmp(name, "S2") == 0)
+        p->symmetry = FST_SYMMETRY_S2;
+    else if (json_is_null(symmetry))
+        p->symmetry = FST_SYMMETRY_NONE;
+    else
+        refuse(r, "symmetry", symmetry, "\"S1\", \"S2\" or null");
+    p->stable = read_flag(r, object, "stable");
+    p->turns = read_integer(r, object, "turns", -MOST_BRANCHES, MOST_BRANCHES);
+    p->branch = read_integer(r, object, "branch", 0, r->branches - 1);
+    read_pairs(r, object, p);
+    read_state(r, object, p->state);
+}
+
+/* ---------------------------------------------------------------- special points, ends */
+
+static void read_special(reader *r, const json_t *object, fst_special *s)
+{
+    if (!json_is_object(object)) {
+        refuse(r, "", object, "an object");
+        return;
+    }
+    const json_t *criticality = json_object_get(object, "criticality"),
+                 *parameter = json_object_get(object, "parameter");
+    const char *side = json_string_value(criticality), *key = json_string_value(parameter);
+    s->type = (fst_special_type)read_name(r, object, "type", special_name, FST_SPECIAL_TRANSCRITICAL + 1);
+    if (!key || strcmp(key, r->key) != 0)
+        refuse(r, "parameter", parameter, "the branch's own parameter");
+    read_number(r, object, "value", &s->value);
+    read_number(r, object, "omega", &s->omega);
+    s->branch = read_integer(r, object, "branch", 0, r->branches - 1);
+    if (side && strcmp(side, "supercritical") == 0)
+        s->criticality = 1;
+    else if (side && strcmp(side, "subcritical") == 0)
+        s->criticality = -1;
+    else if (!json_is_null(criticality))
+        refuse(r, "criticality", criticality, "\"supercritical\", \"subcritical\" or null");
+    s->born = read_branch_or_none(r, object, "born");
+    const size_t length = strlen(r->place);
+    (void)snprintf(r->place + length, sizeof r->place - length, "at.");
+    read_point(r, json_object_get(object, "at"), &s->at);
+}
+
+static void read_end(reader *r, const json_t *object, fst_branch_end *end, int over_two)
+{
+    if (!json_is_object(object)) {
+        refuse(r, "", object, "an object");
+        return;
+    }
+    const json_t *image = json_object_get(object, "image_under_s2");
+    const char *which = json_string_value(image);
+    end->branch = read_integer(r, object, "branch", 0, r->branches - 1);
+    end->family = read_branch_or_none(r, object, "born_on");
+    read_number(r, object, "value", &end->value);
+    read_text(r, object, "reason", end->reason, sizeof end->reason);
+    if (over_two || (which && strcmp(which, "not listed") == 0))
+        end->image = -1;
+    else if (which && strcmp(which, "itself") == 0)
+        end->image = end->branch;
+    else if (json_is_integer(image))
+        end->image = read_integer(r, object, "image_under_s2", 0, r->branches - 1);
+    else
+        refuse(r, "image_under_s2", image, "\"itself\", \"not listed\" or the number of a branch");
+}
+
+/* ---------------------------------------------------------------- the whole file */
+
+/* Files written before they held the number of branches: as many as their points and ends name. */
+static int count_branches(const json_t *document)
+{
+    static const char *const lists[] = {"points", "ends", "specials", "crossings"};
+    json_int_t most = -1;
+    for (size_t k = 0; k < sizeof lists / sizeof *lists; ++k) {
+        const json_t *list = json_object_get(document, lists[k]);
+        for (size_t i = 0; i < json_array_size(list); ++i) {
+            const json_t *item = json_array_get(list, i);
+            const json_int_t branch = json_integer_value(json_object_get(item, "branch"));
+            const json_int_t born = json_integer_value(json_object_get(item, "born"));
+            most = branch > most ? branch : most;
+            most = born > most ? born : most;
+        }
+    }
+    return most < MOST_BRANCHES ? (int)most + 1 : MOST_BRANCHES;
+}
+
+static void read_head(reader *r, const json_t *document, fst_branch *branch)
+{
+    branch->kind = (fst_branch_kind)read_name(r, document, "kind", kind_name, FST_BRANCH_ALL + 1);
+    read_parameter(r, document, "parameter", branch->key);
+    read_finite(r, document, "from", &branch->from);
+    read_finite(r, document, "to", &branch->to);
+    if (json_object_get(document, "second_parameter")) {
+        read_parameter(r, document, "second_parameter", branch->second_key);
+        read_finite(r, document, "second_from", &branch->second_from);
+        read_finite(r, document, "second_to", &branch->second_to);
+        branch->followed =
+            (fst_special_type)read_name(r, document, "followed", special_name, FST_SPECIAL_TRANSCRITICAL + 1);
+    }
+    branch->complete = read_flag(r, document, "complete");
+    branch->branches = json_object_get(document, "branches")
+                           ? read_integer(r, document, "branches", 0, MOST_BRANCHES)
+                           : count_branches(document);
+    r->key = branch->key;
+    r->branches = branch->branches;
+}
+
+/* A list of the document; *count of its elements. */
+static const json_t *list_of(reader *r, const json_t *document, const char *key, size_t *count)
+{
+    const json_t *list = json_object_get(document, key);
+    if (!json_is_array(list))
+        refuse(r, key, list, "a list");
+    *count = json_array_size(list);
+    return list;
+}
+
+static void read_lists(reader *r, const json_t *document, fst_branch *branch)
+{
+    size_t points, specials, crossings, ends;
+    const json_t *point = list_of(r, document, "points", &points);
+    const json_t *special = list_of(r, document, "specials", &specials);
+    const json_t *crossing = list_of(r, document, "crossings", &crossings);
+    const json_t *end = list_of(r, document, "ends", &ends);
+    branch->points = calloc(points + 1, sizeof *branch->points);
+    branch->specials = calloc(specials + crossings + 1, sizeof *branch->specials);
+    branch->ends = calloc(ends + 1, sizeof *branch->ends);
+    if (!branch->points || !branch->specials || !branch->ends) {
+        r->status = fst_fail(r->error, FST_NO_MEMORY, r->path, "out of memory");
+        return;
+    }
+    for (size_t i = 0; i < points && r->status == FST_OK; ++i) {
+        (void)snprintf(r->place, sizeof r->place, "points[%zu].", i);
+        read_point(r, json_array_get(point, i), &branch->points[branch->point_count++]);
+    }
+    for (size_t i = 0; i < specials + crossings && r->status == FST_OK; ++i) {
+        const int is_crossing = i >= specials;
+        (void)snprintf(r->place, sizeof r->place, "%s[%zu].", is_crossing ? "crossings" : "specials",
+                       is_crossing ? i - specials : i);
+        fst_special *s = &branch->specials[branch->special_count++];
+        read_special(r, is_crossing ? json_array_get(crossing, i - specials) : json_array_get(special, i), s);
+    }
+    for (size_t i = 0; i < ends && r->status == FST_OK; ++i) {
+        (void)snprintf(r->place, sizeof r->place, "ends[%zu].", i);
+        read_end(r, json_array_get(end, i), &branch->ends[branch->end_count++], branch->second_key[0] != 0);
+    }
+}
+
+/* The document in a file; NULL: r->status says why. */
+static json_t *load(reader *r)
+{
+    json_error_t why;
+    errno = 0;
+    FILE *in = fopen(r->path, "rb");
+    json_t *document = in ? json_loadf(in, JSON_REJECT_DUPLICATES, &why) : NULL;
+    const int reason = errno, unread = in && ferror(in);
+    if (in)
+        (void)fclose(in);
+    if (!in || (!document && unread)) {
+        const int by_disk =
+            in ? reason != EISDIR : reason == EIO || reason == ENOMEM || reason == EMFILE || reason == ENFILE;
+        r->status = fst_fail(r->error, by_disk ? FST_IO : FST_BAD_INPUT, r->path, "cannot read this file: %s",
+                             strerror(reason));
+    } else if (!document) {
+        char quoted[FST_QUOTE_SIZE];
+        r->status = fst_fail(r->error, FST_BAD_INPUT, r->path, "line %d: this is no JSON: %s", why.line,
+                             fst_quote(why.text, quoted));
+    } else if (!json_is_object(document) || !json_object_get(document, "points") ||
+               !json_object_get(document, "parameter")) {
+        r->status = fst_fail(r->error, FST_BAD_INPUT, r->path,
+                             "this is no branch: make one with festoon branch -o FILE.json");
+    }
+    return document;
+}
+
+fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *error)
+{
+    reader r = {.path = path, .key = "", .status = FST_OK, .error = error};
+    memset(branch, 0, sizeof *branch);
+    json_t *document = load(&r);
+    if (r.status == FST_OK)
+        read_head(&r, document, branch);
+    if (r.status == FST_OK)
+        read_lists(&r, document, branch);
+    json_decref(document);
+    if (r.status != FST_OK)
+        fst_branch_free(branch);
+    return r.status;
+}
