@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "ode/flow.h"
+#include "orbit/departure.h"
 #include "orbit/describe.h"
 #include "study/run_state.h"
 
@@ -27,8 +28,8 @@ typedef struct search {
     double section[3][FST_STATE_SIZE]; /* the latest passages of X = 0, on the side Y > 0 (images under S2) */
     double section_time[3];
     int section_is_image; /* the latest is one: the bead was on the side Y < 0 */
-    int passages;    /* since the turning was last irregular */
-    int peaks_since; /* the latest passage: a bead that turns has one or two to a half turn */
+    int passages;         /* since the turning was last irregular */
+    int peaks_since;      /* the latest passage: a bead that turns has one or two to a half turn */
     int last_half;
     double peak[PEAKS][FST_STATE_SIZE]; /* the latest places where r was greatest */
     double peak_time[PEAKS];
@@ -37,6 +38,8 @@ typedef struct search {
     double drive_period;
     int attempts;
     int at_rest; /* the latest guess ended at an equilibrium that attracts */
+    int leaves;  /* ... at one that does not: the bead is leaving it, or will */
+    int tried_departure;
 } search;
 
 static double distance(const double *a, const double *b)
@@ -70,6 +73,21 @@ static int comes_to_rest(const search *s, const double *near)
     return last < first && last < 0.1;
 }
 
+/* Newton's method, which converges slowly beside a point where orbits meet: every iteration takes a third of
+ * the distance.  It is tried on as long as the residual falls. */
+static fst_status correct(search *s, fst_solution *guess, fst_error *error)
+{
+    double before = INFINITY;
+    fst_status status;
+    for (int i = 0; i < 4; ++i) {
+        status = fst_solution_correct(s->family, guess, NULL, error);
+        if (status != FST_NO_CONVERGENCE || !(guess->residual < 1e-6 && guess->residual < 0.1 * before))
+            break;
+        before = guess->residual;
+    }
+    return status;
+}
+
 /* Newton's method from a guess.  The orbit is the one that the bead approaches if it attracts, and if the bead
  * is as far from it as its last return `gap` says: a return moves the bead by (1 - rho) of its distance, rho
  * being the greatest multiplier. */
@@ -79,13 +97,13 @@ static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
     const double period = guess->period;
     memcpy(start, guess->y[0], sizeof start);
     s->attempts += 1;
-    s->at_rest = 0;
+    s->at_rest = s->leaves = 0;
     if (fst_solution_chain(s->family, guess, guess->symmetric ? 1 : 2, error) != FST_OK ||
-        fst_solution_correct(s->family, guess, NULL, error) != FST_OK ||
-        fst_solution_spectrum(s->family, guess, error) != FST_OK)
+        correct(s, guess, error) != FST_OK || fst_solution_spectrum(s->family, guess, error) != FST_OK)
         return 0;
     if (!fst_solution_moves(s->family, guess)) { /* equilibria solve the equations of orbits, with any period */
         s->at_rest = comes_to_rest(s, guess->y[0]);
+        s->leaves = !s->at_rest;
         return 0;
     }
     if (!fst_solution_is_stable(guess))
@@ -155,6 +173,18 @@ static int try_librating(search *s, fst_solution *out, fst_error *error)
         return polish(s, out, gap, error);
     }
     return 0;
+}
+
+/* A libration about an equilibrium that the bead leaves too slowly to wait for. */
+static int try_departure(search *s, fst_solution *out, fst_error *error)
+{
+    const double close = 1e-3;
+    double gap;
+    if (!s->leaves || s->tried_departure)
+        return 0;
+    s->tried_departure = 1;
+    return fst_departure_guess(s->family, s->peak[(s->peaks - 1) % PEAKS], close, out, &gap) &&
+           polish(s, out, gap, error);
 }
 
 /* The passage of X = 0 in the last step; 1 if it completes a regular turn. */
@@ -270,7 +300,7 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
             peaks += 1;
             if (peaks % 16 == 0 && is_locked(s))
                 return went_elsewhere(s, "locks to the magnet", error);
-            if (peaks % 16 == 0 && try_librating(s, out, &ignored))
+            if (peaks % 16 == 0 && (try_librating(s, out, &ignored) || try_departure(s, out, &ignored)))
                 return FST_OK;
             if (peaks % 16 == 0 && s->at_rest)
                 return went_elsewhere(s, "locks to the magnet", error);
