@@ -5,26 +5,33 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "ode/flow.h"
+#include "study/growth.h"
 
 #define TWO_PI 6.283185307179586476925287
 
 enum {
     N = FST_TANGENT_SIZE,
-    BLOCKS = 16,
     ALIGNING = 20 /* drive periods in which the vectors turn into place */
 };
+static const double TURNING = 0.1; /* what of a column's turning into place may not be seen, in its logarithm */
+static const double UNRESOLVED =
+    4.0;                          /* difference of two exponents times the time, below which they are a pair */
+static const double SHARED = 3.0; /* what each is off by, in differences seen */
+static const double PIECE = 0.5;  /* gamma^-1: the fastest direction shrinks by e^-2 meanwhile */
 
 /* Of the work of a time in which the tangents are carried, a time in which they are not. */
-#define DISCARD_WORK 0.1
+static const double DISCARD_WORK = 0.1;
 
 /* What is carried along. */
 typedef struct spectrum {
     fst_setup setup;
     double tolerance;
     double y[FST_STATE_SIZE], tangent[FST_STATE_SIZE][FST_COLUMNS];
-    double growth[N];  /* sums of logarithms */
-    double divergence; /* integral of the trace of the Jacobian */
-    double time;
+    double logarithm[N]; /* by which the columns grew in the last piece */
+    double sum[N];       /* and since the measurement began */
+    fst_growth growth[N], divergence;
+    fst_growth_clock clock;
     const fst_progress *progress;
     double passed, whole; /* of the work: the time since the start, and all of it */
 } spectrum;
@@ -56,7 +63,7 @@ static void orthonormalise(spectrum *s)
                 s->tangent[i][c] /= length;
             total *= length;
         }
-        s->growth[c] += log(total);
+        s->logarithm[c] = log(total);
     }
 }
 
@@ -70,22 +77,42 @@ static double divergence_at(const spectrum *s)
     return trace; /* along n the flow neither stretches nor shrinks: |n| is kept */
 }
 
-/* On for one span, in pieces short enough for the columns to stay apart. */
-static fst_status go_on(spectrum *s, double span, double piece, fst_error *error)
+/* On for one piece, short enough for the columns to stay apart. */
+static fst_status go_on(spectrum *s, double piece, fst_error *error)
 {
-    const int pieces = (int)ceil(span / piece);
-    for (int i = 0; i < pieces; ++i) {
-        const double before = divergence_at(s);
-        fst_status status = fst_tell(s->progress, s->passed / s->whole, error);
-        if (status == FST_OK)
-            status = fst_carry(&s->setup, s->tolerance, span / pieces, s->y, s->tangent, error);
-        if (status != FST_OK)
-            return status;
-        s->divergence += 0.5 * (before + divergence_at(s)) * (span / pieces);
-        orthonormalise(s);
-        s->passed += span / pieces;
+    fst_status status = fst_tell(s->progress, s->passed / s->whole, error);
+    if (status == FST_OK)
+        status = fst_carry(&s->setup, s->tolerance, piece, s->y, s->tangent, error);
+    if (status != FST_OK)
+        return status;
+    orthonormalise(s);
+    s->passed += piece;
+    return FST_OK;
+}
+
+/* Count `pieces` in a double: a run of 1e9 slow periods has more of them than any integer. */
+static fst_status align(spectrum *s, double duration, fst_error *error)
+{
+    const double pieces = ceil(duration / PIECE);
+    fst_status status = FST_OK;
+    for (double i = 0.0; i < pieces && status == FST_OK; ++i)
+        status = go_on(s, duration / pieces, error);
+    return status;
+}
+
+/* On for one piece whose growth counts. */
+static fst_status measure_piece(spectrum *s, double piece, fst_error *error)
+{
+    const double before = divergence_at(s);
+    const fst_status status = go_on(s, piece, error);
+    if (status != FST_OK)
+        return status;
+    fst_growth_pass(&s->clock, piece);
+    fst_growth_add(&s->divergence, &s->clock, 0.5 * (before + divergence_at(s)) * piece);
+    for (int c = 0; c < N; ++c) {
+        fst_growth_add(&s->growth[c], &s->clock, s->logarithm[c]);
+        s->sum[c] += s->logarithm[c];
     }
-    s->time += span;
     return FST_OK;
 }
 
@@ -100,24 +127,49 @@ static void start_tangents(spectrum *s)
             for (int i = 0; i < FST_STATE_SIZE; ++i)
                 s->tangent[i][c] += basis[i][j] * ((j == c ? 1.0 : 0.0) + 0.3 * sin(1.0 + 7.0 * c + 3.0 * j));
     orthonormalise(s);
-    memset(s->growth, 0, sizeof s->growth);
 }
 
-/* Standard errors from the blocks, and whether every sign is decided.  One exponent belongs to the flow
- * direction and is zero: the one nearest to it is taken for it. */
-static void judge(fst_lyapunov *out, double block[BLOCKS][FST_EIGENVALUE_COUNT], double speed, double time)
+/* Put the exponents in order, the greatest first; columns of one pair may come out either way round. */
+static void conclude(const spectrum *s, fst_lyapunov *out)
+{
+    for (int c = 0; c < N; ++c) {
+        const fst_growth_rate rate = fst_growth_conclude(&s->growth[c]);
+        int place = c;
+        for (; place > 0 && out->exponents[place - 1] < rate.value; --place) {
+            out->exponents[place] = out->exponents[place - 1];
+            out->errors[place] = out->errors[place - 1];
+        }
+        out->exponents[place] = rate.value;
+        out->errors[place] = fmax(rate.error, TURNING / s->clock.duration);
+    }
+}
+
+/* Two directions that shrink at nearly the same rate tell themselves apart only after the time 1/(difference).
+ * Before, their columns share the two rates in some proportion that no part of the time tells from another:
+ * each is off by a part of the true difference, of which the seen one is a part too. */
+static void widen_pairs(fst_lyapunov *out)
+{
+    double widened[N];
+    for (int c = 0; c < N; ++c) {
+        widened[c] = out->errors[c];
+        for (int other = c - 1; other <= c + 1; other += 2) {
+            if (other < 0 || other >= N)
+                continue;
+            const double gap = fabs(out->exponents[c] - out->exponents[other]);
+            if (gap * out->time < UNRESOLVED)
+                widened[c] = fmax(widened[c], fmin(SHARED * gap, 1.0 / out->time));
+        }
+    }
+    memcpy(out->errors, widened, sizeof widened);
+}
+
+/* Whether every sign is decided.  One exponent belongs to the flow direction and is zero: the one nearest to it
+ * is taken for it. */
+static void judge(fst_lyapunov *out, double speed)
 {
     out->error = 0.0;
-    for (int c = 0; c < N; ++c) {
-        double sum = 0.0, sum2 = 0.0;
-        for (int b = 0; b < BLOCKS; ++b)
-            sum += block[b][c];
-        out->exponents[c] = sum / BLOCKS;
-        for (int b = 0; b < BLOCKS; ++b)
-            sum2 += (block[b][c] - out->exponents[c]) * (block[b][c] - out->exponents[c]);
-        out->errors[c] = sqrt(sum2 / (BLOCKS - 1) / BLOCKS);
+    for (int c = 0; c < N; ++c)
         out->error = fmax(out->error, out->errors[c]);
-    }
     out->flow_direction = -1;
     for (int c = 0; c < N && speed > 1e-6; ++c)
         if (out->flow_direction < 0 || fabs(out->exponents[c]) < fabs(out->exponents[out->flow_direction]))
@@ -126,7 +178,7 @@ static void judge(fst_lyapunov *out, double block[BLOCKS][FST_EIGENVALUE_COUNT],
     for (int c = 0; c < N; ++c) {
         const double size = fabs(out->exponents[c]), error = fmax(out->errors[c], 1e-9);
         /* A neutral direction may grow like the time: by its logarithm, which is no exponent. */
-        const int grows = out->exponents[c] > 0 && size * time < 2.0 * log(1.0 + time);
+        const int grows = out->exponents[c] > 0 && size * out->time < 2.0 * log(1.0 + out->time);
         const int decided = size > 4.0 * error && !grows;
         if (c == out->flow_direction ? size > fmax(4.0 * error, 1e-3) : !decided)
             out->converged = 0;
@@ -135,23 +187,17 @@ static void judge(fst_lyapunov *out, double block[BLOCKS][FST_EIGENVALUE_COUNT],
 
 static fst_status measure(spectrum *s, double duration, double period, fst_lyapunov *out, fst_error *error)
 {
-    double block[BLOCKS][FST_EIGENVALUE_COUNT];
-    const double piece = 0.5; /* gamma^-1: the fastest direction shrinks by e^-2 meanwhile */
-    fst_status status = go_on(s, ALIGNING * period, piece, error);
-    memset(s->growth, 0, sizeof s->growth);
-    s->divergence = s->time = 0.0;
-    for (int b = 0; b < BLOCKS && status == FST_OK; ++b) {
-        double before[N];
-        memcpy(before, s->growth, sizeof before);
-        for (int part = 0; part < FST_LYAPUNOV_TRACE / BLOCKS && status == FST_OK; ++part) {
-            status = go_on(s, duration / FST_LYAPUNOV_TRACE, piece, error);
-            const int row = out->trace_count++;
-            out->trace_time[row] = s->time;
-            for (int c = 0; c < N; ++c)
-                out->trace[row][c] = s->growth[c] / s->time;
-        }
+    const double pieces = ceil(duration / FST_LYAPUNOV_TRACE / PIECE);
+    const double piece = duration / FST_LYAPUNOV_TRACE / pieces;
+    fst_status status = align(s, ALIGNING * period, error);
+    s->clock.duration = duration;
+    for (int row = 0; row < FST_LYAPUNOV_TRACE && status == FST_OK; ++row) {
+        for (double i = 0.0; i < pieces && status == FST_OK; ++i)
+            status = measure_piece(s, piece, error);
+        out->trace_count = row + 1;
+        out->trace_time[row] = s->clock.passed;
         for (int c = 0; c < N; ++c)
-            block[b][c] = (s->growth[c] - before[c]) / (duration / BLOCKS);
+            out->trace[row][c] = s->sum[c] / s->clock.passed;
     }
     if (status != FST_OK)
         return status;
@@ -159,42 +205,52 @@ static fst_status measure(spectrum *s, double duration, double period, fst_lyapu
     fst_setup_rhs(&s->setup, s->y, rate);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         speed = fmax(speed, fabs(rate[i]));
-    judge(out, block, speed, s->time);
-    out->divergence = s->divergence / s->time;
-    out->time = s->time;
+    out->time = duration;
+    out->divergence = fst_growth_conclude(&s->divergence).value;
+    conclude(s, out);
+    widen_pairs(out);
+    judge(out, speed);
     return FST_OK;
 }
 
-/* What is left out: from the start to the end of run.discard, in stretches between which the caller is told. */
-static fst_status discard(spectrum *s, const fst_family *family, double period, fst_error *error)
+/* Steps to the end of run.discard, between which the caller is told. */
+static fst_status steps_until(spectrum *s, fst_flow *flow, double end, fst_error *error)
 {
-    const double stretch = 250.0, periods = family->params.run_discard;
+    const fst_twofold until = {end, 0.0};
+    double x;
+    for (uint64_t steps = 0; fst_twofold_difference(until, flow->t) > 0; ++steps) {
+        s->passed = DISCARD_WORK * flow->t.high;
+        fst_status status = steps % 64 == 0 ? fst_tell(s->progress, s->passed / s->whole, error) : FST_OK;
+        if (status == FST_OK)
+            status = fst_flow_step(flow, end, error);
+        if (status != FST_OK)
+            return status;
+        if (fst_flow_first_negative(flow, fst_edge_function, 0.0, &x))
+            return fst_fail(
+                error, FST_NO_CONVERGENCE, "lyapunov",
+                "the bead passed the plate's edge (r = %.6g) during the discard: there is no motion to measure",
+                s->setup.model.groups.plate_radius);
+    }
+    s->passed = DISCARD_WORK * end;
+    return FST_OK;
+}
+
+/* What is left out: from the start to the end of run.discard. */
+static fst_status discard(spectrum *s, const fst_family *family, double duration, fst_error *error)
+{
     double start[FST_STATE_SIZE];
     fst_model *model = NULL;
     fst_flow *flow = NULL;
-    fst_stop stop = FST_STOP_TIME;
     fst_status status = fst_start_state(&family->params, &s->setup.model, start, error);
     if (status == FST_OK)
         status = fst_solution_flow(family, 0.0, start, s->tolerance, &model, &flow, error);
     if (status != FST_OK)
         return status;
-    for (double done = 0.0; status == FST_OK && stop == FST_STOP_TIME && done < periods;) {
-        done = fmin(done + stretch, periods);
-        status = fst_tell(s->progress, s->passed / s->whole, error);
-        if (status == FST_OK)
-            status = fst_flow_advance(flow, done * period, 1u << FST_STOP_EDGE, &stop, error);
-        s->passed = DISCARD_WORK * done * period;
-    }
+    status = steps_until(s, flow, duration, error);
     memcpy(s->y, fst_flow_get(flow).state, sizeof s->y);
     fst_flow_free(flow);
     fst_model_free(model);
-    return status == FST_OK && stop == FST_STOP_EDGE
-               ? fst_fail(
-                     error, FST_NO_CONVERGENCE, "lyapunov",
-                     "the bead passed the plate's edge (r = %.6g) during the discard: there is no motion to "
-                     "measure",
-                     s->setup.model.groups.plate_radius)
-               : status;
+    return status;
 }
 
 fst_status fst_lyapunov_find(const fst_params *params, const fst_progress *progress, fst_lyapunov *out,
@@ -213,9 +269,9 @@ fst_status fst_lyapunov_find(const fst_params *params, const fst_progress *progr
     if (status != FST_OK)
         return status;
     const double period = TWO_PI / s.setup.model.groups.omega;
-    const double measured = params->run_periods - params->run_discard;
-    s.whole = (DISCARD_WORK * params->run_discard + ALIGNING + measured) * period;
-    status = discard(&s, &family, period, error);
+    const double discarded = fst_run_discard(params), measured = params->run_periods - discarded;
+    s.whole = (DISCARD_WORK * discarded + ALIGNING + measured) * period;
+    status = discard(&s, &family, discarded * period, error);
     if (status != FST_OK)
         return status;
     start_tangents(&s);

@@ -1,7 +1,7 @@
 /* exponent.c - largest Lyapunov exponents across the flow, by the variational equations.
  *
- * The vector that is followed is made short again after each piece of a block, and the logarithms of what it
- * had grown to add up to the block's growth.
+ * The vector that is followed is made short again after each piece of the time; the logarithms of what it had
+ * grown to are averaged as growth.h tells.
  */
 #include "study/exponent.h"
 
@@ -11,11 +11,21 @@
 
 #include "base/error.h"
 #include "ensemble/lanes.h"
+#include "study/growth.h"
 
 /* The loosest tolerances that decide no regime otherwise and are lost in the exponents' errors:
  * docs/regimes.md. Without friction nothing damps the errors of the steps. */
 static const double LOOSEST = 1e-7, LOOSEST_WITHOUT_FRICTION = 1e-9;
-enum { BLOCKS = 22, ALIGNING = 2, PIECES = 16 }; /* the first blocks turn the vector into place */
+/* The first eleventh of the time turns the vector into place.  Pieces, at whose ends the vector is made short
+ * again, are so many at least, and short enough for no direction to shrink to nothing meanwhile. */
+static const double ALIGNING = 1.0 / 11, LONGEST_PIECE = 16.0;
+static const double ALIGNING_PIECES = 32, PIECES = 320;
+/* Where another direction shrinks at nearly the same rate, the vector turns from it so slowly that no part of
+ * the time differs from another: its length is then known to a factor of some e. */
+static const double TURNING = 1.0;
+/* What the errors of the steps leave of a growth rate, in units of the tolerance: docs/regimes.md. */
+static const double OF_TOLERANCE = 10.0;
+enum { STEPS_UNTOLD = 64 };
 
 /* One bead and its vector on their way. */
 typedef struct follower {
@@ -23,8 +33,10 @@ typedef struct follower {
     double h, t, piece; /* the step size carried along; the time in the present piece, and a piece's length */
     double attempt;     /* size of the present try */
     int lands;          /* it ends the piece */
-    int pieces, blocks; /* done; pieces of the present block */
-    double growth, sum, sum2;
+    double aligning, pieces, done; /* pieces before the growth counts, and in all; those that are behind it */
+    double rtol;
+    fst_growth growth;
+    fst_growth_clock clock;
     int over;
 } follower;
 
@@ -97,7 +109,15 @@ static void begin(crew *c, int l, fst_exponent *asked)
         return;
     asked->rhs_calls = 0;
     asked->failed = 0;
-    c->followers[l] = (follower){.asked = asked, .h = 0.1, .piece = asked->duration / BLOCKS / PIECES};
+    const double aligned = asked->duration * ALIGNING, measured = asked->duration - aligned;
+    const double finer = fmax(1.0, ceil(measured / PIECES / LONGEST_PIECE));
+    c->followers[l] = (follower){.asked = asked,
+                                 .h = 0.1,
+                                 .piece = measured / PIECES / finer,
+                                 .aligning = ALIGNING_PIECES * finer,
+                                 .pieces = (ALIGNING_PIECES + PIECES) * finer,
+                                 .rtol = rtol,
+                                 .clock = {.duration = measured}};
 }
 
 static void plan(follower *f)
@@ -124,23 +144,17 @@ static int judge(follower *f, double error, double factor)
 /* The end of a piece, over which the vector has grown to `length`. */
 static void end_piece(follower *f, double length)
 {
-    f->growth += log(length);
     f->t = 0.0;
-    if (++f->pieces < PIECES)
-        return;
-    const double rate = f->growth / (f->asked->duration / BLOCKS);
-    if (f->blocks >= ALIGNING) {
-        f->sum += rate;
-        f->sum2 += rate * rate;
+    if (++f->done > f->aligning) {
+        fst_growth_pass(&f->clock, f->piece);
+        fst_growth_add(&f->growth, &f->clock, log(length));
     }
-    f->pieces = 0;
-    f->growth = 0.0;
-    if (++f->blocks < BLOCKS)
+    if (f->done < f->pieces)
         return;
-    const int n = BLOCKS - ALIGNING;
-    const double variance = (f->sum2 - f->sum * f->sum / n) / (n - 1);
-    f->asked->value = f->sum / n;
-    f->asked->standard_error = variance > 0 ? sqrt(variance / n) : 0.0;
+    const fst_growth_rate rate = fst_growth_conclude(&f->growth);
+    f->asked->value = rate.value;
+    f->asked->chance = fmax(rate.chance, OF_TOLERANCE * f->rtol);
+    f->asked->standard_error = fmax(fmax(rate.error, TURNING / f->clock.duration), OF_TOLERANCE * f->rtol);
     f->over = 1;
 }
 
@@ -172,8 +186,18 @@ static int step(crew *c)
     return at_work;
 }
 
+/* How far the one is that has farthest to go. */
+static double fraction_done(const crew *c)
+{
+    double least = 1.0;
+    for (int l = 0; l < c->count; ++l)
+        if (!c->followers[l].over)
+            least = fmin(least, c->followers[l].done / c->followers[l].pieces);
+    return least;
+}
+
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
-                                 fst_error *error)
+                                 const fst_progress *progress, fst_error *error)
 {
     crew c = {.engine = engine, .count = count};
     const size_t bytes = (engine->bytes + 63) / 64 * 64;
@@ -188,8 +212,10 @@ fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent 
     for (int l = 0; l < count; ++l)
         (void)project_lane(&c, l);
     engine->evaluate(c.memory);
-    while (step(&c))
-        ;
+    fst_status status = FST_OK;
+    for (unsigned steps = 1; status == FST_OK && step(&c); ++steps)
+        if (progress && steps % STEPS_UNTOLD == 0)
+            status = progress->tell(progress->user, fraction_done(&c), error);
     free(c.memory);
-    return FST_OK;
+    return status;
 }

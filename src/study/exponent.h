@@ -11,14 +11,19 @@ typedef struct fst_exponent {
     const fst_coefficients_double *coefficients;
     double state[FST_STATE_SIZE]; /* where to begin */
     double duration, rtol;
-    double value, standard_error; /* mean over blocks of the duration, and its standard error */
+    double value,
+        standard_error; /* weighted mean over the time after the alignment (growth.h), and its error */
+    /* The part of the error that chance makes: what decides whether the exponent is positive.  A rate that
+     * differs from one half of the time to the other widens the error, though it be positive in both. */
+    double chance;
     uint64_t rhs_calls;
     int failed; /* the step size underflowed */
 } fst_exponent;
 
 /* The largest exponents of `count` beads, at most as many as the engine is wide.  Tangent vectors along the
- * flow and along |n| are projected out.  FST_NO_MEMORY. */
+ * flow and along |n| are projected out.  `progress` (may be NULL) is told between steps; what it returns other
+ * than FST_OK ends the work.  FST_NO_MEMORY. */
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
-                                 fst_error *error);
+                                 const fst_progress *progress, fst_error *error);
 
 #endif

@@ -19,7 +19,7 @@ static const double STEADY = 0.01;   /* relative change of the half distance ove
 static const double RELAXING = 1e-2; /* below this, distances that halve over half the window are relaxing */
 static const double STILL_FALLING = 0.95; /* activity of the last half over the first: below, it dies out */
 static const double GROWTH = 10.0;        /* exponent times duration: e^10 of growth is chaos */
-static const double SIGNIFICANT = 3.0;    /* exponent over its standard error */
+static const double SIGNIFICANT = 3.0;    /* exponent over the part of its error that is chance */
 static const double ONE_WAY = 5.0; /* |<alpha'>| over its standard error: below, the bead circles neither way */
 enum {
     LEAST_PERIODS = 4,        /* whole drive periods without which nothing is decided */
@@ -45,6 +45,13 @@ const fst_mark_series *fst_window_of(const fst_run_state *run)
 
 #define REASON(...) (void)snprintf(result->reason, sizeof result->reason, __VA_ARGS__)
 
+/* The exponent's progress as the run's. */
+static fst_status tell_of_exponent(void *user, double fraction, fst_error *error)
+{
+    const fst_run_sink *sink = &((const fst_run_state *)user)->options->sink;
+    return sink->progress(sink->user, FST_RUN_SHARE + (1.0 - FST_RUN_SHARE) * fraction, error);
+}
+
 /* The exponent over the window, unless it is known or left to someone else. */
 static fst_status find_exponent(fst_run_state *run, fst_error *error)
 {
@@ -57,7 +64,9 @@ static fst_status find_exponent(fst_run_state *run, fst_error *error)
         asked->rtol = run->params->run_rtol;
         run->exponent_is = FST_EXPONENT_WANTED;
         if (!run->exponent_elsewhere) {
-            const fst_status status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, error);
+            const fst_progress progress = {run, tell_of_exponent};
+            const fst_status status = fst_largest_exponents(
+                &fst_tangents_scalar, &asked, 1, run->options->sink.progress ? &progress : NULL, error);
             if (status != FST_OK)
                 return status;
             run->exponent_is = FST_EXPONENT_KNOWN;
@@ -80,7 +89,7 @@ static fst_status test_chaos(fst_run_state *run, fst_run_result *result, int *po
     result->rhs_calls += run->exponent.rhs_calls;
     result->largest_exponent = exponent;
     result->largest_exponent_error = standard_error;
-    *positive = exponent > SIGNIFICANT * standard_error && exponent * run->exponent.duration > GROWTH;
+    *positive = exponent > SIGNIFICANT * run->exponent.chance && exponent * run->exponent.duration > GROWTH;
     if (*positive) {
         result->regime = FST_REGIME_CHAOTIC;
         REASON("the largest Lyapunov exponent is positive: %.4g +- %.2g", exponent, standard_error);

@@ -201,7 +201,7 @@ static fst_status report_progress(fst_run_state *run, fst_error *error)
     const fst_run_sink *sink = &run->options->sink;
     if (!sink->progress || run->flow->accepted % 64 != 0)
         return FST_OK;
-    return sink->progress(sink->user, run->flow->t.high / run->t_end, error);
+    return sink->progress(sink->user, FST_RUN_SHARE * run->flow->t.high / run->t_end, error);
 }
 
 static fst_status one_step(fst_run_state *run, double t_limit, fst_error *error)
@@ -311,7 +311,7 @@ fst_status fst_run(const fst_params *params, const fst_run_options *options, fst
         const fst_status concluded = fst_run_conclude(run, result, error);
         if (status == FST_OK)
             status = concluded;
-        else
+        if (status == FST_INTERRUPTED)
             (void)snprintf(result->reason, sizeof result->reason,
                            "interrupted at t = %.10g, after %.6g periods", run->flow->t.high,
                            run->flow->t.high / run->drive_period);

@@ -16,6 +16,9 @@ typedef struct fst_returns {
     double section[2][FST_STATE_SIZE]; /* the last two section states, on the side Y > 0 (images under S2) */
 } fst_returns;
 
+/* Of the progress that a run reports, the steps' part; the rest is that of an exponent, if one is needed. */
+#define FST_RUN_SHARE 0.7
+
 typedef struct fst_run_state {
     const fst_params *params;
     const fst_run_options *options;
