@@ -15,6 +15,7 @@
 /* The loosest tolerances that decide no regime otherwise and are lost in the exponents' errors:
  * docs/regimes.md. Without friction nothing damps the errors of the steps. */
 static const double LOOSEST = 1e-7, LOOSEST_WITHOUT_FRICTION = 1e-9;
+enum { WATCHED_STEPS = 64 };                     /* tries between two looks whether to stop */
 enum { BLOCKS = 22, ALIGNING = 2, PIECES = 16 }; /* the first blocks turn the vector into place */
 
 /* One bead and its vector on their way. */
@@ -80,6 +81,28 @@ static double project_lane(crew *c, int l)
     return length;
 }
 
+_Static_assert(sizeof(follower) <= FST_EXPONENT_WAY, "the way of an exponent has room for its follower");
+
+/* Keep what a lane knows between two tries, so that it can be taken up again. */
+static void keep_way(crew *c, int l)
+{
+    follower kept = c->followers[l];
+    fst_exponent *asked = kept.asked;
+    kept.asked = NULL;
+    memcpy(asked->way, &kept, sizeof kept);
+    for (int i = 0; i < FST_TANGENT_DIM; ++i)
+        asked->way_state[i] = c->y[i * c->engine->width + l];
+    asked->has_way = 1;
+}
+
+static void take_up_way(crew *c, int l, fst_exponent *asked)
+{
+    memcpy(&c->followers[l], asked->way, sizeof c->followers[l]);
+    c->followers[l].asked = asked;
+    for (int i = 0; i < FST_TANGENT_DIM; ++i)
+        c->y[i * c->engine->width + l] = asked->way_state[i];
+}
+
 /* Put what is asked into a lane. */
 static void begin(crew *c, int l, fst_exponent *asked)
 {
@@ -93,7 +116,7 @@ static void begin(crew *c, int l, fst_exponent *asked)
         atol[FST_STATE_SIZE + i] = 1e-6;
     }
     c->engine->load(c->memory, l, asked->coefficients, y, rtol, atol);
-    if (l >= c->count)
+    if (l >= c->count || asked->has_way)
         return;
     asked->rhs_calls = 0;
     asked->failed = 0;
@@ -173,7 +196,7 @@ static int step(crew *c)
 }
 
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
-                                 fst_error *error)
+                                 const fst_exponent_watch *watch, fst_error *error)
 {
     crew c = {.engine = engine, .count = count};
     const size_t bytes = (engine->bytes + 63) / 64 * 64;
@@ -186,10 +209,18 @@ fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent 
         begin(&c, l, asked[l < count ? l : 0]);
     engine->evaluate(c.memory);
     for (int l = 0; l < count; ++l)
-        (void)project_lane(&c, l);
+        if (asked[l]->has_way)
+            take_up_way(&c, l, asked[l]);
+        else
+            (void)project_lane(&c, l);
     engine->evaluate(c.memory);
-    while (step(&c))
-        ;
+    int stopped = 0;
+    for (unsigned tries = 1; !stopped && step(&c); ++tries)
+        if (watch && tries % WATCHED_STEPS == 0) {
+            for (int l = 0; l < count; ++l)
+                keep_way(&c, l);
+            stopped = watch->stopped(watch->user);
+        }
     free(c.memory);
-    return FST_OK;
+    return stopped ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }

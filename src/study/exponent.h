@@ -6,6 +6,8 @@
 
 #include "ensemble/tangents.h"
 
+enum { FST_EXPONENT_WAY = 1024 };
+
 /* What is asked, and the answer. */
 typedef struct fst_exponent {
     const fst_coefficients_double *coefficients;
@@ -14,11 +16,22 @@ typedef struct fst_exponent {
     double value, standard_error; /* mean over blocks of the duration, and its standard error */
     uint64_t rhs_calls;
     int failed; /* the step size underflowed */
+    /* How far it has got; zeros: it has not begun.  Asked for again, it goes on from there to the same bits. */
+    int has_way;
+    double way_state[FST_TANGENT_DIM];
+    unsigned char way[FST_EXPONENT_WAY];
 } fst_exponent;
 
+/* Asked now and then, when the ways are up to date: whether to stop. */
+typedef struct fst_exponent_watch {
+    void *user;
+    int (*stopped)(void *user);
+} fst_exponent_watch;
+
 /* The largest exponents of `count` beads, at most as many as the engine is wide.  Tangent vectors along the
- * flow and along |n| are projected out.  FST_NO_MEMORY. */
+ * flow and along |n| are projected out.  `watch` may be NULL.  FST_NO_MEMORY; FST_INTERRUPTED: `watch` said so.
+ */
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
-                                 fst_error *error);
+                                 const fst_exponent_watch *watch, fst_error *error);
 
 #endif

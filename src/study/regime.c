@@ -57,7 +57,7 @@ static fst_status find_exponent(fst_run_state *run, fst_error *error)
         asked->rtol = run->params->run_rtol;
         run->exponent_is = FST_EXPONENT_WANTED;
         if (!run->exponent_elsewhere) {
-            const fst_status status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, error);
+            const fst_status status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, NULL, error);
             if (status != FST_OK)
                 return status;
             run->exponent_is = FST_EXPONENT_KNOWN;
