@@ -446,7 +446,8 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
                  .options = options,
                  .ranks = {.count = 1, .neighbours = 1}};
         j.progress.points = fst_grid_points(grid);
-        j.started = j.committed = now();
+        j.started = now();
+        j.committed = j.started - COMMIT_SECONDS; /* the first row does not wait */
         j.processor_started = read_clock(CLOCK_PROCESS_CPUTIME_ID);
         j.journal_started = read_clock(CLOCK_THREAD_CPUTIME_ID);
         status = run_job(&j, path, error);
