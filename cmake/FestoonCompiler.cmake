@@ -27,6 +27,9 @@ target_compile_options(festoon_compiler INTERFACE
     -fno-math-errno -fno-semantic-interposition
     $<$<BOOL:${FESTOON_WERROR}>:-Werror>)
 
+# Images of runs that a sweep keeps are read by the very build that made them alone: each has an identity.
+target_link_options(festoon_compiler INTERFACE -Wl,--build-id)
+
 if(FESTOON_SANITIZE)
     target_compile_options(festoon_compiler INTERFACE
         -fsanitize=${FESTOON_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

@@ -8,13 +8,15 @@ import subprocess
 import tempfile
 import unittest
 
+from events import HANG
+
 FESTOON = os.environ["FESTOON"]
 SHORT = ["--set", "run.periods=8", "--set", "run.discard=4", "--set", "run.rtol=1e-8"]
 SMALL = SHORT + ["--over", "drive.frequency=9Hz:20Hz:6", "--over", "model.kappa=1,1.5,2"]
 
 
 def festoon(*words, **options):
-    options.setdefault("timeout", 300)
+    options.setdefault("timeout", HANG)
     done = subprocess.run([FESTOON, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, **options)
     return done.returncode, done.stdout.decode(), done.stderr.decode(errors="replace")

@@ -1,68 +1,187 @@
 """Sweeps that are killed or interrupted, and go on.
 
-Environment: FESTOON is the program, SOURCE_DIR the source tree; FESTOON_KILLS the number of databases of which each
-is killed three times.
+Environment: FESTOON is the program, SOURCE_DIR the source tree, BUILD_DIR the build tree; FESTOON_KILLS the number of
+databases of which each is killed three times.
 """
 
 import os
 import random
+import re
 import signal
 import sqlite3
-import subprocess
 import time
 import unittest
 
+import events
 from sweep_tools import FESTOON, SHORT, Case
 
+PRELOADED = os.path.join(os.environ["BUILD_DIR"], "tests")
 
-class Resuming(Case):
-    LONG = SHORT + ["--over", "drive.frequency=9Hz:20Hz:40", "--over", "model.kappa=1:2:20", "--threads", "2"]
 
+def short_runs(count):
+    """Many runs, each over in a moment."""
+    return ["sweep", *SHORT, "--over", f"drive.frequency=9Hz:20Hz:{count}", "--over", "model.kappa=1,1.5",
+            "--threads", "2", "-o"]
+
+
+def long_runs(periods):
+    """Few runs, no more than fit into the lanes of two threads; they are kept every 50 ms of work."""
+    return ["sweep", "--set", f"run.periods={periods}", "--set", f"run.discard={periods // 2}", "--set", "run.rtol=1e-8",
+            "--over", "drive.frequency=6Hz:20Hz:12", "--threads", "2", "--checkpoint", "0.05", "-o"]
+
+
+class Measured(Case):
+    """Sweeps that last some tenths of a second on this machine, measured once, and their rows."""
+    SIZES, WHOLE = {}, {}
+
+    def size_of(self, words, size, seconds=0.3):
+        if words.__name__ not in self.SIZES:
+            self.SIZES[words.__name__] = events.sized(lambda size: self.whole(words, size), seconds, size)
+        return self.SIZES[words.__name__]
+
+    def whole(self, words, size):
+        if (words.__name__, size) not in self.WHOLE:
+            self.good(*words(size), self.path("whole.db"))
+            self.WHOLE[words.__name__, size] = self.rows("whole.db")
+            os.remove(self.path("whole.db"))
+        return self.WHOLE[words.__name__, size]
+
+
+class Resuming(Measured):
     def test_sigkill_and_resume(self):
-        self.good("sweep", *self.LONG, "-o", self.path("whole.db"))
-        expected = self.rows("whole.db")
+        """Killed when the file is there, when so many rows are in it, or a moment after: nothing committed is lost."""
         rng = random.Random(4)
-        rounds = int(os.environ.get("FESTOON_KILLS", "6"))
-        broken_off = 0
-        for i in range(rounds):
-            name = f"cut{i}.db"
-            for _ in range(3):
-                process = subprocess.Popen([FESTOON, "sweep", *self.LONG, "-o", self.path(name)],
-                                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-                time.sleep(rng.uniform(0.0, 1.2))
-                broken_off += process.poll() is None
-                process.kill()
-                process.wait()
-            self.good("sweep", *self.LONG, "-o", self.path(name))
-            self.assertEqual(self.rows(name), expected)
-        self.assertGreater(broken_off, 0)
+
+        def rounds(count):
+            expected = self.whole(short_runs, count)
+            struck = 0
+            for i in range(int(os.environ.get("FESTOON_KILLS", "6"))):
+                path = self.path(f"cut{count}-{i}.db")
+                for _ in range(3):
+                    seen = events.rows(path)
+                    wanted = rng.choice((0, 1, rng.randrange(1, count)))
+                    process = events.start([FESTOON, *short_runs(count), path])
+                    events.wait_for(process, lambda: os.path.exists(path) and events.rows(path) >= seen + wanted)
+                    time.sleep(rng.choice((0.0, rng.uniform(0.0, 0.05))))  # any moment will do
+                    seen = events.rows(path)
+                    process.kill()
+                    process.wait()
+                    struck += process.returncode == -signal.SIGKILL
+                    self.assertGreaterEqual(events.rows(path), seen)
+                self.good(*short_runs(count), path)
+                self.assertEqual(self.rows(path), expected)
+            return struck >= 3
+        events.struck(rounds, self.size_of(short_runs, 100))
         # A database killed while it is made leaves its unfinished file, and that file's journal.
         self.assertEqual([name for name in os.listdir(self.directory) if not name.endswith(".db") and ".part" not in name], [])
 
+    def test_a_kill_costs_no_more_than_what_came_after_the_last_image(self):
+        """Killed as soon as the images of its runs have changed, a sweep comes to its end all the same, although none
+        of its runs ends in one life of the program: what was done before the last image is never done again."""
+        def blow(periods):
+            path = self.path(f"cut{periods}.db")
+            lives, before = 0, 0
+            while True:
+                spent = os.times().children_user
+                if not events.kill_when([FESTOON, *long_runs(periods), path],
+                                        lambda: events.images(path) not in (0, before)):
+                    break
+                lives += 1
+                before = events.images(path)
+                self.assertLess(lives, 300, "it gets no further")
+            # A program that has computed for so long has made images of its runs.
+            self.assertTrue(lives > 0 or os.times().children_user - spent < 4.0, "there were no images")
+            self.assertEqual(self.rows(f"cut{periods}.db"), self.whole(long_runs, periods))
+            self.assertIsNone(events.ask(path, "SELECT count(*) FROM checkpoints"))  # nothing is left of them
+            return lives >= 3
+        events.struck(blow, self.size_of(long_runs, 500))
+
+    def test_damaged_images_are_not_trusted(self):
+        def blow(periods):
+            path = self.path(f"bad{periods}.db")
+            if not events.kill_when([FESTOON, *long_runs(periods), path], lambda: events.images(path)):
+                return False
+            base = sqlite3.connect(path)
+            for point, image in base.execute("SELECT point, image FROM checkpoints").fetchall():
+                spoilt = bytearray(image)
+                spoilt[(7919 * (point + 1)) % len(spoilt)] ^= 1 << point % 8
+                base.execute("UPDATE checkpoints SET image = ? WHERE point = ?", (bytes(spoilt), point))
+            base.commit()
+            base.close()
+            self.good(*long_runs(periods), path)
+            self.assertEqual(self.rows(f"bad{periods}.db"), self.whole(long_runs, periods))
+            return True
+        events.struck(blow, self.size_of(long_runs, 500))
+
     def test_interruption_ends_with_130(self):
-        words = ["sweep", "--set", "run.periods=100", "--set", "run.discard=50", "--over",
-                 "drive.frequency=9Hz:20Hz:2000", "-o", self.path("a.db")]
-        process = subprocess.Popen([FESTOON, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        for _ in range(600):  # until the first rows are committed
-            time.sleep(0.1)
-            if os.path.exists(self.path("a.db-wal")) and os.path.getsize(self.path("a.db-wal")) > 0:
-                break
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=30)
-        self.assertEqual((process.returncode, out), (130, b""), err)
-        self.assertIn(b"the same command goes on", err)
-        base = sqlite3.connect(self.path("a.db"))
-        rows = base.execute("SELECT count(*) FROM rows").fetchone()[0]
-        base.close()
-        self.assertTrue(0 < rows < 2000, rows)
+        """SIGINT and SIGTERM save what is finished and what is in flight; two at once are one."""
+        for number, times in ((signal.SIGINT, 1), (signal.SIGTERM, 1), (signal.SIGINT, 2)):
+            def blow(periods):
+                path = self.path(f"{number}-{times}-{periods}.db")
+                process = events.start([FESTOON, *long_runs(periods), path], stdout=-1, stderr=-1)
+                events.wait_for(process, lambda: events.images(path))
+                for _ in range(times):
+                    process.send_signal(number)
+                out, err = process.communicate(timeout=events.HANG)
+                if process.returncode == 0:
+                    return False
+                self.assertEqual((process.returncode, out), (130, b""), err)
+                self.assertIn(b"the same command goes on", err)
+                done = int(re.search(rb"interrupted with (\d+) of 12", err).group(1))
+                self.assertEqual(events.rows(path), done)  # all that was finished
+                # Every run that was not is there as it was when the signal came.
+                self.assertEqual(done + events.ask(path, "SELECT count(*) FROM checkpoints"), 12)
+                self.good(*long_runs(periods), path)
+                self.assertEqual(self.rows(f"{number}-{times}-{periods}.db"), self.whole(long_runs, periods))
+                return True
+            events.struck(blow, self.size_of(long_runs, 500))
+
+    def test_the_second_interruption_ends_it_at_once(self):
+        """The sweep waits for another program that holds its database; a second signal after a while ends it there."""
+        def blow(count):
+            path = self.path(f"second{count}.db")
+            process = events.start([FESTOON, *short_runs(count), path], stdout=-1, stderr=-1)
+            if not events.wait_for(process, lambda: events.rows(path)):
+                process.communicate()
+                return False
+            base = sqlite3.connect(path, timeout=60, isolation_level=None)
+            try:
+                base.execute("BEGIN IMMEDIATE")
+                process.send_signal(signal.SIGINT)
+                events.wait_for(process, lambda: events.seems_noted(process, signal.SIGINT))
+                time.sleep(0.3)  # longer is as good: signals within a quarter of a second count as one
+                process.send_signal(signal.SIGINT)
+                process.communicate(timeout=events.HANG)
+            finally:
+                base.close()
+            return process.returncode == -signal.SIGINT
+        events.struck(blow, self.size_of(short_runs, 100))
+
+    def test_a_clock_that_is_set_back_stops_no_commit(self):
+        library = os.path.join(PRELOADED, "clock_ahead.so")
+        if not os.path.exists(library):
+            self.skipTest("nothing can be preloaded into a program with sanitizers")
+
+        def many_long_runs(periods):
+            return [*long_runs(periods)[:-1], "--over", "model.kappa=1,1.5,2", "-o"]
+
+        def blow(periods):
+            path = self.path(f"clock{periods}.db")
+            process = events.start([FESTOON, *many_long_runs(periods), path], env=dict(os.environ, LD_PRELOAD=library))
+            events.wait_for(process, lambda: events.rows(path))
+            process.kill()
+            process.wait()
+            return process.returncode == -signal.SIGKILL and 0 < events.rows(path) < 36
+        size = self.size_of(many_long_runs, 100)
+        self.assertTrue(any(blow(size * factor) for factor in (1, 4, 16)), "no row was committed before the end")
 
 
-class FarAway(Case):
+class FarAway(Measured):
     """On a network file system there is no write-ahead log: processes share no memory there."""
 
     def setUp(self):
         super().setUp()
-        self.preloaded = os.path.join(os.environ["BUILD_DIR"], "tests", "far_away.so")
+        self.preloaded = os.path.join(PRELOADED, "far_away.so")
         if not os.path.exists(self.preloaded):
             self.skipTest("nothing can be preloaded into a program with sanitizers")
         self.far = dict(os.environ, LD_PRELOAD=self.preloaded)
@@ -75,37 +194,39 @@ class FarAway(Case):
             base.close()
 
     def test_a_rollback_journal_survives_kills_too(self):
-        words = ["sweep", *Resuming.LONG, "-o"]
-        self.good(*words, self.path("whole.db"))
-        self.assertEqual(self.mode_of("whole.db"), "wal")
         rng = random.Random(5)
         seen = set()
-        for _ in range(6):
-            process = subprocess.Popen([FESTOON, *words, self.path("far.db")], env=self.far,
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-            time.sleep(rng.uniform(0.0, 0.8))
-            seen |= set(os.listdir(self.directory))
-            process.kill()
-            process.wait()
-        self.assertNotIn("far.db-wal", seen)
-        self.assertNotIn("far.db-shm", seen)
-        self.good(*words, self.path("far.db"), env=self.far)
-        self.assertEqual(self.mode_of("far.db"), "delete")
-        self.assertEqual(self.rows("far.db"), self.rows("whole.db"))
+
+        def blow(count):
+            words, struck = short_runs(count), 0
+            self.good(*short_runs(2), self.path("near.db"))
+            self.assertEqual(self.mode_of("near.db"), "wal")
+            path = self.path(f"far{count}.db")
+            for _ in range(6):
+                size = os.path.getsize(path) if os.path.exists(path) else 0
+                grown = rng.choice((0, 1, 50000))  # a reader would disturb: the file's size is looked at
+                struck += events.kill_when([FESTOON, *words, path], lambda: os.path.exists(path) and
+                                           os.path.getsize(path) >= size + grown, env=self.far)
+                seen.update(name for name in os.listdir(self.directory) if name.startswith("far"))
+            self.good(*words, path, env=self.far)
+            self.assertEqual(self.mode_of(f"far{count}.db"), "delete")
+            self.assertEqual(self.rows(f"far{count}.db"), self.whole(short_runs, count))
+            return struck >= 2
+        events.struck(blow, self.size_of(short_runs, 100))
+        self.assertFalse([name for name in seen if name.endswith(("-wal", "-shm"))])
 
     def test_a_log_from_elsewhere(self):
         """A sweep begun on a disk of the machine, killed, and moved to the network with its log."""
-        words = ["sweep", *Resuming.LONG, "-o", self.path("a.db")]
-        process = subprocess.Popen([FESTOON, *words], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        while process.poll() is None and not (os.path.exists(self.path("a.db-wal")) and
-                                              os.path.getsize(self.path("a.db-wal")) > 0):
-            time.sleep(0.01)
-        process.kill()
-        process.wait()
-        self.assertTrue(os.path.exists(self.path("a.db-wal")))
-        self.good(*words, env=self.far)
-        self.assertEqual(self.mode_of("a.db"), "delete")
-        self.assertEqual(self.good("export", self.path("a.db"), "--csv", env=self.far).count("\n"), 801)
+        def blow(count):
+            path = self.path(f"a{count}.db")
+            if not events.kill_when([FESTOON, *short_runs(count), path], lambda: events.rows(path)):
+                return False
+            self.assertTrue(os.path.exists(path + "-wal"))
+            self.good(*short_runs(count), path, env=self.far)
+            self.assertEqual(self.mode_of(f"a{count}.db"), "delete")
+            self.assertEqual(self.good("export", path, "--csv", env=self.far).count("\n"), 2 * count + 1)
+            return True
+        events.struck(blow, self.size_of(short_runs, 100))
 
 
 if __name__ == "__main__":

@@ -435,6 +435,22 @@ typedef struct fst_row_work {
  * of its own.  FST_UNAVAILABLE: this processor lacks the arithmetic; FST_INTERRUPTED: stopped() said so. */
 FST_API fst_status fst_rows(const fst_row_work *work, fst_error *error);
 
+/* Where images of runs that are not over are kept, so that another process can go on with them.  An image is
+ * bytes that mean something to this build alone, in the same arithmetic; the run that goes on from it has the
+ * bits of one that was never broken off. */
+typedef struct fst_row_images {
+    void *user;
+    double seconds; /* of work after which a run is saved, again and again; all are when stopped() says so */
+    /* Take a copy of the image of a job that is not done. */
+    void (*save)(void *user, const fst_row_job *job, const void *image, size_t size);
+    /* The image of a job that begins, from malloc(), or NULL; one that this build cannot read is left out. */
+    void *(*find)(void *user, const fst_row_job *job, size_t *size);
+} fst_row_images;
+
+/* fst_rows() with images (NULL: without). */
+FST_API fst_status fst_rows_with_images(const fst_row_work *work, const fst_row_images *images,
+                                        fst_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -172,6 +172,9 @@ typedef struct fst_sweep_options {
     void *user;
     /* Called every tenth of a second or so; another status than FST_OK ends the sweep, keeping what is done. */
     fst_status (*progress)(void *user, const fst_sweep_progress *progress, fst_error *error);
+    /* Seconds of work on a run after which its state is kept in the database, so that killed it goes on from
+     * there: 3, unless set.  With more than 8 threads in all ranks, so many times more. */
+    double checkpoint_seconds;
 } fst_sweep_options;
 FST_API fst_sweep_options fst_default_sweep_options(void);
 

@@ -37,10 +37,11 @@ fst_status fst_ranks_share_start(const fst_ranks *ranks, fst_ranks_start *start,
 typedef struct fst_leader fst_leader;
 fst_status fst_leader_new(const fst_ranks *ranks, fst_leader **leader, fst_error *error);
 
-/* Attend to messages until one has brought rows (room for FST_CREW_ROWS), or there is none; tasks that are
- * asked for are taken from `crew`.  FST_OK, or what failed at a follower. */
+/* Attend to messages until one has brought rows (room for FST_CREW_ROWS), or there is none; images that come
+ * are added to *images, and tasks that are asked for taken from `crew`.  FST_OK, or what failed at a follower.
+ */
 fst_status fst_leader_attend(fst_leader *leader, fst_crew *crew, fst_sweep_record *rows, int *count,
-                             fst_error *error);
+                             fst_image **images, fst_error *error);
 
 /* Tell the followers to stop. */
 void fst_leader_stop(fst_leader *leader);
@@ -54,6 +55,7 @@ void fst_leader_free(fst_leader *leader);
 /* Compute what the leader hands out until there is no more.  `progress` (may be NULL) is called now and then;
  * FST_INTERRUPTED when it says so.  With `failed` other than FST_OK, only tell the leader that. */
 fst_status fst_follow(const fst_ranks *ranks, const fst_sweep_identity *identity,
-                      const fst_sweep_options *options, int threads, fst_status failed, fst_error *error);
+                      const fst_sweep_options *options, const fst_crew_plan *plan, fst_status failed,
+                      fst_error *error);
 
 #endif

@@ -1,8 +1,9 @@
 /* ranks_messages.c - what leader and followers of a sweep say to each other.
  *
- * A follower says ASK (for so many tasks), ROWS and at its end DONE; the leader TASKS (none: there are no
- * more), STOP, and BYE in answer to DONE, the last word between the two.  All ranks run the same build on the
- * same kind of machine - their fingerprints agree - so structures are sent as they lie in memory.
+ * A follower says ASK (for so many tasks), ROWS, IMAGE (of a run that is not over) and at its end DONE; the
+ * leader IMAGE (before the task that goes on from it), TASKS (none: there are no more), STOP, and BYE in answer
+ * to DONE, the last word between the two.  All ranks run the same build on the same kind of machine - their
+ * fingerprints agree - so structures are sent as they lie in memory.
  */
 #include "app/ranks.h"
 
@@ -13,7 +14,7 @@
 
 #include "base/error.h"
 
-enum { TAG_ASK = 1, TAG_TASKS, TAG_ROWS, TAG_STOP, TAG_DONE, TAG_BYE };
+enum { TAG_ASK = 1, TAG_TASKS, TAG_ROWS, TAG_STOP, TAG_DONE, TAG_BYE, TAG_IMAGE };
 enum { FOLLOWER_TASKS = 64, MOST_LETTERS = 16 };
 static const double WAIT_SECONDS = 0.002;
 
@@ -21,6 +22,27 @@ static void wait_a_little(void)
 {
     const struct timespec time = {0, (long)(1e9 * WAIT_SECONDS)};
     (void)nanosleep(&time, NULL);
+}
+
+/* ------------------------------------------------------------------ images */
+
+static const size_t IMAGE_HEAD = offsetof(fst_image, bytes) - offsetof(fst_image, point);
+
+static void post_image(const fst_ranks *r, int to, const fst_image *image)
+{
+    /* One that cannot be sent costs what it would have saved. */
+    (void)r->mpi->post(r->link, to, TAG_IMAGE, &image->point, IMAGE_HEAD + image->size);
+}
+
+/* The image of a message of this size, or NULL where that is none or there is no memory; *received tells. */
+static fst_image *receive_image(const fst_ranks *r, int from, size_t size, int *received)
+{
+    fst_image *image = size >= IMAGE_HEAD ? fst_image_new(0, NULL, size - IMAGE_HEAD) : NULL;
+    *received = image && r->mpi->receive(r->link, from, TAG_IMAGE, &image->point, size);
+    if (*received && image->size == size - IMAGE_HEAD)
+        return image;
+    free(image);
+    return NULL;
 }
 
 /* The end of a follower's work. */
@@ -73,6 +95,17 @@ void fst_leader_stop(fst_leader *leader)
     leader->stopped = 1;
 }
 
+/* The images of tasks that leave this process go with them. */
+static void hand_out_images(const fst_ranks *r, fst_crew *crew, int to, const fst_sweep_task *tasks, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        fst_image *image = fst_crew_withdraw_image(crew, tasks[i].point);
+        if (image)
+            post_image(r, to, image);
+        free(image);
+    }
+}
+
 /* Hand tasks to those who wait for them. */
 static fst_status hand_out(fst_leader *leader, fst_crew *crew, fst_error *error)
 {
@@ -87,6 +120,7 @@ static fst_status hand_out(fst_leader *leader, fst_crew *crew, fst_error *error)
         if (count == 0 && !over)
             continue; /* the leader looks for more before it attends again */
         leader->room[to] = 0;
+        hand_out_images(r, crew, to, tasks, count);
         if (!r->mpi->post(r->link, to, TAG_TASKS, tasks, (size_t)count * sizeof *tasks))
             return fst_fail(error, FST_IO, "MPI", "rank %d cannot be reached", to);
     }
@@ -107,7 +141,7 @@ static fst_status hear_farewell(fst_leader *leader, int from, const farewell *la
 }
 
 fst_status fst_leader_attend(fst_leader *leader, fst_crew *crew, fst_sweep_record *rows, int *count,
-                             fst_error *error)
+                             fst_image **images, fst_error *error)
 {
     const fst_ranks *r = leader->ranks;
     int from, tag;
@@ -116,7 +150,15 @@ fst_status fst_leader_attend(fst_leader *leader, fst_crew *crew, fst_sweep_recor
     fst_status status = FST_OK;
     *count = 0;
     while (status == FST_OK && *count == 0 && r->mpi->probe(r->link, &from, &tag, &size)) {
-        int room = 0;
+        int room = 0, received = 1;
+        if (tag == TAG_IMAGE) {
+            fst_image *image = receive_image(r, from, size, &received);
+            if (!received)
+                return fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
+            if (image)
+                fst_image_put(images, image);
+            continue;
+        }
         void *into = tag == TAG_ASK ? (void *)&room : tag == TAG_ROWS ? (void *)rows : (void *)&last;
         const size_t most = tag == TAG_ASK    ? sizeof room
                             : tag == TAG_ROWS ? FST_CREW_ROWS * sizeof *rows
@@ -142,6 +184,17 @@ static void hear_leader(const fst_ranks *r, fst_crew *crew, int *over)
     size_t size;
     fst_sweep_task tasks[FOLLOWER_TASKS];
     while (!*over && r->mpi->probe(r->link, &from, &tag, &size)) {
+        if (tag == TAG_IMAGE) {
+            int received;
+            fst_image *image = receive_image(r, from, size, &received);
+            if (!received)
+                return;
+            if (image && crew)
+                fst_crew_give_image(crew, image);
+            else
+                free(image);
+            continue;
+        }
         if (size > sizeof tasks || !r->mpi->receive(r->link, from, tag, tasks, size))
             return;
         *over = tag == TAG_BYE;
@@ -173,6 +226,10 @@ static fst_status serve(const fst_ranks *r, fst_crew *crew, fst_sweep_record *ro
             const int count = fst_crew_take(crew, rows, WAIT_SECONDS, &busy);
             if (count > 0)
                 (void)r->mpi->post(r->link, 0, TAG_ROWS, rows, (size_t)count * sizeof *rows);
+            fst_image *images = fst_crew_take_images(crew);
+            for (const fst_image *i = images; i; i = i->next)
+                post_image(r, 0, i);
+            fst_images_free(images);
         }
         if (outcome == FST_OK && options->progress)
             outcome = options->progress(options->user, &progress, error);
@@ -183,7 +240,7 @@ static fst_status serve(const fst_ranks *r, fst_crew *crew, fst_sweep_record *ro
 }
 
 fst_status fst_follow(const fst_ranks *r, const fst_sweep_identity *identity, const fst_sweep_options *options,
-                      int threads, fst_status failed, fst_error *error)
+                      const fst_crew_plan *plan, fst_status failed, fst_error *error)
 {
     farewell last;
     memset(&last, 0, sizeof last);
@@ -192,8 +249,10 @@ fst_status fst_follow(const fst_ranks *r, const fst_sweep_identity *identity, co
     fst_status status = failed;
     if (status == FST_OK && !rows)
         status = fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
+    fst_crew_plan own = *plan;
+    own.depth = FOLLOWER_TASKS;
     if (status == FST_OK)
-        status = fst_crew_new(identity, options->lanes, threads, FOLLOWER_TASKS, &crew, error);
+        status = fst_crew_new(identity, &own, &crew, error);
     if (status == FST_OK) {
         const fst_status outcome = serve(r, crew, rows, options, error);
         status = fst_crew_end(crew, error);

@@ -15,6 +15,7 @@
 #include "app/ranks.h"
 #include "app/sweep_crew.h"
 #include "base/error.h"
+#include "io/checkpoints.h"
 #include "model/params.h"
 
 enum { COMMIT_ROWS = 256 };
@@ -25,6 +26,7 @@ static const double FAREWELL_SECONDS = 10.0;                         /* for foll
 typedef struct job {
     fst_sweep_identity identity;
     fst_journal *journal;
+    fst_checkpoints *checkpoints;
     const fst_sweep_options *options;
     fst_ranks ranks;
     fst_leader *leader; /* NULL where there is one rank */
@@ -33,8 +35,9 @@ typedef struct job {
     fst_sweep_progress progress;
     double started, committed;
     double processor_started, journal_started;
-    int uncommitted;
-    int no_answer; /* a follower that was told to stop said nothing more */
+    int uncommitted; /* rows and images */
+    int stopping;    /* nothing waits for company any more: what comes is committed at once */
+    int no_answer;   /* a follower that was told to stop said nothing more */
 } job;
 
 fst_sweep_options fst_default_sweep_options(void)
@@ -43,6 +46,7 @@ fst_sweep_options fst_default_sweep_options(void)
     memset(&o, 0, sizeof o);
     o.cookie = FST_SWEEP_OPTIONS_COOKIE;
     o.arithmetic = fst_best_arithmetic();
+    o.checkpoint_seconds = 3.0;
     return o;
 }
 
@@ -113,6 +117,19 @@ static fst_status look_for_tasks(job *j, fst_sweep_task *fresh, int room, int *f
     return status;
 }
 
+/* The images of runs that were broken off go to the crew before their tasks. */
+static void find_images(job *j, const fst_sweep_task *tasks, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        size_t size;
+        void *bytes = fst_checkpoints_get(j->checkpoints, tasks[i].point, &size);
+        fst_image *image = bytes ? fst_image_new(tasks[i].point, bytes, size) : NULL;
+        if (image)
+            fst_crew_give_image(j->crew, image);
+        free(bytes);
+    }
+}
+
 /* Fill the crew's queue of tasks up. */
 static fst_status refill(job *j, fst_error *error)
 {
@@ -124,8 +141,10 @@ static fst_status refill(job *j, fst_error *error)
         return fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
     int found;
     const fst_status status = look_for_tasks(j, fresh, room, &found, error);
-    if (status == FST_OK)
+    if (status == FST_OK) {
+        find_images(j, fresh, found);
         fst_crew_give(j->crew, fresh, found);
+    }
     free(fresh);
     return status;
 }
@@ -144,18 +163,33 @@ static fst_status commit(job *j, fst_error *error)
 static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fst_error *error)
 {
     fst_status status = FST_OK;
-    for (int i = 0; i < count && status == FST_OK; ++i)
+    for (int i = 0; i < count && status == FST_OK; ++i) {
         status = fst_journal_add(j->journal, &rows[i], error);
+        if (status == FST_OK)
+            status = fst_checkpoints_drop(j->checkpoints, rows[i].point, error);
+    }
     for (int i = 0; i < count; ++i)
         j->progress.failed += rows[i].status != FST_OK;
     j->uncommitted += count;
     if (status == FST_OK && j->uncommitted > 0 &&
-        (j->uncommitted >= COMMIT_ROWS || now() - j->committed > COMMIT_SECONDS))
+        (j->stopping || j->uncommitted >= COMMIT_ROWS || now() - j->committed > COMMIT_SECONDS))
         status = commit(j, error);
     if (status == FST_OK) {
         j->progress.added += count;
         j->progress.there += count;
     }
+    return status;
+}
+
+/* Images of runs that are not over; the list is freed. */
+static fst_status write_images(job *j, fst_image *images, fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (const fst_image *i = images; i && status == FST_OK; i = i->next) {
+        status = fst_checkpoints_put(j->checkpoints, i->point, i->bytes, i->size, error);
+        j->uncommitted += 1;
+    }
+    fst_images_free(images);
     return status;
 }
 
@@ -168,26 +202,49 @@ static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, 
     int count = j->leader != NULL;
     while (count > 0 && status == FST_OK) {
         fst_error trouble;
-        const fst_status heard = fst_leader_attend(j->leader, j->crew, rows, &count, &trouble);
+        fst_image *images = NULL;
+        const fst_status heard = fst_leader_attend(j->leader, j->crew, rows, &count, &images, &trouble);
         if (*outcome == FST_OK && heard != FST_OK) {
             *outcome = heard;
             if (error)
                 *error = trouble;
         }
-        if (abandoned)
+        if (abandoned) {
+            fst_images_free(images);
             continue;
-        status = write_rows(j, rows, count, error);
+        }
+        status = write_images(j, images, error);
+        if (status == FST_OK)
+            status = write_rows(j, rows, count, error);
     }
     return status;
 }
 
+/* What the crew has done: rows for which it is waited so long, and images of runs that are not over. */
+static fst_status hear_crew(job *j, fst_sweep_record *rows, double seconds, int abandoned, int *busy,
+                            fst_error *error)
+{
+    const int count = fst_crew_take(j->crew, rows, seconds, busy);
+    fst_image *images = fst_crew_take_images(j->crew);
+    if (abandoned) {
+        fst_images_free(images);
+        return FST_OK;
+    }
+    const fst_status status = write_images(j, images, error);
+    return status == FST_OK ? write_rows(j, rows, count, error) : status;
+}
+
 /* No more runs are wanted.  The first thing to do is to make safe what there is: whoever ends the other ranks
  * may end this one soon. */
-static fst_status stop(job *j, fst_status status, fst_error *error)
+static fst_status stop(job *j, fst_sweep_record *rows, fst_status status, fst_error *error)
 {
+    int busy;
     fst_crew_stop(j->crew, status != FST_OK);
     if (j->leader)
         fst_leader_stop(j->leader);
+    j->stopping = 1;
+    if (status == FST_OK)
+        status = hear_crew(j, rows, 0.0, 0, &busy, error);
     return status == FST_OK ? commit(j, error) : status;
 }
 
@@ -216,14 +273,13 @@ static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
         const int failed = status != FST_OK;
         const fst_status heard = hear_followers(j, rows, failed, &outcome, failed ? NULL : error);
         status = failed ? status : heard;
-        const int count = fst_crew_take(j->crew, rows, seconds, &busy);
-        if (status == FST_OK)
-            status = write_rows(j, rows, count, error);
+        const fst_status taken = hear_crew(j, rows, seconds, status != FST_OK, &busy, error);
+        status = status == FST_OK ? taken : status;
         read_clocks(j);
         if (status == FST_OK && outcome == FST_OK && j->options->progress)
             outcome = j->options->progress(j->options->user, &j->progress, error);
         if (stopped == 0.0 && (status != FST_OK || outcome != FST_OK)) {
-            status = stop(j, status, error);
+            status = stop(j, rows, status, error);
             stopped = now();
         }
         j->no_answer = stopped > 0.0 && followers(j) > 0 && now() - stopped > FAREWELL_SECONDS;
@@ -253,15 +309,27 @@ static int thread_count(const job *j)
     return wanted > tasks ? (int)tasks : wanted;
 }
 
+/* Images are written by one process: the more runs there are, the rarer each is saved. */
+static fst_crew_plan crew_plan(const job *j)
+{
+    enum { THREADS_AT_FULL_RATE = 8 };
+    const int threads = thread_count(j), all = threads * j->ranks.count;
+    const double share = 1.0 + (double)((all - 1) / THREADS_AT_FULL_RATE);
+    return (fst_crew_plan){.threads = threads,
+                           .depth = FST_CREW_TASKS,
+                           .lanes = j->options->lanes,
+                           .checkpoint_seconds = share * j->options->checkpoint_seconds};
+}
+
 static fst_status work(job *j, fst_error *error)
 {
+    const fst_crew_plan plan = crew_plan(j);
     fst_sweep_record *rows = malloc(FST_CREW_ROWS * sizeof *rows);
     fst_status status = rows ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
     if (status == FST_OK && j->ranks.link)
         status = fst_leader_new(&j->ranks, &j->leader, error);
     if (status == FST_OK)
-        status =
-            fst_crew_new(&j->identity, j->options->lanes, thread_count(j), FST_CREW_TASKS, &j->crew, error);
+        status = fst_crew_new(&j->identity, &plan, &j->crew, error);
     if (status == FST_OK) {
         status = keep_journal(j, rows, error);
         fst_error own = {FST_OK, "", ""};
@@ -284,6 +352,9 @@ static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid
 {
     if (o->lanes != 0 && o->lanes != 1 && o->lanes != 4 && o->lanes != 8)
         return fst_fail(error, FST_BAD_INPUT, "--lanes", "the number of lanes is 1, 4 or 8, not %d", o->lanes);
+    if (!(o->checkpoint_seconds > 0))
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep", "checkpoint_seconds = %g must be positive",
+                        o->checkpoint_seconds);
     const char *key = fst_grid_key(grid, 0);
     if (o->carry != FST_CARRY_NO &&
         (strcmp(key, "friction.gamma") == 0 || strcmp(key, "magnet.half_length") == 0))
@@ -301,12 +372,18 @@ static fst_status lead(job *j, const char *path, fst_error *error)
         status = fst_journal_open(path, &j->identity, &j->journal, error);
     if (status == FST_OK)
         status = fst_journal_count(j->journal, &j->progress.there, error);
+    if (status == FST_OK)
+        status =
+            fst_checkpoints_open(j->journal, fst_journal_identity_hash(&j->identity), &j->checkpoints, error);
     fst_ranks_start start = {status, j->identity.arithmetic, fst_journal_identity_hash(&j->identity)};
     fst_error silence;
     const fst_status shared = fst_ranks_share_start(&j->ranks, &start, status == FST_OK ? error : &silence);
     status = status == FST_OK ? shared : status;
     if (status == FST_OK && (j->progress.there < j->progress.points || j->ranks.link))
         status = work(j, error);
+    if (status == FST_OK && j->checkpoints)
+        status = fst_checkpoints_drop_all(j->checkpoints, error);
+    fst_checkpoints_close(j->checkpoints);
     fst_error closing;
     const fst_status closed = fst_journal_close(j->journal, &closing);
     if (closed != FST_OK && (status == FST_OK || status == FST_INTERRUPTED)) {
@@ -331,7 +408,8 @@ static fst_status follow(job *j, fst_error *error)
             fst_fail(error, FST_BAD_INPUT, "fst_sweep",
                      "this rank would compute other rows than rank 0: its processor, its festoon, its scene or "
                      "its options differ");
-    return fst_follow(&j->ranks, &j->identity, j->options, thread_count(j), status, error);
+    const fst_crew_plan plan = crew_plan(j);
+    return fst_follow(&j->ranks, &j->identity, j->options, &plan, status, error);
 }
 
 /* Lead, follow, or work alone.  What happened to followers, the leader tells. */
@@ -368,7 +446,8 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
                  .options = options,
                  .ranks = {.count = 1, .neighbours = 1}};
         j.progress.points = fst_grid_points(grid);
-        j.started = j.committed = now();
+        j.started = now();
+        j.committed = j.started - COMMIT_SECONDS; /* the first row does not wait */
         j.processor_started = read_clock(CLOCK_PROCESS_CPUTIME_ID);
         j.journal_started = read_clock(CLOCK_THREAD_CPUTIME_ID);
         status = run_job(&j, path, error);

@@ -11,7 +11,8 @@ enum { MOST_THREADS = 256 };
 
 struct fst_crew {
     const fst_sweep_identity *identity;
-    int lanes, depth, started;
+    fst_crew_plan plan;
+    int started;
     pthread_t threads[MOST_THREADS];
 
     pthread_mutex_t lock; /* guards everything below */
@@ -20,6 +21,8 @@ struct fst_crew {
     int first_task, task_count, expecting, no_more_tasks;
     fst_sweep_record rows[FST_CREW_ROWS];
     int first_row, row_count;
+    fst_image *found;  /* images that runs to come go on from */
+    fst_image *made;   /* images of runs at work, yet to be taken */
     int busy;          /* threads at work */
     int stopping;      /* no new tasks, runs are broken off */
     int abandoned;     /* rows are not taken any more */
@@ -43,7 +46,7 @@ static int next_task(void *user, fst_row_job *row)
         memcpy(row->start, t->start, sizeof row->start);
         c->first_task = (c->first_task + 1) % FST_CREW_TASKS;
         c->task_count -= 1;
-        if (c->task_count == c->depth / 4)
+        if (c->task_count == c->plan.depth / 4)
             pthread_cond_signal(&c->row_came);
     }
     pthread_mutex_unlock(&c->lock);
@@ -59,6 +62,7 @@ static void hand_over(fst_crew *c, const fst_sweep_record *record)
         pthread_cond_wait(&c->room_came, &c->lock);
     if (!c->abandoned)
         c->rows[(c->first_row + c->row_count++) % FST_CREW_ROWS] = *record;
+    free(fst_image_take(&c->made, record->point)); /* the run is over */
     if (c->row_count == FST_CREW_ROWS / 2)
         pthread_cond_signal(&c->row_came);
     pthread_mutex_unlock(&c->lock);
@@ -101,17 +105,45 @@ static int stopped(void *user)
     return stop;
 }
 
+static void save_image(void *user, const fst_row_job *job, const void *bytes, size_t size)
+{
+    fst_crew *c = user;
+    fst_image *image = fst_image_new(job->point, bytes, size);
+    if (!image)
+        return; /* the run goes on all the same */
+    pthread_mutex_lock(&c->lock);
+    fst_image_put(&c->made, image);
+    pthread_mutex_unlock(&c->lock);
+}
+
+static void *find_image(void *user, const fst_row_job *job, size_t *size)
+{
+    fst_crew *c = user;
+    pthread_mutex_lock(&c->lock);
+    fst_image *image = fst_image_take(&c->found, job->point);
+    pthread_mutex_unlock(&c->lock);
+    void *bytes = image ? malloc(image->size) : NULL;
+    if (bytes) {
+        memcpy(bytes, image->bytes, image->size);
+        *size = image->size;
+    }
+    free(image);
+    return bytes;
+}
+
 static void *labour(void *user)
 {
     fst_crew *c = user;
     fst_error error = {FST_OK, "", ""};
     const fst_row_work work = {.user = c,
                                .arithmetic = c->identity->arithmetic,
-                               .lanes = c->lanes,
+                               .lanes = c->plan.lanes,
                                .next = next_task,
                                .done = row_done,
                                .stopped = stopped};
-    const fst_status status = fst_rows(&work, &error);
+    const fst_row_images images = {
+        .user = c, .seconds = c->plan.checkpoint_seconds, .save = save_image, .find = find_image};
+    const fst_status status = fst_rows_with_images(&work, &images, &error);
     pthread_mutex_lock(&c->lock);
     if (status != FST_OK && status != FST_INTERRUPTED && c->status == FST_OK) {
         c->status = status;
@@ -129,13 +161,13 @@ static void *labour(void *user)
 
 static int is_hungry(const fst_crew *c)
 {
-    return c->task_count <= c->depth / 4 && !c->no_more_tasks && !c->stopping && !c->expecting;
+    return c->task_count <= c->plan.depth / 4 && !c->no_more_tasks && !c->stopping && !c->expecting;
 }
 
 int fst_crew_room(fst_crew *c)
 {
     pthread_mutex_lock(&c->lock);
-    const int room = is_hungry(c) ? c->depth - c->task_count : 0;
+    const int room = is_hungry(c) ? c->plan.depth - c->task_count : 0;
     pthread_mutex_unlock(&c->lock);
     return room;
 }
@@ -174,10 +206,35 @@ int fst_crew_withdraw(fst_crew *c, fst_sweep_task *tasks, int most, int share, i
     return count;
 }
 
+void fst_crew_give_image(fst_crew *c, fst_image *image)
+{
+    pthread_mutex_lock(&c->lock);
+    fst_image_put(&c->found, image);
+    pthread_mutex_unlock(&c->lock);
+}
+
+fst_image *fst_crew_withdraw_image(fst_crew *c, int64_t point)
+{
+    pthread_mutex_lock(&c->lock);
+    fst_image *image = fst_image_take(&c->found, point);
+    pthread_mutex_unlock(&c->lock);
+    return image;
+}
+
+fst_image *fst_crew_take_images(fst_crew *c)
+{
+    pthread_mutex_lock(&c->lock);
+    fst_image *images = c->made;
+    c->made = NULL;
+    pthread_mutex_unlock(&c->lock);
+    return images;
+}
+
+/* By the clock that nobody sets: that of the day may be set back by hours. */
 static struct timespec after(double seconds)
 {
     struct timespec time;
-    (void)clock_gettime(CLOCK_REALTIME, &time);
+    (void)clock_gettime(CLOCK_MONOTONIC, &time);
     time.tv_nsec += (long)(1e9 * seconds);
     time.tv_sec += time.tv_nsec / 1000000000;
     time.tv_nsec %= 1000000000;
@@ -211,7 +268,20 @@ void fst_crew_stop(fst_crew *c, int abandon)
     pthread_mutex_unlock(&c->lock);
 }
 
-fst_status fst_crew_new(const fst_sweep_identity *identity, int lanes, int threads, int depth, fst_crew **crew,
+/* The locks and the conditions; the one that is waited for with a limit counts by the monotonic clock. */
+static void begin_locks(fst_crew *c)
+{
+    pthread_condattr_t monotonic;
+    pthread_condattr_init(&monotonic);
+    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
+    pthread_mutex_init(&c->lock, NULL);
+    pthread_cond_init(&c->task_came, NULL);
+    pthread_cond_init(&c->row_came, &monotonic);
+    pthread_cond_init(&c->room_came, NULL);
+    pthread_condattr_destroy(&monotonic);
+}
+
+fst_status fst_crew_new(const fst_sweep_identity *identity, const fst_crew_plan *plan, fst_crew **crew,
                         fst_error *error)
 {
     fst_crew *c = calloc(1, sizeof *c);
@@ -219,13 +289,10 @@ fst_status fst_crew_new(const fst_sweep_identity *identity, int lanes, int threa
     if (!c)
         return fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
     c->identity = identity;
-    c->lanes = lanes;
-    c->depth = depth < FST_CREW_TASKS ? depth : FST_CREW_TASKS;
-    pthread_mutex_init(&c->lock, NULL);
-    pthread_cond_init(&c->task_came, NULL);
-    pthread_cond_init(&c->row_came, NULL);
-    pthread_cond_init(&c->room_came, NULL);
-    const int wanted = threads < MOST_THREADS ? threads : MOST_THREADS;
+    c->plan = *plan;
+    c->plan.depth = plan->depth < FST_CREW_TASKS ? plan->depth : FST_CREW_TASKS;
+    begin_locks(c);
+    const int wanted = plan->threads < MOST_THREADS ? plan->threads : MOST_THREADS;
     pthread_mutex_lock(&c->lock);
     while (c->started < wanted && pthread_create(&c->threads[c->started], NULL, labour, c) == 0) {
         c->started += 1;
@@ -252,6 +319,8 @@ fst_status fst_crew_end(fst_crew *c, fst_error *error)
     pthread_cond_destroy(&c->row_came);
     pthread_cond_destroy(&c->task_came);
     pthread_mutex_destroy(&c->lock);
+    fst_images_free(c->found);
+    fst_images_free(c->made);
     free(c);
     return status;
 }

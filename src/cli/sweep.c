@@ -18,6 +18,8 @@ static const option options[] = {
     {"arithmetic", '\0', "NAME", "portable, avx2 or avx512 (the fastest that this processor has)"},
     {"lanes", '\0', "N",
      "runs side by side on a thread, 1, 4 or 8 (as the processor likes); no row depends on it"},
+    {"checkpoint", '\0', "SECONDS",
+     "of work on a run after which its state is kept: what a kill can cost of it (3)"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -60,6 +62,12 @@ static fst_status read_sweep(const arguments *given, const char **axes, fst_swee
         status = read_whole(given, "seed", 0, 9007199254740991.0, &seed, error);
     if (status == FST_OK)
         status = read_whole(given, "lanes", 1, 8, &lanes, error);
+    const char *checkpoint = option_value(given, "checkpoint");
+    if (status == FST_OK && checkpoint)
+        status = read_numbers("--checkpoint", checkpoint, &sweep->checkpoint_seconds, 1, error);
+    if (status == FST_OK && !(sweep->checkpoint_seconds > 0 && sweep->checkpoint_seconds <= 1e9))
+        status = fail(error, FST_BAD_INPUT, "--checkpoint", "\"%.40s\" must be positive seconds, at most 1e9",
+                      checkpoint);
     sweep->threads = (int)threads;
     sweep->seed = (uint64_t)seed;
     sweep->lanes = (int)lanes;

@@ -15,7 +15,7 @@
 /* The one thing that a signal handler may touch: when the first signal came, in ms; 0: none did. */
 static atomic_llong first_signal = 0;
 
-enum { ONE_INTERRUPTION = 1000 }; /* ms: some send to the process and to its group, as timeout(1) does */
+enum { ONE_INTERRUPTION = 250 }; /* ms: some send to the process and to its group, as timeout(1) does */
 
 static void note_signal(int number)
 {
@@ -41,7 +41,7 @@ void terminal_prepare(void)
     keep_descriptor(STDIN_FILENO, O_WRONLY);
     keep_descriptor(STDOUT_FILENO, O_RDONLY);
     keep_descriptor(STDERR_FILENO, O_RDONLY);
-    /* The first signal is noted; another one, a second later or more, ends the program at once. */
+    /* The first signal is noted; another one, a quarter of a second later or more, ends the program at once. */
     struct sigaction action = {.sa_handler = note_signal};
     (void)sigemptyset(&action.sa_mask);
     (void)sigaction(SIGINT, &action, NULL);

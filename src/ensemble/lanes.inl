@@ -2,6 +2,7 @@
  *
  * The including file brings base/wide.h and defines ENGINE (the table's symbol), ENGINE_NAME and ENGINE_FUSED.
  */
+#include <stddef.h>
 #include <string.h>
 
 #include "model/coefficients.inl"
@@ -15,7 +16,6 @@
 typedef struct batch {
     FN(bead_step) step;
     REAL tolerance, absolute_tolerance[FST_STATE_SIZE];
-    unsigned in_use;
     /* the clock, as in fst_flow; `lands` is 1 or 0 */
     REAL t_high, t_low, t_start_high, t_start_low, t_limit;
     REAL h_next, greatest_step, lands, rejections, worst_error;
@@ -31,6 +31,8 @@ typedef struct batch {
     REAL records[FST_RECORD_COUNT];
     /* between which nodes the step's extreme lies */
     REAL summit_from[FST_RECORD_COUNT], summit_to[FST_RECORD_COUNT];
+    /* No REAL below this line: save() and restore() take all that are above it. */
+    unsigned in_use;
     unsigned observed; /* the lanes whose last step was */
     unsigned known;    /* those whose integrands at the start of the present step are there */
 } batch;
@@ -173,6 +175,33 @@ static void release(void *memory, int lane)
     batch *b = memory;
     b->in_use &= ~(1u << lane);
     b->step.h[lane] = 0.0;
+}
+
+/* A lane as numbers: its share of every REAL of the batch, and whether its integrands are known.  Where the
+ * integers of the coefficients lie there are no REALs; restore() leaves them as load() set them. */
+enum {
+    LANE_REALS = offsetof(batch, in_use) / sizeof(REAL),
+    FIRST_INTEGERS = offsetof(batch, step.context.coefficients) / sizeof(REAL),
+    AFTER_INTEGERS = offsetof(batch, step.context.coefficients.eps) / sizeof(REAL)
+};
+
+static void save(const void *memory, int lane, double *numbers)
+{
+    const batch *b = memory;
+    const REAL *reals = memory;
+    for (int i = 0; i < LANE_REALS; ++i)
+        numbers[i] = i < FIRST_INTEGERS || i >= AFTER_INTEGERS ? reals[i][lane] : 0.0;
+    numbers[LANE_REALS] = b->known >> lane & 1u ? 1.0 : 0.0;
+}
+
+static void restore(void *memory, int lane, const double *numbers)
+{
+    batch *b = memory;
+    REAL *reals = memory;
+    for (int i = 0; i < LANE_REALS; ++i)
+        if (i < FIRST_INTEGERS || i >= AFTER_INTEGERS)
+            reals[i][lane] = numbers[i];
+    b->known = (b->known & ~(1u << lane)) | (numbers[LANE_REALS] != 0.0 ? 1u << lane : 0u);
 }
 
 static void extract_clock(const void *memory, int lane, fst_flow *flow)
@@ -459,6 +488,9 @@ const fst_lane_engine ENGINE = {
     .view = view,
     .load = load,
     .release = release,
+    .numbers = LANE_REALS + 1,
+    .save = save,
+    .restore = restore,
     .try_steps = try_steps,
     .watch = watch,
     .observe = observe,

@@ -258,14 +258,30 @@ fst_status fst_journal_open(const char *path, const fst_sweep_identity *identity
 
 /* ------------------------------------------------------------------ rows */
 
+struct sqlite3 *fst_journal_database(const fst_journal *journal)
+{
+    return journal->database;
+}
+
+const char *fst_journal_path(const fst_journal *journal)
+{
+    return journal->path;
+}
+
+fst_status fst_journal_begin(fst_journal *journal, fst_error *error)
+{
+    if (journal->in_transaction)
+        return FST_OK;
+    const fst_status status = fst_database_do(journal->database, journal->path, "BEGIN IMMEDIATE", error);
+    journal->in_transaction = status == FST_OK;
+    return status;
+}
+
 fst_status fst_journal_add(fst_journal *journal, const fst_sweep_record *record, fst_error *error)
 {
-    if (!journal->in_transaction) {
-        const fst_status status = fst_database_do(journal->database, journal->path, "BEGIN IMMEDIATE", error);
-        if (status != FST_OK)
-            return status;
-        journal->in_transaction = 1;
-    }
+    const fst_status begun = fst_journal_begin(journal, error);
+    if (begun != FST_OK)
+        return begun;
     fst_sweep_bind(journal->insert, journal->grid, record);
     const int code = sqlite3_step(journal->insert);
     const fst_status status =

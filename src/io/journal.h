@@ -42,6 +42,13 @@ fst_status fst_journal_open(const char *path, const fst_sweep_identity *identity
  * is. */
 fst_status fst_journal_add(fst_journal *journal, const fst_sweep_record *record, fst_error *error);
 
+/* Begin a transaction unless one is open. */
+fst_status fst_journal_begin(fst_journal *journal, fst_error *error);
+
+/* The database and its path, for what is kept beside the rows in the same transactions. */
+struct sqlite3 *fst_journal_database(const fst_journal *journal);
+const char *fst_journal_path(const fst_journal *journal);
+
 /* Make safe what was added. */
 fst_status fst_journal_commit(fst_journal *journal, fst_error *error);
 

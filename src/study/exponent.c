@@ -92,6 +92,28 @@ static double project_lane(crew *c, int l)
     return length;
 }
 
+_Static_assert(sizeof(follower) <= FST_EXPONENT_WAY, "the way of an exponent has room for its follower");
+
+/* Keep what a lane knows between two tries, so that it can be taken up again. */
+static void keep_way(crew *c, int l)
+{
+    follower kept = c->followers[l];
+    fst_exponent *asked = kept.asked;
+    kept.asked = NULL;
+    memcpy(asked->way, &kept, sizeof kept);
+    for (int i = 0; i < FST_TANGENT_DIM; ++i)
+        asked->way_state[i] = c->y[i * c->engine->width + l];
+    asked->has_way = 1;
+}
+
+static void take_up_way(crew *c, int l, fst_exponent *asked)
+{
+    memcpy(&c->followers[l], asked->way, sizeof c->followers[l]);
+    c->followers[l].asked = asked;
+    for (int i = 0; i < FST_TANGENT_DIM; ++i)
+        c->y[i * c->engine->width + l] = asked->way_state[i];
+}
+
 /* Put what is asked into a lane. */
 static void begin(crew *c, int l, fst_exponent *asked)
 {
@@ -105,7 +127,7 @@ static void begin(crew *c, int l, fst_exponent *asked)
         atol[FST_STATE_SIZE + i] = 1e-6;
     }
     c->engine->load(c->memory, l, asked->coefficients, y, rtol, atol);
-    if (l >= c->count)
+    if (l >= c->count || asked->has_way)
         return;
     asked->rhs_calls = 0;
     asked->failed = 0;
@@ -210,12 +232,18 @@ fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent 
         begin(&c, l, asked[l < count ? l : 0]);
     engine->evaluate(c.memory);
     for (int l = 0; l < count; ++l)
-        (void)project_lane(&c, l);
+        if (asked[l]->has_way)
+            take_up_way(&c, l, asked[l]);
+        else
+            (void)project_lane(&c, l);
     engine->evaluate(c.memory);
     fst_status status = FST_OK;
     for (unsigned steps = 1; status == FST_OK && step(&c); ++steps)
-        if (progress && steps % STEPS_UNTOLD == 0)
+        if (progress && steps % STEPS_UNTOLD == 0) {
+            for (int l = 0; l < count; ++l)
+                keep_way(&c, l);
             status = progress->tell(progress->user, fraction_done(&c), error);
+        }
     free(c.memory);
     return status;
 }

@@ -6,6 +6,8 @@
 
 #include "ensemble/tangents.h"
 
+enum { FST_EXPONENT_WAY = 1024 };
+
 /* What is asked, and the answer. */
 typedef struct fst_exponent {
     const fst_coefficients_double *coefficients;
@@ -18,11 +20,15 @@ typedef struct fst_exponent {
     double chance;
     uint64_t rhs_calls;
     int failed; /* the step size underflowed */
+    /* How far it has got; zeros: it has not begun.  Asked for again, it goes on from there to the same bits. */
+    int has_way;
+    double way_state[FST_TANGENT_DIM];
+    unsigned char way[FST_EXPONENT_WAY];
 } fst_exponent;
 
 /* The largest exponents of `count` beads, at most as many as the engine is wide.  Tangent vectors along the
- * flow and along |n| are projected out.  `progress` (may be NULL) is told between steps; what it returns other
- * than FST_OK ends the work.  FST_NO_MEMORY. */
+ * flow and along |n| are projected out.  `progress` (may be NULL) is told between steps, when the ways are up to
+ * date; what it returns other than FST_OK ends the work.  FST_NO_MEMORY. */
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
                                  const fst_progress *progress, fst_error *error);
 

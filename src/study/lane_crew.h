@@ -3,7 +3,7 @@
 #define FST_STUDY_LANE_CREW_H
 
 #include "ensemble/lanes.h"
-#include "study/run_state.h"
+#include "study/run_image.h"
 
 enum { FST_MOST_MISFITS = 2 * FST_MOST_LANES };
 
@@ -11,6 +11,12 @@ typedef struct fst_lane {
     fst_run_state *run; /* NULL: idle */
     fst_row_job job;
     fst_run_options options;
+    double saved; /* when its last image was made, or it was begun */
+    /* A run that goes on from an image: that, until it is in its lane. */
+    void *image;
+    size_t image_size;
+    fst_run_place place;
+    const double *numbers;
 } fst_lane;
 
 /* A batch and the runs in it. */
@@ -23,6 +29,7 @@ typedef struct fst_squad {
 
 typedef struct fst_crew {
     const fst_row_work *work;
+    const fst_row_images *images; /* NULL: none are made */
     const fst_lane_engine *engine;
     fst_squad run_up;                   /* the fast form: runs that are not observed yet */
     fst_squad observed;                 /* the others */
@@ -73,5 +80,14 @@ void fst_crew_locate(fst_crew *c);
 /* Tell a lane of the observed runs between which directions Phi has stayed; where that is more than half a
  * turn, it cannot know. */
 void fst_crew_keep_phi_range(fst_crew *c, int l);
+
+/* A job that was just begun goes on where its image says, if there is one. */
+void fst_crew_take_up(const fst_crew *c, fst_lane *at);
+
+/* Put what the image of a run knows of its lane into the lane, which was loaded; the image is done with. */
+void fst_crew_restore(fst_crew *c, fst_squad *s, int l);
+
+/* Whether to stop; before that, make the images that are due: of all runs if so. */
+int fst_crew_stopped(fst_crew *c);
 
 #endif

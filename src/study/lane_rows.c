@@ -25,6 +25,8 @@ static void free_run(fst_lane *at)
 {
     if (!at->run)
         return;
+    free(at->image);
+    at->image = NULL;
     fst_flow_free(at->run->flow);
     fst_model_free(at->run->model);
     free(at->run);
@@ -35,6 +37,7 @@ static void move_run(fst_lane *to, fst_lane *from)
 {
     *to = *from;
     from->run = NULL;
+    from->image = NULL;
     to->options.start = to->job.has_start ? to->job.start : NULL;
     to->run->params = &to->job.params;
     to->run->options = &to->options;
@@ -133,6 +136,8 @@ static void enter_observed(fst_crew *c, int l, fst_lane *from)
         s->view.b_reference[l] = run->q.b_reference;
         fst_crew_keep_phi_range(c, l);
     }
+    if (s->lanes[l].image)
+        fst_crew_restore(c, s, l);
 }
 
 static void enter_run_up(fst_crew *c, int l, fst_lane *from)
@@ -141,6 +146,27 @@ static void enter_run_up(fst_crew *c, int l, fst_lane *from)
     move_run(&s->lanes[l], from);
     s->occupied += 1;
     c->engine->load(s->batch, l, s->lanes[l].run->flow, s->lanes[l].run->t_discard);
+    if (s->lanes[l].image)
+        fst_crew_restore(c, s, l);
+}
+
+/* A run that was begun, or taken up, goes to its place. */
+static void place(fst_crew *c, fst_lane *fresh)
+{
+    const int runs_up = c->engine->fused && fresh->run->t_discard > 0;
+    const fst_run_stage stage = fresh->image ? fresh->place.stage
+                                : runs_up    ? FST_STAGE_RUN_UP
+                                             : FST_STAGE_READY;
+    if (stage == FST_STAGE_RUN_UP) {
+        enter_run_up(c, idle_lane(c, &c->run_up), fresh);
+        return;
+    }
+    fst_lane *to = stage == FST_STAGE_PARKED ? &c->parked[c->parked_count++] : &c->ready[c->ready_count++];
+    move_run(to, fresh);
+    if (stage == FST_STAGE_OBSERVED)
+        return; /* the image is wanted when there is a lane */
+    free(to->image);
+    to->image = NULL;
 }
 
 /* Begin the next job, or put it aside if it does not fit; 0 if there is none. */
@@ -167,10 +193,8 @@ static int admit(fst_crew *c)
         fst_result_clear(&nothing);
         has_job = hand_over(c, &fresh, status, &nothing, &error);
     }
-    if (c->engine->fused && fresh.run->t_discard > 0)
-        enter_run_up(c, idle_lane(c, &c->run_up), &fresh);
-    else
-        move_run(&c->ready[c->ready_count++], &fresh);
+    fst_crew_take_up(c, &fresh);
+    place(c, &fresh);
     return 1;
 }
 
@@ -185,7 +209,7 @@ static void occupy_idle(fst_crew *c)
         while (c->ready_count > 0 && c->observed.occupied < width)
             enter_observed(c, idle_lane(c, &c->observed), &c->ready[--c->ready_count]);
     } while (c->ready_count == 0 && entrance->occupied < width && c->misfit_count < FST_MOST_MISFITS &&
-             admit(c));
+             c->parked_count < width && admit(c));
 }
 
 /* The run of a lane is over; `status` other than FST_OK: it failed. */
@@ -210,9 +234,8 @@ static void finish(fst_crew *c, fst_squad *s, int l, fst_status status, fst_erro
 
 static fst_status watch_exponents(void *user, double fraction, fst_error *error)
 {
-    const fst_row_work *work = ((const fst_crew *)user)->work;
     (void)fraction;
-    return work->stopped(work->user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+    return fst_crew_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 
 /* The exponents of runs that are parked, side by side too: the last ones, as many as there are lanes. */
@@ -336,12 +359,14 @@ static int make_squad(const fst_lane_engine *engine, fst_squad *s)
     return 1;
 }
 
-static fst_crew *make_crew(const fst_row_work *work, const fst_lane_engine *engine)
+static fst_crew *make_crew(const fst_row_work *work, const fst_row_images *images,
+                           const fst_lane_engine *engine)
 {
     fst_crew *c = calloc(1, sizeof *c);
     if (!c)
         return NULL;
     c->work = work;
+    c->images = fst_run_images_possible() ? images : NULL;
     c->engine = engine;
     const size_t bytes = (engine->slots_bytes + 63) / 64 * 64;
     c->slots = bytes > 0 ? aligned_alloc(64, bytes) : NULL;
@@ -372,18 +397,19 @@ static void free_crew(fst_crew *c)
     free(c);
 }
 
-fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine, fst_error *error)
+fst_status fst_lane_rows(const fst_row_work *work, const fst_row_images *images, const fst_lane_engine *engine,
+                         fst_error *error)
 {
-    fst_crew *c = make_crew(work, engine);
+    fst_crew *c = make_crew(work, images, engine);
     if (!c)
         return fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
     fst_status status = FST_OK;
     occupy_idle(c);
-    for (unsigned steps = 1; status == FST_OK && on_their_way(c) > 0; ++steps) {
+    for (unsigned steps = 1; status == FST_OK && at_work(c) > 0; ++steps) {
         /* Those that are observed wait until they are as many as lanes, or no more are to come. */
-        if (c->observed.occupied == engine->width || c->run_up.occupied == 0)
+        if (c->observed.occupied == engine->width || (c->run_up.occupied == 0 && c->observed.occupied > 0))
             step_observed(c);
-        else
+        else if (c->run_up.occupied > 0)
             step_run_up(c);
         occupy_idle(c);
         while (status == FST_OK &&
@@ -391,7 +417,7 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine
             status = conclude_parked(c, error);
             occupy_idle(c);
         }
-        if (status == FST_OK && steps % 64 == 0 && work->stopped(work->user))
+        if (status == FST_OK && steps % 64 == 0 && fst_crew_stopped(c))
             status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
     }
     free_crew(c);

@@ -4,7 +4,8 @@
 
 #include "ensemble/lanes.h"
 
-/* fst_rows() with this engine. */
-fst_status fst_lane_rows(const fst_row_work *work, const fst_lane_engine *engine, fst_error *error);
+/* fst_rows_with_images() with this engine. */
+fst_status fst_lane_rows(const fst_row_work *work, const fst_row_images *images, const fst_lane_engine *engine,
+                         fst_error *error);
 
 #endif

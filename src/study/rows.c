@@ -1,8 +1,10 @@
 /* rows.c - many runs, one after another or side by side. */
-#include <festoon/festoon.h>
+#include <stdlib.h>
+#include <time.h>
 
 #include "base/error.h"
 #include "study/lane_rows.h"
+#include "study/run_image.h"
 
 const char *fst_arithmetic_name(fst_arithmetic arithmetic)
 {
@@ -17,44 +19,134 @@ fst_arithmetic fst_best_arithmetic(void)
                                                         : FST_ARITHMETIC_PORTABLE;
 }
 
-static fst_status watch(void *user, double fraction, fst_error *error)
+/* One run after another: the present one. */
+typedef struct lone_run {
+    const fst_row_work *work;
+    const fst_row_images *images;
+    fst_row_job job;
+    fst_run_options options;
+    fst_run_state *run;
+    fst_run_stage stage;
+    double saved;
+} lone_run;
+
+static double now(void)
 {
-    const fst_row_work *work = user;
-    (void)fraction;
-    return work->stopped(work->user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+    struct timespec time = {0, 0};
+    (void)clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* One run after another. */
-static fst_status single_rows(const fst_row_work *work, fst_error *error)
+/* Whether to stop; before that, the image that is due. */
+static int is_stopped(void *user)
 {
-    fst_row_job job;
-    int more = work->next(work->user, &job);
+    lone_run *l = user;
+    const int stop = l->work->stopped(l->work->user);
+    const double time = l->images ? now() : 0.0;
+    if (!l->images || (!stop && time - l->saved < l->images->seconds))
+        return stop;
+    const fst_run_place place = {.stage = l->stage};
+    double *none;
+    size_t size;
+    void *image = fst_run_image_make(l->run, &place, 0, &none, &size);
+    if (image)
+        l->images->save(l->images->user, &l->job, image, size);
+    free(image);
+    l->saved = time;
+    return stop;
+}
+
+static fst_status watch_exponent(void *user, double fraction, fst_error *error)
+{
+    (void)fraction;
+    return is_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+}
+
+static fst_status begin(lone_run *l, fst_error *error)
+{
+    l->options = fst_default_run_options();
+    l->options.start = l->job.has_start ? l->job.start : NULL;
+    l->stage = FST_STAGE_ALONE;
+    l->run = calloc(1, sizeof *l->run);
+    if (!l->run)
+        return fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
+    l->run->params = &l->job.params;
+    l->run->options = &l->options;
+    l->run->exponent_elsewhere = 1;
+    const fst_status status = fst_run_begin(l->run, error);
+    if (status != FST_OK || !l->images)
+        return status;
+    size_t size;
+    fst_run_place place;
+    const double *none;
+    void *image = l->images->find(l->images->user, &l->job, &size);
+    if (fst_run_image_take(image, size, 0, l->run, &place, &none))
+        l->stage = place.stage;
+    free(image);
+    l->saved = now();
+    return FST_OK;
+}
+
+/* To the end, and what was found there; FST_INTERRUPTED: not to the end. */
+static fst_status go_on(lone_run *l, fst_run_result *result, fst_error *error)
+{
+    enum { STEPS = 64 }; /* between two looks whether to stop */
+    fst_status status = FST_OK;
+    for (int over = l->stage == FST_STAGE_PARKED; status == FST_OK && !over;) {
+        status = fst_run_go_on(l->run, STEPS, &over, error);
+        if (status == FST_OK && !over && is_stopped(l))
+            status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+    }
+    if (status == FST_OK && l->stage != FST_STAGE_PARKED)
+        status = fst_run_conclude(l->run, result, error);
+    if (status == FST_OK && l->run->exponent_is == FST_EXPONENT_WANTED) {
+        const fst_progress progress = {l, watch_exponent};
+        fst_exponent *asked = &l->run->exponent;
+        l->stage = FST_STAGE_PARKED;
+        status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, &progress, error);
+        l->run->exponent_is = FST_EXPONENT_KNOWN;
+        fst_result_clear(result);
+        if (status == FST_OK)
+            status = fst_run_conclude(l->run, result, error);
+    }
+    return status;
+}
+
+static fst_status single_rows(const fst_row_work *work, const fst_row_images *images, fst_error *error)
+{
+    lone_run l = {.work = work, .images = fst_run_images_possible() ? images : NULL};
+    int more = work->next(work->user, &l.job);
     while (more) {
-        fst_run_options options = fst_default_run_options();
-        union {
-            const fst_row_work *constant;
-            void *plain;
-        } user = {work};
-        options.sink.user = user.plain;
-        options.sink.progress = watch;
-        options.start = job.has_start ? job.start : NULL;
         fst_run_result result;
         fst_error own = {FST_OK, "", ""};
-        const fst_status status = fst_run(&job.params, &options, &result, &own);
+        fst_result_clear(&result);
+        fst_status status = begin(&l, &own);
+        if (status == FST_OK)
+            status = go_on(&l, &result, &own);
+        if (l.run) {
+            fst_flow_free(l.run->flow);
+            fst_model_free(l.run->model);
+            free(l.run);
+        }
         if (status == FST_INTERRUPTED)
             return fst_fail(error, FST_INTERRUPTED, "", "interrupted");
-        more = work->done(work->user, &job, status, &result, &own) || work->next(work->user, &job);
+        more = work->done(work->user, &l.job, status, &result, &own) || work->next(work->user, &l.job);
     }
     return FST_OK;
 }
 
 fst_status fst_rows(const fst_row_work *work, fst_error *error)
 {
+    return fst_rows_with_images(work, NULL, error);
+}
+
+fst_status fst_rows_with_images(const fst_row_work *work, const fst_row_images *images, fst_error *error)
+{
     const fst_lane_engine *engine = fst_lane_engine_of(work->arithmetic, work->lanes);
     if (engine)
-        return fst_lane_rows(work, engine, error);
+        return fst_lane_rows(work, images, engine, error);
     if (work->arithmetic == FST_ARITHMETIC_PORTABLE && work->lanes <= 1)
-        return single_rows(work, error);
+        return single_rows(work, images, error);
     return fst_fail(error, FST_UNAVAILABLE, "", "this processor or build has no %d lanes of the arithmetic %s",
                     work->lanes, fst_arithmetic_name(work->arithmetic));
 }

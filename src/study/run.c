@@ -231,6 +231,18 @@ static fst_status steps_until(fst_run_state *run, double t, fst_error *error)
     return status;
 }
 
+fst_status fst_run_go_on(fst_run_state *run, int steps, int *over, fst_error *error)
+{
+    const fst_twofold end = {run->t_end, 0.0};
+    fst_status status = FST_OK;
+    *over = 0;
+    for (int i = 0; i < steps && status == FST_OK && !*over; ++i) {
+        status = one_step(run, run->t_end, error);
+        *over = run->ended || fst_twofold_difference(end, run->flow->t) <= 0;
+    }
+    return status;
+}
+
 static fst_status simulate(fst_run_state *run, fst_error *error)
 {
     fst_status status = push_samples(run, 1.0, error);

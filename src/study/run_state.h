@@ -55,6 +55,9 @@ typedef struct fst_run_state {
 /* Model, start state, flow and times of a run whose params and options are set. */
 fst_status fst_run_begin(fst_run_state *run, fst_error *error);
 
+/* At most so many steps of a run without a ramp, towards its end; *over tells whether that is reached. */
+fst_status fst_run_go_on(fst_run_state *run, int steps, int *over, fst_error *error);
+
 /* Look at the flow's last step, whose integrals are taken in: has the bead left the plate (then 1)? */
 int fst_run_watch_end(fst_run_state *run);
 

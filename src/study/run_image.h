@@ -1,0 +1,41 @@
+/* run_image.h - a run that is not over as bytes, from which it goes on to the bits that it would have had.
+ *
+ * An image is what a run carries, as it lies in memory, with the numbers of its lane: it means nothing to
+ * another build.  So it begins with a number made of the build's identity and of the sizes of what follows, and
+ * is taken for nothing where that number is another one.  Pointers are not part of it; a run takes up an image
+ * after it was begun from its parameters, and keeps its own.  Whoever adds a pointer to fst_run_state adds it
+ * to fst_run_image_take(), and whoever adds an index looks there at what is checked: files may be damaged.
+ */
+#ifndef FST_STUDY_RUN_IMAGE_H
+#define FST_STUDY_RUN_IMAGE_H
+
+#include "study/run_state.h"
+
+/* Where a run is between its beginning and its end. */
+typedef enum fst_run_stage {
+    FST_STAGE_RUN_UP,   /* in a lane before its window */
+    FST_STAGE_READY,    /* waiting for a lane in which it is observed */
+    FST_STAGE_OBSERVED, /* in such a lane */
+    FST_STAGE_PARKED,   /* at its end, but for its exponent */
+    FST_STAGE_ALONE,    /* without lanes, on its way */
+    FST_STAGE_COUNT
+} fst_run_stage;
+
+typedef struct fst_run_place {
+    fst_run_stage stage;
+    int in_window, tracked, turning; /* of a lane that is observed */
+} fst_run_place;
+
+/* Whether this build can make images: it knows what tells it from others. */
+int fst_run_images_possible(void);
+
+/* The image of a run, to be freed, with room for `numbers` of its lane at *lane; NULL: no memory. */
+void *fst_run_image_make(const fst_run_state *run, const fst_run_place *place, int numbers, double **lane,
+                         size_t *size);
+
+/* Make a run that was just begun the one of an image: 1, or 0 (and the run is as it was) where the image is
+ * none of this build, or damaged.  *lane points into the image. */
+int fst_run_image_take(const void *image, size_t size, int numbers, fst_run_state *run, fst_run_place *place,
+                       const double **lane);
+
+#endif

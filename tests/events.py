@@ -1,0 +1,155 @@
+"""What tests of kills and signals share: they wait for what happens, never for a time.
+
+A program that is to be struck while it works has to work long enough, on a quick processor too, and not all day on a
+slow one: so work is sized by measuring it (sized()), a blow follows an event (a committed row, an image of a run, a
+file, a line of progress), and whether it struck is read from the status of the program.  One that was over before is
+tried again with more work (struck()), and if that never helps the test is skipped with the words "not killed".
+Limits of time only end what hangs.
+"""
+
+import os
+import pty
+import select
+import signal
+import sqlite3
+import subprocess
+import time
+import unittest
+
+HANG = 1000  # seconds after which a program is taken to hang
+POLL = 0.002
+
+
+def sized(run, seconds, size, most=10**7):
+    """The least of size, 3 size, 9 size, ... for which run(size) takes that long."""
+    while True:
+        began = time.monotonic()
+        run(size)
+        took = time.monotonic() - began
+        if took >= seconds or size >= most:
+            return size
+        size *= 3 if took > seconds / 9 else 9
+
+
+def ask(path, question):
+    """The answer of a database that may be at work, damaged or absent; None where there is none.  Nothing is written:
+    the log of a killed program stays for the one that goes on."""
+    if not os.path.exists(path):
+        return None
+    try:
+        base = sqlite3.connect(f"file:{path}?mode=ro", uri=True, timeout=1.0)
+    except sqlite3.Error:
+        return None
+    try:
+        return base.execute(question).fetchone()[0]
+    except (sqlite3.Error, TypeError):
+        return None
+    finally:
+        base.close()
+
+
+def rows(path):
+    """Number of committed rows of a sweep's database, 0 where there is none yet."""
+    return ask(path, "SELECT count(*) FROM rows") or 0
+
+
+def images(path):
+    """What is kept of runs in flight: a number that changes when that does, 0 where there is nothing."""
+    return ask(path, "SELECT sum((point + 1) * (checksum % 1000003 + 2000003)) FROM checkpoints") or 0
+
+
+def wait_for(process, happened):
+    """Until something has happened, or the program is over; whether it happened first."""
+    limit = time.monotonic() + HANG
+    while not happened():
+        if process.poll() is not None or time.monotonic() > limit:
+            return False
+        time.sleep(POLL)
+    return True
+
+
+def start(words, **options):
+    for name in ("stdout", "stderr"):
+        options.setdefault(name, subprocess.DEVNULL)
+    return subprocess.Popen(words, stdin=subprocess.DEVNULL, **options)
+
+
+def kill_when(words, happened, **options):
+    """Start a program and kill it as soon as something has happened; whether it was killed at work."""
+    process = start(words, **options)
+    wait_for(process, happened)
+    process.kill()
+    process.communicate()
+    return process.returncode == -signal.SIGKILL
+
+
+def signal_when(words, happened, number, **options):
+    """The same with a signal that it may answer: status, output, messages.  Another one follows every second only
+    where the program lost the first one to a moment in which it did not listen yet: there is none after main()."""
+    process = start(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
+    wait_for(process, happened)
+    if process.poll() is None:
+        process.send_signal(number)
+    out, messages = process.communicate(timeout=HANG)
+    return process.returncode, out, messages
+
+
+def struck(blow, size, tries=6, factor=4):
+    """blow(size) strikes and tells whether it struck; else it is tried again with more work."""
+    for _ in range(tries):
+        if blow(size):
+            return size
+        size *= factor
+    raise unittest.SkipTest("not killed: the program was over before, however much it had to do")
+
+
+def listens(process):
+    """Whether a program catches SIGINT, and so has begun its work (Linux tells in /proc)."""
+    try:
+        with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
+            caught = next(line.split()[1] for line in file if line.startswith("SigCgt"))
+    except (OSError, StopIteration):
+        return False
+    return bool(int(caught, 16) >> (signal.SIGINT - 1) & 1)
+
+
+def seems_noted(process, number):
+    """Whether a signal that was sent is no longer pending."""
+    try:
+        with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
+            pending = [int(line.split()[1], 16) for line in file if line.startswith(("SigPnd", "ShdPnd"))]
+    except OSError:
+        return True
+    return not any(mask >> (number - 1) & 1 for mask in pending)
+
+
+def on_a_terminal(words, until, number=signal.SIGINT, as_key=False):
+    """Run a program whose messages go to a terminal, and strike when the text there satisfies `until`; status, output
+    and text.  `as_key`: by Ctrl-C at the terminal, which the whole group gets."""
+    leader, follower = pty.openpty()
+    process = subprocess.Popen(words, stdin=follower if as_key else subprocess.DEVNULL, stdout=subprocess.PIPE,
+                               stderr=follower, start_new_session=as_key)
+    os.close(follower)
+    shown, sent = "", False
+    while True:
+        if select.select([leader], [], [], 0.02)[0]:
+            try:
+                more = os.read(leader, 4096)
+            except OSError:  # the other end is closed
+                break
+            if not more:
+                break
+            shown += more.decode(errors="replace")
+        elif process.poll() is not None:
+            break
+        if not sent and until(shown):
+            sent = True
+            if as_key:
+                os.write(leader, b"\x03")
+            else:
+                process.send_signal(number)
+    out = process.stdout.read()
+    process.stdout.close()
+    process.wait()
+    os.close(leader)
+    return process.returncode, out, shown

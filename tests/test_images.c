@@ -1,0 +1,258 @@
+/* Runs that are broken off and go on from their images have the bits of runs that never were, in every form of
+ * arithmetic, however often and wherever that happens; images that are none are left out. */
+#include <stdlib.h>
+
+#include "ensemble/lanes.h"
+#include "physics.h"
+#include "study/run_image.h"
+
+enum { JOBS = 26, TASKS_WITHOUT_DISCARD = 3 };
+
+/* Low and high drives, both dynamics, orbits that librate, do not close or are chaotic (exponents),
+ * beads that are thrown off, a scene that is refused. */
+static fst_params job_params(int i)
+{
+    fst_params p = bead_at(0.3 + 0.07 * i, FST_DYNAMICS_RIGID);
+    p.run_periods = 24 + 7 * (i % 5);
+    p.run_rtol = 1e-7;
+    p.model_kappa = 1.0 + 0.25 * (i % 4);
+    if (i % 9 < TASKS_WITHOUT_DISCARD)
+        p.run_discard = 0;
+    if (i % 6 == 3)
+        p.model_dynamics = FST_DYNAMICS_FARAGO2020;
+    if (i == 7)
+        p.magnet_lines = 3; /* does not share a batch with the others */
+    if (i == 13)
+        p.start_r = p.model_eps = 0.2; /* no rolling start there */
+    if (i >= 20) {
+        p = fst_default_params(); /* librating: exponents */
+        p.drive_frequency = 6.57 + 0.02 * (i - 20);
+        p.model_kappa = 0.93;
+        p.run_periods = i % 2 ? 36 : 40;
+        p.run_discard = 16;
+    }
+    return p;
+}
+
+typedef struct image {
+    void *bytes;
+    size_t size;
+} image;
+
+typedef struct store {
+    int next;
+    int patience; /* looks whether to stop until it is so; 0: never */
+    int looks, broken_off, found, spoilt;
+    fst_run_result results[JOBS];
+    fst_status statuses[JOBS];
+    int done[JOBS];
+    int stages[FST_STAGE_COUNT]; /* what images of each were found */
+    image images[JOBS];
+    void (*spoil)(struct store *s, image *i); /* what happens to an image before it is found; NULL: nothing */
+} store;
+
+static int next_job(void *user, fst_row_job *job)
+{
+    store *s = user;
+    while (s->next < JOBS && s->done[s->next])
+        ++s->next;
+    if (s->next == JOBS)
+        return 0;
+    memset(job, 0, sizeof *job);
+    job->point = s->next++;
+    job->params = job_params((int)job->point);
+    return 1;
+}
+
+static int job_done(void *user, fst_row_job *job, fst_status status, const fst_run_result *result,
+                    const fst_error *error)
+{
+    (void)error;
+    store *s = user;
+    assert_false(s->done[job->point]);
+    s->done[job->point] = 1;
+    s->results[job->point] = *result;
+    s->statuses[job->point] = status;
+    return 0;
+}
+
+static int is_stopped(void *user)
+{
+    store *s = user;
+    return s->patience > 0 && ++s->looks > s->patience;
+}
+
+static void save(void *user, const fst_row_job *job, const void *bytes, size_t size)
+{
+    store *s = user;
+    image *i = &s->images[job->point];
+    assert_false(s->done[job->point]);
+    free(i->bytes);
+    i->bytes = malloc(size);
+    assert_non_null(i->bytes);
+    memcpy(i->bytes, bytes, size);
+    i->size = size;
+}
+
+static void *find(void *user, const fst_row_job *job, size_t *size)
+{
+    store *s = user;
+    image *i = &s->images[job->point];
+    void *bytes = i->bytes;
+    if (!bytes)
+        return NULL;
+    s->found += 1;
+    fst_run_place place; /* it follows the number of the layout */
+    memcpy(&place, (const unsigned char *)bytes + sizeof(uint64_t), sizeof place);
+    s->stages[place.stage] += 1;
+    if (s->spoil)
+        s->spoil(s, i);
+    *size = i->size;
+    i->bytes = NULL;
+    return bytes;
+}
+
+static void clear(store *s)
+{
+    for (int i = 0; i < JOBS; ++i)
+        free(s->images[i].bytes);
+    memset(s, 0, sizeof *s);
+}
+
+/* All jobs, broken off after every `patience` looks; more patience each time, so that it ends. */
+static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int other_lanes, int patience)
+{
+    const fst_row_images images = {.user = s, .seconds = 0.0, .save = save, .find = find};
+    fst_status status = FST_INTERRUPTED;
+    s->patience = patience;
+    for (int turn = 0; status == FST_INTERRUPTED; ++turn) {
+        const fst_row_work work = {.user = s,
+                                   .arithmetic = arithmetic,
+                                   .lanes = turn % 2 == 0 ? lanes : other_lanes,
+                                   .next = next_job,
+                                   .done = job_done,
+                                   .stopped = is_stopped};
+        fst_error error = {FST_OK, "", ""};
+        s->next = s->looks = 0;
+        status = fst_rows_with_images(&work, &images, &error);
+        if (status != FST_OK && status != FST_INTERRUPTED)
+            fail_msg("fst_rows_with_images: %s", error.sentence);
+        if (status == FST_INTERRUPTED) {
+            assert_int_equal(s->looks, s->patience + 1); /* obeyed when it was first said */
+            s->broken_off += 1;
+        }
+        s->patience += patience > 0;
+    }
+    for (int i = 0; i < JOBS; ++i)
+        assert_true(s->done[i]);
+}
+
+static void check_same(const store *a, const store *b)
+{
+    for (int i = 0; i < JOBS; ++i) {
+        const fst_run_result *x = &a->results[i], *y = &b->results[i];
+        assert_int_equal(a->statuses[i], b->statuses[i]);
+        for (int k = 0; k < fst_result_count(); ++k)
+            if (memcmp((const char *)x + fst_result_at(k)->offset, (const char *)y + fst_result_at(k)->offset,
+                       sizeof(double)) != 0)
+                fail_msg("job %d: %s differs", i, fst_result_at(k)->name);
+        assert_memory_equal(x->final_state, y->final_state, sizeof x->final_state);
+        assert_int_equal(x->regime, y->regime);
+        assert_int_equal(x->symmetry, y->symmetry);
+        assert_string_equal(x->reason, y->reason);
+        assert_int_equal(x->rhs_calls, y->rhs_calls);
+        assert_int_equal(x->accepted, y->accepted);
+        assert_int_equal(x->rejected, y->rejected);
+        assert_int_equal(x->returns, y->returns);
+    }
+}
+
+static void test_bits(void **state)
+{
+    (void)state;
+    static store whole, parts;
+    int stages[FST_STAGE_COUNT] = {0}, fused = 0;
+    static const struct {
+        fst_arithmetic arithmetic;
+        int lanes, other_lanes;
+    } kinds[] = {{FST_ARITHMETIC_PORTABLE, 1, 1},
+                 {FST_ARITHMETIC_PORTABLE, 4, 8},
+                 {FST_ARITHMETIC_PORTABLE, 8, 1},
+                 {FST_ARITHMETIC_AVX2, 0, 0},
+                 {FST_ARITHMETIC_AVX512, 0, 0}};
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; ++k) {
+        const int lanes = kinds[k].lanes, others = kinds[k].other_lanes;
+        if (lanes != 1 && !fst_lane_engine_of(kinds[k].arithmetic, lanes))
+            continue;
+        if (others != 1 && !fst_lane_engine_of(kinds[k].arithmetic, others))
+            continue;
+        do_all(&whole, kinds[k].arithmetic, lanes, lanes, 0);
+        int exponents = 0;
+        for (int i = 0; i < JOBS; ++i)
+            exponents += whole.statuses[i] == FST_OK && !isnan(whole.results[i].largest_exponent);
+        assert_true(exponents > 3);
+        for (int patience = 3; patience < 30; patience += 17) {
+            do_all(&parts, kinds[k].arithmetic, lanes, others, patience);
+            assert_true(parts.broken_off > 3);
+            assert_true(parts.found > 8);
+            check_same(&whole, &parts);
+            for (int stage = 0; stage < FST_STAGE_COUNT; ++stage)
+                stages[stage] += parts.stages[stage];
+            clear(&parts);
+        }
+        fused = fused || kinds[k].arithmetic != FST_ARITHMETIC_PORTABLE;
+        clear(&whole);
+    }
+    assert_true(stages[FST_STAGE_ALONE] > 0 && stages[FST_STAGE_PARKED] > 0 && stages[FST_STAGE_OBSERVED] > 0);
+    assert_true(!fused || stages[FST_STAGE_RUN_UP] > 0);
+}
+
+static void cut(store *s, image *i)
+{
+    i->size -= 1 + (size_t)(s->spoilt++ % 7) * 640;
+}
+
+static void of_another_build(store *s, image *i)
+{
+    ((unsigned char *)i->bytes)[s->spoilt++ % 8] ^= 1;
+}
+
+static void with_wild_numbers(store *s, image *i)
+{
+    /* Every byte after the layout: where counts, strides and stages lie, that is found out. */
+    (void)s;
+    memset((unsigned char *)i->bytes + 8, 0xff, i->size - 8);
+    s->spoilt += 1;
+}
+
+static void empty(store *s, image *i)
+{
+    i->size = 0;
+    s->spoilt += 1;
+}
+
+static void test_what_is_no_image(void **state)
+{
+    (void)state;
+    static store whole, parts;
+    static void (*const ways[])(store *, image *) = {cut, of_another_build, with_wild_numbers, empty};
+    const fst_arithmetic best = fst_best_arithmetic();
+    do_all(&whole, best, 0, 0, 0);
+    for (size_t w = 0; w < sizeof ways / sizeof *ways; ++w) {
+        parts.spoil = ways[w];
+        do_all(&parts, best, 0, 0, 12);
+        assert_true(parts.spoilt > 3);
+        check_same(&whole, &parts);
+        clear(&parts);
+    }
+    clear(&whole);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_what_is_no_image),
+    };
+    return fst_run_images_possible() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
+}
