@@ -81,7 +81,7 @@ static inline double distance_of(const double *a, const double *b)
 static inline int known_of_locked(const fst_params *params, const double *state, known_exponents *known)
 {
     fst_locked_list list;
-    if (fst_locked_find(params, &list, NULL) != FST_OK)
+    if (fst_locked_find(params, NULL, &list, NULL) != FST_OK)
         return 0;
     for (size_t i = 0; i < list.count; ++i) {
         if (distance_of(list.states[i].state, state) > 1e-5 || !list.states[i].stable)

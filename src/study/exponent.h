@@ -27,8 +27,8 @@ typedef struct fst_exponent {
 } fst_exponent;
 
 /* The largest exponents of `count` beads, at most as many as the engine is wide.  Tangent vectors along the
- * flow and along |n| are projected out.  `progress` (may be NULL) is told between steps, when the ways are up to
- * date; what it returns other than FST_OK ends the work.  FST_NO_MEMORY. */
+ * flow and along |n| are projected out.  `progress` (may be NULL) is told between steps, when the ways are up
+ * to date; what it returns other than FST_OK ends the work.  FST_NO_MEMORY. */
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
                                  const fst_progress *progress, fst_error *error);
 
