@@ -300,6 +300,8 @@ static fst_status lead(job *j, const char *path, fst_error *error)
     if (status == FST_OK)
         status = fst_journal_open(path, &j->identity, &j->journal, error);
     if (status == FST_OK)
+        j->progress.repaired = fst_journal_repaired(j->journal, &j->progress.lost);
+    if (status == FST_OK)
         status = fst_journal_count(j->journal, &j->progress.there, error);
     fst_ranks_start start = {status, j->identity.arithmetic, fst_journal_identity_hash(&j->identity)};
     fst_error silence;
