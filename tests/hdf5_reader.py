@@ -20,7 +20,7 @@ class Hdf5:
         else:
             raise unittest.SkipTest("no shared library of HDF5")
         self.library.H5open()
-        for function in ("H5Fopen", "H5Dopen2", "H5Dget_space", "H5Aopen", "H5Aget_type"):
+        for function in ("H5Fopen", "H5Dopen2", "H5Oopen", "H5Dget_space", "H5Aopen", "H5Aget_type"):
             getattr(self.library, function).restype = ctypes.c_int64
         self.library.H5Sget_simple_extent_npoints.restype = ctypes.c_int64
         self.library.H5Lget_name_by_idx.restype = ctypes.c_ssize_t
@@ -61,11 +61,12 @@ class Hdf5:
         return list(values)
 
     def attribute(self, name, key):
-        data_set = ctypes.c_int64(self.library.H5Dopen2(self.file, name.encode(), ctypes.c_int64(0)))
+        """A text that belongs to a data set or, where name is None, to the file."""
+        data_set = ctypes.c_int64(self.library.H5Oopen(self.file, (name or "/").encode(), ctypes.c_int64(0)))
         attribute = ctypes.c_int64(self.library.H5Aopen(data_set, key.encode(), ctypes.c_int64(0)))
         kind = ctypes.c_int64(self.library.H5Aget_type(attribute))
         text = ctypes.create_string_buffer(self.library.H5Tget_size(kind) + 1)
         assert self.library.H5Aread(attribute, kind, text) >= 0
-        for close, handle in (("H5Tclose", kind), ("H5Aclose", attribute), ("H5Dclose", data_set)):
+        for close, handle in (("H5Tclose", kind), ("H5Aclose", attribute), ("H5Oclose", data_set)):
             getattr(self.library, close)(handle)
         return text.value.decode()

@@ -4,6 +4,7 @@ Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
 
 import os
+import sqlite3
 import subprocess
 import tempfile
 import unittest
@@ -25,6 +26,16 @@ def festoon(*words, **options):
 def content_of(path, mode="rb"):
     with open(path, mode) as file:
         return file.read()
+
+
+def change(path, *statements):
+    """Change a sweep's database by SQL, and give its rows the checksums that they then should have."""
+    base = sqlite3.connect(path)
+    for statement in statements:
+        base.execute(*statement) if isinstance(statement, tuple) else base.execute(statement)
+    base.commit()
+    base.close()
+    subprocess.run([os.path.join(os.environ["BUILD_DIR"], "tests", "reseal"), path], check=True)
 
 
 class Case(unittest.TestCase):

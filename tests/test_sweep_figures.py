@@ -9,13 +9,12 @@ import math
 import os
 import shutil
 import signal
-import sqlite3
 import subprocess
 import sys
 import time
 import unittest
 
-from sweep_tools import FESTOON, SHORT, Case, content_of
+from sweep_tools import FESTOON, SHORT, Case, change, content_of
 
 GAMMA, HALF_LENGTH = 312.5, 23e-3
 
@@ -188,7 +187,7 @@ class ManyPoints(Figures):
     """More points than a figure can show: some are drawn, and the title says how many."""
 
     def fill(self, name, points, value, *over):
-        """A sweep whose rows are made up: mean_r = value(point)."""
+        """A sweep whose rows are made up: mean_r is this expression of the point i."""
         words = [word for axis in over for word in ("--over", axis)]
         process = subprocess.Popen([FESTOON, "sweep", *SHORT, *words, "-o", self.path(name)], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.DEVNULL)
@@ -196,15 +195,13 @@ class ManyPoints(Figures):
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         process.wait()
-        base = sqlite3.connect(self.path(name))
-        base.execute("DELETE FROM rows")
-        base.executemany("INSERT INTO rows(point, status, regime, mean_r) VALUES(?, 'done', 'locked', ?)",
-                         ((point, value(point)) for point in range(points)))
-        base.commit()
-        base.close()
+        change(self.path(name), "DELETE FROM rows", (
+            "WITH RECURSIVE c(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM c WHERE i < ?) "
+            f"INSERT INTO rows(point, status, regime, mean_r) SELECT i, 'done', 'locked', {value} FROM c",
+            (points - 1,)))
 
     def test_curves(self):
-        self.fill("c.db", 100001, lambda point: 0.5 + point, "drive.frequency=0.1Hz:100.1Hz:100001")
+        self.fill("c.db", 100001, "0.5 + i", "drive.frequency=0.1Hz:100.1Hz:100001")
         script, blocks = self.plot("c.db", "--key", "mean_r,regime")
         self.assertIn("one point of 11", script)
         drawn = blocks["panel1-curve1"]
@@ -214,7 +211,7 @@ class ManyPoints(Figures):
             self.assertAlmostEqual(y, 0.5 + 11 * i, 2)
 
     def test_maps(self):
-        self.fill("m.db", 2050 * 10, lambda point: point, "model.kappa=1:10:10", "drive.frequency=1Hz:206Hz:2050")
+        self.fill("m.db", 2050 * 10, "i", "model.kappa=1:10:10", "drive.frequency=1Hz:206Hz:2050")
         script, cells = self.cells("m.db", "--key", "mean_r")
         self.assertIn("one point of 1 x 3", script)
         self.assertEqual(len(cells), 10 * 684)

@@ -12,7 +12,7 @@ import sys
 import time
 import unittest
 
-from sweep_tools import FESTOON, Case, festoon
+from sweep_tools import FESTOON, Case, change, festoon
 
 FEW, MANY = 1000, 200000
 MEBIBYTES = 2  # may differ: pages of SQLite's cache, stacks of threads
@@ -44,13 +44,10 @@ class Memory(Case):
         status, _, err = festoon(*self.command(2))
         self.assertEqual(status, 0, err)
         peak(*self.command(count), interrupted_after=0.2)  # its identity, and maybe rows
-        base = sqlite3.connect(self.path(f"{count}.db"))
-        base.execute("DELETE FROM rows")
-        base.execute("WITH RECURSIVE c(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM c WHERE i < ?) "
-                     "INSERT INTO rows(point, status, regime, mean_r) SELECT i, 'done', 'locked', 0.001 * i FROM c "
-                     "WHERE i % 1000 != 999", (count - 1,))
-        base.commit()
-        base.close()
+        change(self.path(f"{count}.db"), "DELETE FROM rows", (
+            "WITH RECURSIVE c(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM c WHERE i < ?) "
+            "INSERT INTO rows(point, status, regime, mean_r) SELECT i, 'done', 'locked', 0.001 * i FROM c "
+            "WHERE i % 1000 != 999", (count - 1,)))
 
     def test_from_a_thousand_points_to_a_thousand_million(self):
         """Interrupted after a second: what was done until then is not much less than in a whole sweep."""

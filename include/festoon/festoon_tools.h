@@ -154,6 +154,10 @@ typedef struct fst_sweep_progress {
     double processor_seconds,
         journal_seconds; /* of this process; of these, of the thread that keeps the database */
     int rank, ranks;     /* of this process among those of an MPI job: only rank 0 counts; 0 of 1 without */
+    /* The database was found damaged: its sound rows were kept, those that are known to be lost are computed
+     * again, and the damaged file lies beside it as FILE.damaged. */
+    int repaired;
+    int64_t lost;
 } fst_sweep_progress;
 
 typedef struct fst_sweep_options {
@@ -181,8 +185,9 @@ FST_API fst_sweep_options fst_default_sweep_options(void);
 /* Run every point of a grid that has no row yet in the database `path` (made if missing), and add the rows as
  * they come. A run that fails, or whose bead leaves the plate, is a row too.  Rows depend on nothing but their
  * parameters and the form of arithmetic; killed at any moment, the file keeps what was committed, and the same
- * call goes on. FST_BAD_INPUT: axes; a foreign, damaged or differently made file, which is left untouched.
- * FST_IO: full disk, no permission.  FST_INTERRUPTED: from `progress`. */
+ * call goes on. FST_BAD_INPUT: axes; a foreign or differently made file, or one that is damaged beyond repair,
+ * which is left untouched.  FST_IO: full disk, no permission; another command is at work on the file; it was
+ * deleted or renamed under way.  FST_INTERRUPTED: from `progress`. */
 FST_API fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
                              fst_sweep_progress *result, fst_error *error);
 
@@ -190,7 +195,8 @@ typedef enum { FST_EXPORT_CSV, FST_EXPORT_JSON, FST_EXPORT_HDF5 } fst_export_for
 
 /* Write the rows of a sweep's database in the order of the points: CSV with a line of column names; JSON, a
  * list of objects with the keys of `run`; HDF5, a data set a column.  To the file `out`, or, if that is NULL,
- * to `stream` (not HDF5). */
+ * to `stream` (not HDF5).  FST_BAD_INPUT may also mean that some rows are damaged: the others are written all
+ * the same, and the sentence names the lost ones. */
 FST_API fst_status fst_sweep_export(const char *path, fst_export_format format, const char *out, FILE *stream,
                                     fst_error *error);
 

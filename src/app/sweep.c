@@ -371,6 +371,8 @@ static fst_status lead(job *j, const char *path, fst_error *error)
     if (status == FST_OK)
         status = fst_journal_open(path, &j->identity, &j->journal, error);
     if (status == FST_OK)
+        j->progress.repaired = fst_journal_repaired(j->journal, &j->progress.lost);
+    if (status == FST_OK)
         status = fst_journal_count(j->journal, &j->progress.there, error);
     if (status == FST_OK)
         status =

@@ -33,7 +33,12 @@ const command export_command = {
     .name = "export",
     .synopsis = "FILE.db --csv|--json|--hdf5 [-o FILE]",
     .summary = "Print the rows of a sweep in the order of its points",
-    .details = "",
+    .details =
+        "Each row is compared with its checksum.  Where some are damaged the status is 2, the points that are "
+        "lost "
+        "are named,\n"
+        "and -o FILE has the other rows; the festoon sweep command that made FILE.db computes the lost ones "
+        "again.\n",
     .options = options,
     .most_operands = 1,
     .much_output = 1,

@@ -143,6 +143,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
      * process has ended with a status of its own, be rank 0 still about to speak. */
     if (result.rank != 0)
         return FST_OK;
+    if (result.repaired)
+        (void)fprintf(
+            stderr,
+            "festoon: %s: this database was damaged; its sound rows were kept, %lld lost ones are computed "
+            "again, and the damaged file was kept as %s.damaged\n",
+            path, (long long)result.lost, path);
     if (status == FST_INTERRUPTED)
         return fail(error, FST_INTERRUPTED, path,
                     "interrupted with %lld of %lld points done; the same command goes on",
@@ -163,7 +169,9 @@ const command sweep_command = {
         "row with\n"
         "the keys of festoon run; runs that fail have rows too.  Killed or interrupted (Ctrl-C, status 130) at "
         "any\n"
-        "moment, the same command goes on.  Under mpirun -n N or srun --mpi=pmix the points are shared "
+        "moment, the same command goes on.  One command at a time works on a FILE.db (status 1 for the "
+        "second).  "
+        "Under mpirun -n N or srun --mpi=pmix the points are shared "
         "between\n"
         "processes; interrupted, mpirun has a status of its own, and what was committed stays all the same.\n",
     .options = options,

@@ -1,253 +1,190 @@
 #include "io/journal.h"
 
-#include <inttypes.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
 
 #include "base/error.h"
-#include "base/whole_file.h"
-#include "io/database.h"
 #include "io/file_system.h"
 #include "io/sweep_columns.h"
+#include "io/sweep_file.h"
+#include "io/sweep_lock.h"
+#include "io/sweep_make.h"
 
 struct fst_journal {
-    sqlite3 *database;
+    fst_sweep_file file;
+    int descriptor; /* holds the lock; closed after SQLite's, whose locks end when any descriptor is closed */
     sqlite3_stmt *insert, *next, *state;
     const fst_grid *grid;
-    char *path;
+    char *path; /* as it was given */
     int in_transaction;
+    int log_pages; /* in the log after the last commit */
+    int64_t rows, lost;
+    int repaired;
 };
-
-/* ------------------------------------------------------------------ identity */
-
-enum { IDENTITY_SIZE = 16 };
-
-/* Key and value of each line of the table `festoon`. */
-typedef struct identity_line {
-    char key[24];
-    char *value;
-} identity_line;
-
-static char *format_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
-static char *format_text(const char *format, ...)
-{
-    va_list values;
-    va_start(values, format);
-    char *text = sqlite3_vmprintf(format, values), *copy = text ? strdup(text) : NULL;
-    va_end(values);
-    sqlite3_free(text);
-    return copy;
-}
-
-/* All lines that must agree for a sweep to go on; the first is the scene.  Returns their number. */
-static int identity_lines(const fst_sweep_identity *identity, identity_line lines[IDENTITY_SIZE])
-{
-    static const char *const carry[] = {"no", "up", "down"};
-    int count = 0;
-#define LINE(name, text)                                                                                       \
-    (void)snprintf(lines[count].key, sizeof lines[count].key, "%s", name), lines[count++].value = (text)
-    LINE("scene", fst_scene_text(fst_grid_base(identity->grid), 0));
-    LINE("axes", format_text("%d", fst_grid_axis_count(identity->grid)));
-    for (int i = 0; i < fst_grid_axis_count(identity->grid); ++i) {
-        char name[24];
-        (void)snprintf(name, sizeof name, "axis_%d", i + 1);
-        LINE(name, strdup(fst_grid_axis_text(identity->grid, i)));
-    }
-    LINE("seed", format_text("%llu", (unsigned long long)identity->seed));
-    LINE("carry", strdup(carry[identity->carry]));
-    LINE("arithmetic", strdup(fst_arithmetic_name(identity->arithmetic)));
-    LINE("fingerprint", format_text("%016llx", (unsigned long long)identity->fingerprint));
-    LINE("results_version", format_text("%d", FST_RESULTS_VERSION));
-#undef LINE
-    return count;
-}
-
-static void free_lines(identity_line *lines, int count)
-{
-    for (int i = 0; i < count; ++i)
-        free(lines[i].value);
-}
-
-uint64_t fst_journal_identity_hash(const fst_sweep_identity *identity)
-{
-    identity_line lines[IDENTITY_SIZE];
-    const int count = identity_lines(identity, lines);
-    uint64_t hash = 0xcbf29ce484222325u; /* FNV-1a */
-    for (int i = 0; i < count; ++i)
-        for (const char *c = lines[i].value ? lines[i].value : ""; *c; ++c)
-            hash = (hash ^ (unsigned char)*c) * 0x100000001b3u;
-    free_lines(lines, count);
-    return hash;
-}
-
-/* Which parameter differs between the scene of the file and the wanted one. */
-static fst_status fail_scene(const char *path, const char *there, const fst_params *wanted, fst_error *error)
-{
-    fst_params made = fst_default_params();
-    if (fst_scene_parse(there, strlen(there), path, &made, NULL) == FST_OK)
-        for (int i = 0; i < fst_param_count(); ++i) {
-            char before[64], now[64];
-            (void)fst_params_get(&made, i, before, sizeof before);
-            (void)fst_params_get(wanted, i, now, sizeof now);
-            if (strcmp(before, now) != 0)
-                return fst_fail(
-                    error, FST_BAD_INPUT, path,
-                    "this sweep was made with %s = %s, not %s; it was left untouched: choose another file, "
-                    "or the same parameters to go on with it",
-                    fst_param_at(i)->key, before[0] ? before : "(not given)", now[0] ? now : "(not given)");
-        }
-    return fst_fail(error, FST_BAD_INPUT, path,
-                    "this sweep was made from another scene; it was left untouched");
-}
-
-static fst_status compare_identity(const fst_journal *journal, const fst_sweep_identity *identity,
-                                   fst_error *error)
-{
-    identity_line lines[IDENTITY_SIZE];
-    const int count = identity_lines(identity, lines);
-    fst_status status = FST_OK;
-    for (int i = 0; i < count && status == FST_OK; ++i) {
-        char *there = fst_database_text(journal->database, lines[i].key);
-        if (!lines[i].value)
-            status = fst_fail(error, FST_NO_MEMORY, journal->path, "out of memory");
-        else if (!there)
-            status = fst_fail(error, FST_BAD_INPUT, journal->path,
-                              "this sweep does not say its %s; it was left untouched: choose another file",
-                              lines[i].key);
-        else if (strcmp(there, lines[i].value) != 0 && i == 0)
-            status = fail_scene(journal->path, there, fst_grid_base(identity->grid), error);
-        else if (strcmp(there, lines[i].value) != 0)
-            status = fst_fail(
-                error, FST_BAD_INPUT, journal->path,
-                "this sweep was made with %s %.120s, not %.120s; it was left untouched: choose another "
-                "file, or the same options to go on with it",
-                lines[i].key, there, lines[i].value);
-        free(there);
-    }
-    free_lines(lines, count);
-    return status;
-}
-
-/* ------------------------------------------------------------------ making */
-
-static fst_status write_identity(sqlite3 *database, const char *path, const fst_sweep_identity *identity,
-                                 fst_error *error)
-{
-    identity_line lines[IDENTITY_SIZE];
-    int count = identity_lines(identity, lines);
-    (void)snprintf(lines[count].key, sizeof lines[count].key, "version");
-    lines[count++].value = strdup(fst_version());
-    (void)snprintf(lines[count].key, sizeof lines[count].key, "points");
-    lines[count++].value = format_text("%lld", (long long)fst_grid_points(identity->grid));
-    fst_status status = FST_OK;
-    for (int i = 0; i < count && status == FST_OK; ++i) {
-        char *statement = sqlite3_mprintf("INSERT INTO festoon VALUES(%Q, %Q)", lines[i].key, lines[i].value);
-        status = statement && lines[i].value ? fst_database_do(database, path, statement, error)
-                                             : fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-        sqlite3_free(statement);
-    }
-    free_lines(lines, count);
-    return status;
-}
-
-static fst_status fill_new(const char *file, const char *path, const fst_sweep_identity *identity,
-                           fst_error *error)
-{
-    sqlite3 *database = NULL;
-    fst_status status = FST_OK;
-    if (sqlite3_open_v2(file, &database, SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK)
-        status = fst_database_fail(database, path, error);
-    char *columns = fst_sweep_columns_sql(identity->grid);
-    char *statements = sqlite3_mprintf("BEGIN; PRAGMA application_id = %d; PRAGMA user_version = 1;"
-                                       "CREATE TABLE festoon(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
-                                       "CREATE TABLE rows(%s);",
-                                       FST_SWEEP_APPLICATION_ID, columns ? columns : "");
-    if (status == FST_OK && (!columns || !statements))
-        status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-    if (status == FST_OK)
-        status = fst_database_do(database, path, statements, error);
-    if (status == FST_OK)
-        status = write_identity(database, path, identity, error);
-    if (status == FST_OK)
-        status = fst_database_do(database, path, "COMMIT", error);
-    sqlite3_free(statements);
-    free(columns);
-    (void)sqlite3_close(database);
-    return status;
-}
-
-static fst_status make(const char *path, const fst_sweep_identity *identity, fst_error *error)
-{
-    fst_whole_file file;
-    fst_status status = fst_whole_file_open(&file, path, error);
-    if (status != FST_OK)
-        return status;
-    (void)fclose(file.stream); /* SQLite opens it by its name */
-    file.stream = NULL;
-    status = fill_new(file.temporary, path, identity, error);
-    if (status == FST_OK)
-        return fst_whole_file_commit(&file, error);
-    fst_whole_file_discard(&file);
-    return status;
-}
 
 /* ------------------------------------------------------------------ opening */
 
+static int note_log(void *user, sqlite3 *database, const char *name, int pages)
+{
+    (void)database;
+    (void)name;
+    ((fst_journal *)user)->log_pages = pages;
+    return SQLITE_OK;
+}
+
 static fst_status prepare(fst_journal *journal, fst_error *error)
 {
-    /* A database that was begun elsewhere with a log is turned into one without where it lies on a network. */
+    sqlite3 *database = journal->file.database;
+    /* WAL is unsafe on network file systems: a rollback journal is used there, also for what began otherwise.
+     */
     const char *mode =
         fst_on_network(journal->path)
             ? "PRAGMA journal_mode = DELETE; PRAGMA locking_mode = NORMAL; PRAGMA synchronous = FULL"
             : "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL";
-    fst_status status = fst_database_do(journal->database, journal->path, mode, error);
+    fst_status status = fst_database_do(database, journal->path, mode, error);
+    (void)sqlite3_wal_hook(database, note_log, journal);
     char *insert = fst_sweep_insert_sql(journal->grid);
     char *state = fst_sweep_state_sql();
     if (status == FST_OK && (!insert || !state))
         status = fst_fail(error, FST_NO_MEMORY, journal->path, "out of memory");
     if (status == FST_OK &&
-        (sqlite3_prepare_v2(journal->database, insert, -1, &journal->insert, NULL) != SQLITE_OK ||
-         sqlite3_prepare_v2(journal->database, "SELECT point FROM rows WHERE point >= ? ORDER BY point", -1,
+        (sqlite3_prepare_v2(database, insert, -1, &journal->insert, NULL) != SQLITE_OK ||
+         sqlite3_prepare_v2(database, "SELECT point FROM rows WHERE point >= ? ORDER BY point", -1,
                             &journal->next, NULL) != SQLITE_OK ||
-         sqlite3_prepare_v2(journal->database, state, -1, &journal->state, NULL) != SQLITE_OK))
-        status = fst_database_fail(journal->database, journal->path, error);
+         sqlite3_prepare_v2(database, state, -1, &journal->state, NULL) != SQLITE_OK))
+        status = fst_database_fail(database, journal->path, error);
     free(insert);
     free(state);
     return status;
 }
 
-static void release(fst_journal *journal)
+static void finalize(fst_journal *journal)
 {
     (void)sqlite3_finalize(journal->insert);
     (void)sqlite3_finalize(journal->next);
     (void)sqlite3_finalize(journal->state);
-    (void)sqlite3_close(journal->database);
+    journal->insert = journal->next = journal->state = NULL;
+}
+
+static void release(fst_journal *journal)
+{
+    finalize(journal);
+    fst_sweep_file_close(&journal->file);
+    if (journal->descriptor >= 0)
+        (void)close(journal->descriptor);
     free(journal->path);
     free(journal);
+}
+
+/* Open an existing file and take its lock; *descriptor is -1 where the file has gone in the meantime. */
+static fst_status lock_existing(const char *name, const char *path, int last, int *descriptor, fst_error *error)
+{
+    char mark[FST_MARK_SIZE];
+    struct stat opened;
+    *descriptor = open(path, O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (*descriptor < 0 && errno == ENOENT)
+        return FST_OK;
+    if (*descriptor < 0 && errno == EISDIR)
+        return fst_fail(error, FST_BAD_INPUT, name, "this is a directory, not a file");
+    if (*descriptor < 0)
+        return fst_fail(error, FST_IO, name, "no permission to write this database (%s)", strerror(errno));
+    fst_status status = FST_OK;
+    if (fstat(*descriptor, &opened) != 0 || !S_ISREG(opened.st_mode))
+        status = fst_fail(error, FST_BAD_INPUT, name, "this is a device or a pipe; a regular file is needed");
+    if (status == FST_OK)
+        status = fst_database_head(*descriptor, name, mark, error);
+    const fst_lock_state state = status == FST_OK ? fst_lock_take(*descriptor) : FST_LOCK_FREE;
+    if (state == FST_LOCK_IMPOSSIBLE)
+        status =
+            fst_fail(error, FST_IO, name, "this file cannot be locked (%s): choose one on another file system",
+                     strerror(errno));
+    else if (state == FST_LOCK_TAKEN && last)
+        status = fst_lock_fail(*descriptor, name, error);
+    if (status == FST_OK && state == FST_LOCK_MINE && fst_sweep_file_is_there(path, &opened))
+        return FST_OK;
+    (void)close(*descriptor);
+    *descriptor = -1;
+    return status;
+}
+
+/* Make the file or take it, and hold its lock.  A command that was just killed may take a moment to end. */
+static fst_status take_file(const char *name, const char *path, const fst_sweep_identity *identity,
+                            int *descriptor, fst_error *error)
+{
+    enum { TRIES = 100 };
+    const struct timespec moment = {0, 20000000};
+    fst_status status = FST_OK;
+    *descriptor = -1;
+    for (int i = 0; i < TRIES && status == FST_OK && *descriptor < 0; ++i) {
+        if (i > 0)
+            (void)nanosleep(&moment, NULL);
+        status = fst_sweep_is_made(path) ? lock_existing(name, path, i == TRIES - 1, descriptor, error)
+                                         : fst_sweep_make(name, path, identity, descriptor, error);
+    }
+    if (status == FST_OK && *descriptor < 0)
+        status = fst_fail(error, FST_IO, name, "other commands make this file and remove it all the time");
+    return status;
+}
+
+/* Read every row; a damaged database is replaced by one with the sound ones. */
+static fst_status check_rows(fst_journal *journal, const fst_sweep_identity *identity, fst_error *error)
+{
+    fst_sweep_rows rows;
+    int more = 0;
+    fst_status status = fst_sweep_rows_begin(&rows, &journal->file, error);
+    while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more)
+        continue;
+    const int whole = fst_sweep_rows_are_whole(&rows);
+    journal->rows = rows.sound;
+    journal->lost = rows.lost.count + rows.lost.outside;
+    fst_sweep_rows_end(&rows);
+    if (status != FST_OK || whole)
+        return status;
+    journal->repaired = 1;
+    status = fst_sweep_repair(&journal->file, identity, &journal->descriptor, error);
+    return status == FST_OK ? fst_sweep_file_open(journal->path, 1, &journal->file, error) : status;
+}
+
+static fst_status open_taken(fst_journal *journal, const fst_sweep_identity *identity, fst_error *error)
+{
+    struct stat locked;
+    fst_status status = fst_sweep_file_open(journal->path, 1, &journal->file, error);
+    if (status == FST_OK &&
+        (fstat(journal->descriptor, &locked) != 0 || locked.st_ino != journal->file.there.st_ino ||
+         locked.st_dev != journal->file.there.st_dev))
+        status = fst_fail(error, FST_IO, journal->path, "this file was replaced a moment ago: try again");
+    if (status == FST_OK)
+        status = fst_identity_compare(&journal->file.lines, journal->path, identity, error);
+    if (status == FST_OK)
+        status = check_rows(journal, identity, error);
+    if (status == FST_OK)
+        status = prepare(journal, error);
+    return status;
 }
 
 fst_status fst_journal_open(const char *path, const fst_sweep_identity *identity, fst_journal **journal,
                             fst_error *error)
 {
     *journal = NULL;
-    struct stat there;
-    fst_status status = FST_OK;
-    if (stat(path, &there) != 0 || (S_ISREG(there.st_mode) && there.st_size == 0))
-        status = make(path, identity, error);
-    if (status != FST_OK)
-        return status;
     fst_journal *made = calloc(1, sizeof *made);
     if (!made || !(made->path = strdup(path))) {
         free(made);
         return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     }
     made->grid = identity->grid;
-    status = fst_database_open(path, 1, &made->database, error);
+    made->descriptor = -1;
+    char *absolute = NULL;
+    fst_status status = fst_database_path(path, &absolute, error);
     if (status == FST_OK)
-        status = compare_identity(made, identity, error);
+        status = take_file(path, absolute, identity, &made->descriptor, error);
+    free(absolute);
     if (status == FST_OK)
-        status = prepare(made, error);
+        status = open_taken(made, identity, error);
     if (status != FST_OK) {
         release(made);
         return status;
@@ -256,11 +193,17 @@ fst_status fst_journal_open(const char *path, const fst_sweep_identity *identity
     return FST_OK;
 }
 
+int fst_journal_repaired(const fst_journal *journal, int64_t *lost)
+{
+    *lost = journal->lost;
+    return journal->repaired;
+}
+
 /* ------------------------------------------------------------------ rows */
 
 struct sqlite3 *fst_journal_database(const fst_journal *journal)
 {
-    return journal->database;
+    return journal->file.database;
 }
 
 const char *fst_journal_path(const fst_journal *journal)
@@ -272,9 +215,13 @@ fst_status fst_journal_begin(fst_journal *journal, fst_error *error)
 {
     if (journal->in_transaction)
         return FST_OK;
-    const fst_status status = fst_database_do(journal->database, journal->path, "BEGIN IMMEDIATE", error);
-    journal->in_transaction = status == FST_OK;
-    return status;
+    fst_status status = fst_database_do(journal->file.database, journal->path, "BEGIN IMMEDIATE", error);
+    if (status != FST_OK)
+        return status;
+    journal->in_transaction = 1;
+    /* Each transaction writes the page of the mark, by which its log is known. */
+    return fst_database_do(journal->file.database, journal->path, "UPDATE seal SET commits = commits + 1",
+                           error);
 }
 
 fst_status fst_journal_add(fst_journal *journal, const fst_sweep_record *record, fst_error *error)
@@ -282,32 +229,96 @@ fst_status fst_journal_add(fst_journal *journal, const fst_sweep_record *record,
     const fst_status begun = fst_journal_begin(journal, error);
     if (begun != FST_OK)
         return begun;
-    fst_sweep_bind(journal->insert, journal->grid, record);
+    fst_sweep_bind(journal->insert, journal->grid, journal->file.seed, record);
     const int code = sqlite3_step(journal->insert);
     const fst_status status =
-        code == SQLITE_DONE ? FST_OK : fst_database_fail(journal->database, journal->path, error);
+        code == SQLITE_DONE ? FST_OK : fst_database_fail(journal->file.database, journal->path, error);
     (void)sqlite3_reset(journal->insert);
     return status;
+}
+
+/* ------------------------------------------------------------------ is it still there? */
+
+/* Where the open file is now, as the kernel tells it. */
+static void find_file(const fst_journal *journal, char *place, size_t size)
+{
+    char link[40];
+    (void)snprintf(link, sizeof link, "/proc/self/fd/%d", journal->descriptor);
+    const ssize_t length = readlink(link, place, size - 1);
+    place[length > 0 ? length : 0] = '\0';
+}
+
+/* The file has no name any more: write what it holds to FILE.rescued, if its folder is there. */
+static fst_status rescue(fst_journal *journal, fst_error *error)
+{
+    char *statement = sqlite3_mprintf("VACUUM INTO '%q.rescued'", journal->file.path);
+    const int saved =
+        statement && sqlite3_exec(journal->file.database, statement, NULL, NULL, NULL) == SQLITE_OK;
+    sqlite3_free(statement);
+    if (saved)
+        fst_sync_folder(journal->file.path);
+    return saved ? fst_fail(error, FST_IO, journal->path,
+                            "this file was deleted or replaced while the sweep ran; its rows were saved as "
+                            "%s.rescued, which the same command goes on with under its old name",
+                            journal->path)
+                 : fst_fail(error, FST_IO, journal->path,
+                            "this file was deleted or replaced while the sweep ran, and its rows could not be "
+                            "saved beside it; they are lost");
+}
+
+/* FST_IO: rows that were committed went into a file that has no name, or another one. */
+static fst_status check_place(fst_journal *journal, fst_error *error)
+{
+    struct stat mine;
+    if (fst_sweep_file_is_there(journal->file.path, &journal->file.there))
+        return FST_OK;
+    (void)sqlite3_wal_checkpoint_v2(journal->file.database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL);
+    if (fstat(journal->descriptor, &mine) != 0 || mine.st_nlink == 0)
+        return rescue(journal, error);
+    char place[300];
+    find_file(journal, place, sizeof place);
+    return fst_fail(error, FST_IO, journal->path,
+                    "this file was renamed or replaced while the sweep ran; its rows are in %s: give that file "
+                    "its old name to go on with it",
+                    place[0] ? place : "the renamed file");
+}
+
+/* ------------------------------------------------------------------ committing */
+
+enum { LOG_PAGES = 1000 };
+
+/* Bring the log's pages into the file, and the log's length to zero: a log that is written over would have old
+ * frames behind its end, among which damage could not be told.  A reader that is busy may put it off. */
+static void empty_log(fst_journal *journal)
+{
+    sqlite3 *database = journal->file.database;
+    (void)sqlite3_busy_timeout(database, 0);
+    if (sqlite3_wal_checkpoint_v2(database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL) == SQLITE_OK)
+        journal->log_pages = 0;
+    (void)sqlite3_busy_timeout(database, 5000);
 }
 
 fst_status fst_journal_commit(fst_journal *journal, fst_error *error)
 {
     if (!journal->in_transaction)
         return FST_OK;
-    const fst_status status = fst_database_do(journal->database, journal->path, "COMMIT", error);
-    journal->in_transaction = status != FST_OK && !sqlite3_get_autocommit(journal->database);
-    return status;
+    const fst_status status = fst_database_do(journal->file.database, journal->path, "COMMIT", error);
+    journal->in_transaction = status != FST_OK && !sqlite3_get_autocommit(journal->file.database);
+    if (status == FST_OK && journal->log_pages >= LOG_PAGES)
+        empty_log(journal);
+    return status == FST_OK ? check_place(journal, error) : status;
 }
 
 fst_status fst_journal_count(fst_journal *journal, int64_t *rows, fst_error *error)
 {
     sqlite3_stmt *query = NULL;
     fst_status status = FST_OK;
-    if (sqlite3_prepare_v2(journal->database, "SELECT count(*) FROM rows", -1, &query, NULL) == SQLITE_OK &&
+    if (sqlite3_prepare_v2(journal->file.database, "SELECT count(*) FROM rows", -1, &query, NULL) ==
+            SQLITE_OK &&
         sqlite3_step(query) == SQLITE_ROW)
         *rows = sqlite3_column_int64(query, 0);
     else
-        status = fst_database_fail(journal->database, journal->path, error);
+        status = fst_database_fail(journal->file.database, journal->path, error);
     (void)sqlite3_finalize(query);
     return status;
 }
@@ -330,7 +341,7 @@ fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *poi
     }
     const fst_status status = code == SQLITE_ROW || code == SQLITE_DONE
                                   ? FST_OK
-                                  : fst_database_fail(journal->database, journal->path, error);
+                                  : fst_database_fail(journal->file.database, journal->path, error);
     (void)sqlite3_reset(journal->next);
     return status;
 }
@@ -349,7 +360,7 @@ fst_status fst_journal_end_state(fst_journal *journal, int64_t point, int *there
     }
     const fst_status status = code == SQLITE_ROW || code == SQLITE_DONE
                                   ? FST_OK
-                                  : fst_database_fail(journal->database, journal->path, error);
+                                  : fst_database_fail(journal->file.database, journal->path, error);
     (void)sqlite3_reset(journal->state);
     return status;
 }
@@ -359,9 +370,11 @@ fst_status fst_journal_close(fst_journal *journal, fst_error *error)
     if (!journal)
         return FST_OK;
     fst_status status = fst_journal_commit(journal, error);
+    if (status == FST_OK)
+        status = check_place(journal, error);
     /* Where the checkpoint fails (a full disk), the rows are safe in the log beside the file. */
     if (status == FST_OK)
-        (void)sqlite3_wal_checkpoint_v2(journal->database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL);
+        (void)sqlite3_wal_checkpoint_v2(journal->file.database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL);
     release(journal);
     return status;
 }

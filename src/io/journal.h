@@ -2,7 +2,8 @@
  *
  * The file is made whole (beside its place, then renamed) with its identity inside: scene, axes, seed,
  * direction of carrying, form of arithmetic.  From then on it only grows, by transactions.  It is written from
- * one thread.
+ * one thread of one process, which holds a lock on it.  Every row has a checksum; docs/sweeps.md says what that
+ * and all the rest promises.
  */
 #ifndef FST_IO_JOURNAL_H
 #define FST_IO_JOURNAL_H
@@ -32,11 +33,16 @@ typedef struct fst_sweep_record {
 
 typedef struct fst_journal fst_journal;
 
-/* Open the database of a sweep, making it where there is none.  FST_BAD_INPUT: a foreign or damaged file, or
- * one made by other parameters (the sentence says which); nothing is written then.  FST_IO: no permission, full
- * disk. */
+/* Open the database of a sweep, making it where there is none.  Of a damaged one the sound rows are kept.
+ * FST_BAD_INPUT: a foreign file or log, a database whose record of what it is is damaged, or one made by other
+ * parameters (the sentence says which); nothing is written then.  FST_IO: another command is at work on it (the
+ * sentence says which), no permission, full disk. */
 fst_status fst_journal_open(const char *path, const fst_sweep_identity *identity, fst_journal **journal,
                             fst_error *error);
+
+/* Whether the database was found damaged and replaced by one with its sound rows, and how many rows are known
+ * to be lost. */
+int fst_journal_repaired(const fst_journal *journal, int64_t *lost);
 
 /* Add a row to the present transaction, beginning one where there is none; a point that is there is left as it
  * is. */
@@ -49,7 +55,7 @@ fst_status fst_journal_begin(fst_journal *journal, fst_error *error);
 struct sqlite3 *fst_journal_database(const fst_journal *journal);
 const char *fst_journal_path(const fst_journal *journal);
 
-/* Make safe what was added. */
+/* Make safe what was added.  FST_IO, too: the file has been deleted, renamed or replaced. */
 fst_status fst_journal_commit(fst_journal *journal, fst_error *error);
 
 /* Number of rows. */

@@ -2,6 +2,7 @@
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/error.h"
 #include "base/number.h"
@@ -9,13 +10,15 @@
 #include "io/database.h"
 #include "io/regular_file.h"
 #include "io/sweep_columns.h"
+#include "io/sweep_file.h"
 #include "io/trajectory_module.h"
 
 typedef struct export_job {
     const char *path;
-    sqlite3 *database;
-    sqlite3_stmt *rows;
-    int columns;
+    fst_sweep_file file;
+    fst_sweep_rows rows;
+    sqlite3_stmt *row;
+    int columns; /* all but the checksum */
     FILE *stream;
 } export_job;
 
@@ -35,7 +38,7 @@ static void write_quoted(FILE *out, const char *text)
 static void csv_head(export_job *job)
 {
     for (int i = 0; i < job->columns; ++i)
-        (void)fprintf(job->stream, "%s%s", i ? "," : "", sqlite3_column_name(job->rows, i));
+        (void)fprintf(job->stream, "%s%s", i ? "," : "", sqlite3_column_name(job->row, i));
     (void)fputc('\n', job->stream);
 }
 
@@ -46,16 +49,16 @@ static fst_status csv_row(export_job *job, fst_error *error)
         char number[40];
         if (i)
             (void)fputc(',', job->stream);
-        switch (sqlite3_column_type(job->rows, i)) {
+        switch (sqlite3_column_type(job->row, i)) {
         case SQLITE_INTEGER:
-            (void)fprintf(job->stream, "%lld", (long long)sqlite3_column_int64(job->rows, i));
+            (void)fprintf(job->stream, "%lld", (long long)sqlite3_column_int64(job->row, i));
             break;
         case SQLITE_FLOAT:
-            (void)fst_number_write(number, sizeof number, sqlite3_column_double(job->rows, i));
+            (void)fst_number_write(number, sizeof number, sqlite3_column_double(job->row, i));
             (void)fputs(number, job->stream);
             break;
         case SQLITE_TEXT:
-            write_quoted(job->stream, (const char *)sqlite3_column_text(job->rows, i));
+            write_quoted(job->stream, (const char *)sqlite3_column_text(job->row, i));
             break;
         default: /* what is undefined stays empty */
             break;
@@ -86,8 +89,8 @@ static fst_status json_row(export_job *job, fst_error *error)
 {
     json_t *object = json_object(), *state = json_array();
     for (int i = 0; i < job->columns; ++i) {
-        const char *name = sqlite3_column_name(job->rows, i);
-        json_t *value = json_value(job->rows, i);
+        const char *name = sqlite3_column_name(job->row, i);
+        json_t *value = json_value(job->row, i);
         if (strncmp(name, "final_", 6) == 0)
             (void)json_array_append_new(state, value);
         else
@@ -108,19 +111,17 @@ static fst_status json_row(export_job *job, fst_error *error)
 static fst_status write_text(export_job *job, fst_export_format format, fst_error *error)
 {
     fst_status status = FST_OK;
-    int code, first = 1;
+    int more, first = 1;
     if (format == FST_EXPORT_CSV)
         csv_head(job);
     else
         (void)fputc('[', job->stream);
-    while (status == FST_OK && (code = sqlite3_step(job->rows)) == SQLITE_ROW) {
+    while (status == FST_OK && (status = fst_sweep_rows_next(&job->rows, &more, error)) == FST_OK && more) {
         if (format == FST_EXPORT_JSON)
             (void)fputs(first ? "\n" : ",\n", job->stream);
         first = 0;
         status = format == FST_EXPORT_CSV ? csv_row(job, error) : json_row(job, error);
     }
-    if (status == FST_OK && code != SQLITE_DONE)
-        return fst_database_fail(job->database, job->path, error);
     if (format == FST_EXPORT_JSON)
         (void)fputs(first ? "]\n" : "\n]\n", job->stream);
     return status;
@@ -212,8 +213,8 @@ static int list_columns(export_job *job, hdf5_columns *c)
     if (!c->infos || !c->pointers || !c->places || !c->values)
         return 0;
     for (int i = 0; i < job->columns; ++i) {
-        const char *name = sqlite3_column_name(job->rows, i);
-        const char *type = sqlite3_column_decltype(job->rows, i);
+        const char *name = sqlite3_column_name(job->row, i);
+        const char *type = sqlite3_column_decltype(job->row, i);
         if (type && strcmp(type, "TEXT") == 0 && !codes_of(name))
             continue; /* the reason is free text */
         describe(name, &c->infos[c->count]);
@@ -239,27 +240,20 @@ static double hdf5_value(sqlite3_stmt *rows, int place)
 static fst_status fill_hdf5(export_job *job, const fst_hdf5_module_table *module, fst_whole_file *file,
                             const hdf5_columns *c, fst_error *error)
 {
-    char *scene = fst_database_text(job->database, "scene"),
-         *points = fst_database_text(job->database, "points");
+    const char *scene = fst_identity_text(&job->file.lines, "scene");
     fst_hdf5_writer *writer = NULL;
     fst_status status =
         module->create(file->temporary, file->path, c->pointers, c->count, scene ? scene : "", &writer, error);
-    int code = SQLITE_DONE;
-    long long rows = 0;
-    while (status == FST_OK && (code = sqlite3_step(job->rows)) == SQLITE_ROW) {
+    int more;
+    while (status == FST_OK && (status = fst_sweep_rows_next(&job->rows, &more, error)) == FST_OK && more) {
         for (int i = 0; i < c->count; ++i)
-            c->values[i] = hdf5_value(job->rows, c->places[i]);
+            c->values[i] = hdf5_value(job->row, c->places[i]);
         status = module->row(writer, c->values, error);
-        ++rows;
     }
-    if (status == FST_OK && code != SQLITE_DONE)
-        status = fst_database_fail(job->database, job->path, error);
     if (writer && status == FST_OK)
-        status = module->finish(writer, NULL, points && rows == atoll(points), error);
+        status = module->finish(writer, NULL, job->rows.sound == fst_grid_points(job->file.grid), error);
     else if (writer)
         module->abandon(writer);
-    free(scene);
-    free(points);
     return status;
 }
 
@@ -293,26 +287,45 @@ static fst_status export_hdf5(export_job *job, const char *out, fst_error *error
 
 /* ------------------------------------------------------------------ */
 
+static fst_status export_rows(export_job *job, fst_export_format format, const char *out, FILE *stream,
+                              fst_error *error)
+{
+    fst_status status = fst_sweep_rows_begin(&job->rows, &job->file, error);
+    if (status == FST_OK) {
+        job->row = job->rows.row;
+        job->columns = fst_sweep_column_count(job->file.grid);
+        status = format == FST_EXPORT_HDF5 ? export_hdf5(job, out, error)
+                                           : export_text(job, format, out, stream, error);
+    }
+    /* The rows that are sound have been written; the status says that they are not all. */
+    if (status == FST_OK && !fst_sweep_rows_are_whole(&job->rows))
+        status = fst_sweep_rows_fail(&job->rows,
+                                     out ? "The other rows were exported. "
+                                         : "An export into a file (-o FILE) has the other rows. ",
+                                     error);
+    fst_sweep_rows_end(&job->rows);
+    return status;
+}
+
 fst_status fst_sweep_export(const char *path, fst_export_format format, const char *out, FILE *stream,
                             fst_error *error)
 {
     export_job job = {.path = path};
-    fst_status status = fst_database_open(path, 0, &job.database, error);
-    if (status != FST_OK)
-        return status;
-    if (sqlite3_prepare_v2(job.database, "SELECT * FROM rows ORDER BY point", -1, &job.rows, NULL) != SQLITE_OK)
-        status = fst_database_fail(job.database, path, error);
-    if (status == FST_OK) {
-        job.columns = sqlite3_column_count(job.rows);
-        status = format == FST_EXPORT_HDF5 ? export_hdf5(&job, out, error)
-                                           : export_text(&job, format, out, stream, error);
-    }
-    (void)sqlite3_finalize(job.rows);
-    (void)sqlite3_close(job.database);
+    fst_status status = fst_sweep_file_open(path, 0, &job.file, error);
+    if (status == FST_OK)
+        status = export_rows(&job, format, out, stream, error);
+    fst_sweep_file_close(&job.file);
     return status;
 }
 
 int fst_is_sweep(const char *path)
 {
-    return fst_database_is_sweep(path, NULL) == FST_OK;
+    int descriptor;
+    char mark[FST_MARK_SIZE];
+    fst_error error = {FST_OK, "", ""};
+    if (fst_open_regular(path, &descriptor, NULL) != FST_OK)
+        return 0;
+    (void)fst_database_head(descriptor, path, mark, &error);
+    (void)close(descriptor);
+    return error.code == FST_OK;
 }

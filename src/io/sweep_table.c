@@ -1,51 +1,20 @@
 /* sweep_table.c - columns of a sweep's database by point, for figures. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
-#include "io/database.h"
-
-static fst_status damaged(const char *path, fst_error *error)
-{
-    return fst_fail(error, FST_BAD_INPUT, path, "this sweep database does not say what it is a sweep of");
-}
-
-/* The grid, from the scene and the axes in the file. */
-static fst_status read_grid(sqlite3 *database, const char *path, fst_grid **grid, fst_error *error)
-{
-    char *texts[FST_AXIS_LIMIT] = {NULL};
-    char *scene = fst_database_text(database, "scene"), *axes = fst_database_text(database, "axes");
-    char *seed = fst_database_text(database, "seed");
-    const int count = axes ? atoi(axes) : 0;
-    int good = scene && seed && count >= 1 && count <= FST_AXIS_LIMIT;
-    for (int i = 0; good && i < count; ++i) {
-        char key[24];
-        (void)snprintf(key, sizeof key, "axis_%d", i + 1);
-        texts[i] = fst_database_text(database, key);
-        good = texts[i] != NULL;
-    }
-    fst_params params = fst_default_params();
-    fst_status status =
-        good ? fst_scene_parse(scene, strlen(scene), path, &params, error) : damaged(path, error);
-    if (status == FST_OK)
-        status =
-            fst_grid_new(&params, (const char *const *)texts, count, strtoull(seed, NULL, 10), grid, error);
-    for (int i = 0; i < FST_AXIS_LIMIT; ++i)
-        free(texts[i]);
-    free(scene);
-    free(axes);
-    free(seed);
-    return status;
-}
+#include "io/sweep_file.h"
 
 fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *error)
 {
-    *grid = NULL;
-    sqlite3 *database = NULL;
-    fst_status status = fst_database_open(path, 0, &database, error);
-    if (status == FST_OK)
-        status = read_grid(database, path, grid, error);
-    (void)sqlite3_close(database);
+    fst_sweep_file file;
+    const fst_status status = fst_sweep_file_open(path, 0, &file, error);
+    *grid = status == FST_OK ? file.grid : NULL;
+    const int kept = *grid != NULL;
+    if (kept)
+        file.grid = NULL;
+    fst_sweep_file_close(&file);
     return status;
 }
 
@@ -78,25 +47,47 @@ static double number_of(sqlite3_stmt *rows, int column)
     return NAN;
 }
 
-static fst_status read_column(sqlite3 *database, const char *path, const char *key, int64_t points,
-                              double *values, fst_error *error)
+/* Places of the keys among the columns of the table. */
+static void find_columns(sqlite3_stmt *row, const char *const *keys, int count, int *places)
 {
-    sqlite3_stmt *rows = NULL;
-    char *query = sqlite3_mprintf("SELECT point, %s FROM rows", key);
-    if (!query)
-        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-    int code = sqlite3_prepare_v2(database, query, -1, &rows, NULL);
-    sqlite3_free(query);
-    for (int64_t i = 0; i < points; ++i)
-        values[i] = NAN;
-    while (code == SQLITE_OK || code == SQLITE_ROW) {
-        code = sqlite3_step(rows);
-        const int64_t point = code == SQLITE_ROW ? sqlite3_column_int64(rows, 0) : -1;
-        if (point >= 0 && point < points)
-            values[point] = number_of(rows, 1);
-    }
-    (void)sqlite3_finalize(rows);
-    return code == SQLITE_DONE ? FST_OK : fst_database_fail(database, path, error);
+    for (int i = 0; i < count; ++i)
+        for (int k = 0; k < sqlite3_column_count(row); ++k)
+            if (strcmp(sqlite3_column_name(row, k), keys[i]) == 0)
+                places[i] = k;
+}
+
+/* All rows, or none: a figure does not show that some are lost. */
+static fst_status read_rows(const fst_sweep_file *file, const char *const *keys, int count, double *values,
+                            fst_error *error)
+{
+    const int64_t points = fst_grid_points(file->grid);
+    int more = 0, *places = calloc((size_t)count + 1, sizeof *places);
+    fst_sweep_rows rows;
+    fst_status status = fst_sweep_rows_begin(&rows, file, error);
+    if (!places && status == FST_OK)
+        status = fst_fail(error, FST_NO_MEMORY, file->name, "out of memory");
+    if (status == FST_OK)
+        find_columns(rows.row, keys, count, places);
+    while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more)
+        for (int i = 0; i < count; ++i)
+            values[i * points + rows.next - 1] = number_of(rows.row, places[i]);
+    if (status == FST_OK && !fst_sweep_rows_are_whole(&rows))
+        status = fst_sweep_rows_fail(&rows, "", error);
+    fst_sweep_rows_end(&rows);
+    free(places);
+    return status;
+}
+
+static fst_status read_values(const fst_sweep_file *file, const char *const *keys, int count,
+                              fst_sweep_table *table, fst_error *error)
+{
+    const int64_t points = fst_grid_points(table->grid), all = count * points;
+    table->values = malloc((size_t)all * sizeof *table->values + 1);
+    if (!table->values)
+        return fst_fail(error, FST_NO_MEMORY, file->name, "no memory for %lld points", (long long)points);
+    for (int64_t i = 0; i < all; ++i)
+        table->values[i] = NAN;
+    return read_rows(file, keys, count, table->values, error);
 }
 
 fst_status fst_sweep_read(const char *path, const char *const *keys, int count, fst_sweep_table *table,
@@ -106,21 +97,17 @@ fst_status fst_sweep_read(const char *path, const char *const *keys, int count, 
     fst_status status = FST_OK;
     for (int i = 0; i < count && status == FST_OK; ++i)
         status = check_key(keys[i], error);
-    sqlite3 *database = NULL;
-    if (status == FST_OK)
-        status = fst_database_open(path, 0, &database, error);
     if (status != FST_OK)
         return status;
-    status = read_grid(database, path, &table->grid, error);
+    fst_sweep_file file;
+    status = fst_sweep_file_open(path, 0, &file, error);
     if (status == FST_OK) {
-        const int64_t points = fst_grid_points(table->grid);
-        table->values = malloc((size_t)count * (size_t)points * sizeof *table->values);
-        if (!table->values)
-            status = fst_fail(error, FST_NO_MEMORY, path, "no memory for %lld points", (long long)points);
-        for (int i = 0; i < count && status == FST_OK; ++i)
-            status = read_column(database, path, keys[i], points, table->values + i * points, error);
+        table->grid = file.grid;
+        status = read_values(&file, keys, count, table, error);
+        file.grid = status == FST_OK ? NULL : file.grid;
+        table->grid = status == FST_OK ? table->grid : NULL;
     }
-    (void)sqlite3_close(database);
+    fst_sweep_file_close(&file);
     if (status != FST_OK)
         fst_sweep_table_free(table);
     return status;

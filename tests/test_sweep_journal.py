@@ -1,0 +1,377 @@
+"""What the journal of a sweep trusts, who may write it, and what it says when it is damaged, deleted or replaced.
+
+Environment: FESTOON is the program, SOURCE_DIR the source tree, BUILD_DIR the build tree.
+"""
+
+import csv
+import io
+import os
+import shutil
+import signal
+import socket
+import sqlite3
+import subprocess
+import time
+import unittest
+
+from hdf5_reader import Hdf5
+from sweep_tools import FESTOON, SHORT, SMALL, Case, change, content_of, festoon
+
+OTHER = SHORT + ["--over", "drive.frequency=9Hz:20Hz:6", "--over", "model.kappa=1,1.5,2", "--set", "start.r=0.9"]
+
+
+class Journal(Case):
+    def made(self, name="a.db", words=SMALL):
+        self.good("sweep", *words, "-o", self.path(name))
+        return self.rows(name)
+
+    def log_of(self, name, *statements):
+        """A write-ahead log with these changes of a database, which itself stays as it was."""
+        shutil.copy(self.path(name), self.path("twin.db"))
+        base = sqlite3.connect(self.path("twin.db"))
+        base.execute("PRAGMA wal_autocheckpoint = 0")
+        for statement in statements:
+            base.execute(statement)
+        base.commit()
+        log = content_of(self.path("twin.db-wal"))
+        base.close()
+        os.remove(self.path("twin.db"))
+        return log
+
+    def put(self, name, content):
+        with open(self.path(name), "wb") as out:
+            out.write(content)
+
+
+class Logs(Journal):
+    """Files that SQLite would take for the log of a database because of their names."""
+
+    CHANGES = ("UPDATE rows SET mean_r = 9", "UPDATE seal SET commits = 7")
+
+    def test_a_new_sweep_has_nothing_of_a_deleted_one(self):
+        self.made("dead.db", OTHER)
+        expected = self.made("right.db")
+        for ending, content in (("-wal", self.log_of("dead.db", *self.CHANGES)), ("-shm", bytes(32768)),
+                                ("-journal", b"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7" + bytes(8184))):
+            self.put("a.db" + ending, content)
+        self.assertEqual(self.made(), expected)
+        self.assertEqual([name for name in os.listdir(self.directory) if name.startswith("a.db-")], [])
+
+    def test_a_killed_sweep_whose_file_alone_was_deleted(self):
+        long = SHORT + ["--over", "drive.frequency=9Hz:20Hz:3000", "--threads", "2"]
+        process = begin(self, "a.db", long)
+        process.kill()
+        process.communicate()
+        os.remove(self.path("a.db"))
+        self.assertGreater(os.path.getsize(self.path("a.db-wal")), 0)
+        self.assertEqual(self.made(), self.made("right.db"))
+
+    def test_the_log_of_another_database_is_refused(self):
+        self.made("dead.db", OTHER)
+        self.made()
+        for ending, content in (("-wal", self.log_of("dead.db", *self.CHANGES)),
+                                ("-wal", self.log_of("dead.db", self.CHANGES[0])),  # without any mark
+                                ("-journal", b"\xd9\xd5\x05\xf9\x20\xa1\x63\xd7" + bytes(8184))):
+            self.put("a.db" + ending, content)
+            for words in (("sweep", *SMALL, "-o", self.path("a.db")), ("export", self.path("a.db"), "--csv"),
+                          ("plot", self.path("a.db"), "-o", self.path("f.svg"))):
+                self.assertIn("the log of another one", self.refused(*words))
+            os.remove(self.path("a.db" + ending))
+
+    def test_its_own_log_is_read(self):
+        self.made()
+        log = self.log_of("a.db", "DELETE FROM rows WHERE point > 8", self.CHANGES[1])
+        self.put("a.db-wal", log)
+        self.assertEqual(self.rows("a.db").count("\n"), 10)
+        self.put("a.db-wal", b"")
+
+    def test_a_damaged_log_is_told(self):
+        expected = self.made()
+        log = bytearray(self.log_of("a.db", "DELETE FROM rows WHERE point > 8", self.CHANGES[1]))
+        log[len(log) // 2] ^= 4
+        self.put("a.db-wal", log)
+        self.assertIn("log cannot be read", self.refused("export", self.path("a.db"), "--csv"))
+        self.assertIn("was damaged", festoon("sweep", *SMALL, "-o", self.path("a.db"))[2])
+        self.assertEqual(self.rows("a.db"), expected)
+        self.assertEqual(content_of(self.path("a.db.damaged-wal")), log)
+
+
+def begin(case, name, words):
+    """A sweep that has its first rows and is at work."""
+    count = 1
+    while True:
+        process = subprocess.Popen([FESTOON, "sweep", *words, "-o", case.path(name)], stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        while process.poll() is None:
+            if os.path.exists(case.path(name)) and rows_in(case.path(name)) > 0:
+                process.send_signal(signal.SIGSTOP)
+                os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
+                if process.poll() is None:
+                    return process
+            time.sleep(0.01)
+        process.communicate()
+        os.remove(case.path(name))
+        count += 1
+        if count > 5:
+            raise unittest.SkipTest("this machine is too fast for these sweeps")
+
+
+def rows_in(path):
+    base = sqlite3.connect(path, timeout=60)
+    try:
+        return base.execute("SELECT count(*) FROM rows").fetchone()[0]
+    finally:
+        base.close()
+
+
+class Company(Journal):
+    """Several commands, one file."""
+
+    LONG = SHORT + ["--over", "drive.frequency=9Hz:20Hz:3000", "--threads", "2"]
+
+    def end(self, process):
+        process.send_signal(signal.SIGCONT)
+        out, err = process.communicate(timeout=600)
+        return process.returncode, out.decode(), err.decode()
+
+    def test_the_second_says_who_is_at_work(self):
+        first = begin(self, "a.db", self.LONG)
+        self.addCleanup(first.kill)
+        status, out, err = festoon("sweep", *self.LONG, "-o", self.path("a.db"))
+        self.assertEqual((status, out), (1, ""), err)
+        self.assertIn(f"process {first.pid} on {socket.gethostname()}", err)
+        os.symlink(self.path("a.db"), self.path("link.db"))
+        self.assertIn("at work", festoon("sweep", *self.LONG, "-o", self.path("link.db"))[2])
+        self.assertGreater(self.rows("a.db").count("\n"), 1)  # reading goes on
+        first.kill()
+        first.communicate()
+        self.good("sweep", *self.LONG, "-o", self.path("a.db"))  # at once
+        self.assertEqual(self.rows("a.db").count("\n"), 3001)
+
+    def test_many_make_the_same_file(self):
+        expected = self.made("right.db")
+        for i in range(5):
+            name = f"race{i}.db"
+            racers = [subprocess.Popen([FESTOON, "sweep", *SMALL, "-o", self.path(name)], stdin=subprocess.DEVNULL,
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) for _ in range(5)]
+            ends = [(racer.communicate()[1], racer.returncode) for racer in racers]
+            self.assertIn(0, [status for _, status in ends], ends)
+            for err, status in ends:
+                self.assertIn(status, (0, 1), err)
+                self.assertEqual(b"at work" in err, status == 1, err)
+            self.assertEqual(self.rows(name), expected)
+        self.assertEqual([name for name in os.listdir(self.directory) if not name.endswith(".db")], [])
+
+    def test_deleted_under_way(self):
+        process = begin(self, "a.db", self.LONG)
+        os.remove(self.path("a.db"))
+        status, out, err = self.end(process)
+        self.assertEqual((status, out), (1, ""), err)
+        self.assertIn("a.db.rescued", err)
+        self.assertGreater(self.rows("a.db.rescued").count("\n"), 1)
+        os.rename(self.path("a.db.rescued"), self.path("a.db"))
+        self.good("sweep", *self.LONG, "-o", self.path("a.db"))
+        self.assertEqual(self.rows("a.db").count("\n"), 3001)
+
+    def test_replaced_under_way(self):
+        self.made("other.db", OTHER)
+        sound = content_of(self.path("other.db"))
+        process = begin(self, "a.db", self.LONG)
+        os.replace(self.path("other.db"), self.path("a.db"))
+        status, out, err = self.end(process)
+        self.assertEqual((status, out), (1, ""), err)
+        self.assertIn("a.db.rescued", err)
+        self.assertEqual(content_of(self.path("a.db")), sound)
+
+    def test_renamed_under_way(self):
+        process = begin(self, "a.db", self.LONG)
+        os.rename(self.path("a.db"), self.path("b.db"))
+        status, out, err = self.end(process)
+        self.assertEqual((status, out), (1, ""), err)
+        self.assertIn(os.path.join(os.path.realpath(self.directory), "b.db"), err)
+        self.assertGreater(self.rows("b.db").count("\n"), 1)
+        self.good("sweep", *self.LONG, "-o", self.path("b.db"))
+
+    def test_its_folder_deleted_or_renamed(self):
+        for what, words in ((lambda: shutil.rmtree(self.path("f")), "lost"),
+                            (lambda: os.rename(self.path("f"), self.path("g")), "/g/a.db")):
+            os.mkdir(self.path("f"))
+            process = begin(self, "f/a.db", self.LONG)
+            what()
+            status, out, err = self.end(process)
+            self.assertEqual((status, out), (1, ""), err)
+            self.assertIn(words, err)
+        self.assertGreater(self.rows("g/a.db").count("\n"), 1)
+
+
+class Damage(Journal):
+    def check(self, expected, lost, *words):
+        """The points that are lost are named, the others exported, and a sweep computes the lost ones."""
+        err = self.refused("export", self.path("a.db"), "--csv")
+        self.assertIn("damaged", err)
+        for word in words:
+            self.assertIn(word, err)
+        self.assertIn("damaged", self.refused("plot", self.path("a.db"), "-o", self.path("f.svg")))
+        self.assertEqual(festoon("export", self.path("a.db"), "--csv", "-o", self.path("a.csv"))[0], 2)
+        kept = [line for point, line in enumerate(expected.splitlines()[1:]) if point not in lost]
+        self.assertEqual(content_of(self.path("a.csv"), "r").splitlines()[1:], kept)
+        status, out, err = festoon("sweep", *SMALL, "-o", self.path("a.db"))
+        self.assertEqual(status, 0, err)
+        self.assertIn("damaged", err)
+        self.assertEqual(self.rows("a.db"), expected)
+
+    def alter(self, *statements):
+        base = sqlite3.connect(self.path("a.db"))
+        for statement in statements:
+            base.execute(statement)
+        base.commit()
+        base.close()
+
+    def test_rows_that_were_changed(self):
+        expected = self.made()
+        self.made("other.db", OTHER)
+        for lost, words, statement in (
+                ({3}, ["points 3 are"], "UPDATE rows SET mean_r = mean_r + 1e-15 WHERE point = 3"),
+                ({4}, ["points 4 are"], "UPDATE rows SET mean_r = 'much' WHERE point = 4"),
+                ({5}, ["points 5 are"], "UPDATE rows SET reason = 'all is well' WHERE point = 5"),
+                ({0, 17}, ["points 0, 17 are"], "UPDATE rows SET returns = 7 WHERE point IN (0, 17)"),
+                ({2}, ["points 2 are"], "UPDATE rows SET final_X = NULL WHERE point = 2"),
+                ({1}, ["points 1 are"], "UPDATE rows SET \"model.kappa\" = 2 WHERE point = 1"),
+                ({1, 2}, ["points 1-2 are"], "UPDATE rows SET checksum = 0 WHERE point IN (1, 2)"),
+                ({7}, ["points 7 are"], "UPDATE rows SET checksum = NULL WHERE point = 7"),
+                ({8}, ["1 of its rows belong to no point"], "UPDATE rows SET point = 18 WHERE point = 8"),
+                ({9}, ["1 of its rows belong to no point"], "UPDATE rows SET point = -1 WHERE point = 9")):
+            with self.subTest(statement=statement):
+                self.alter(statement)
+                self.check(expected, lost, *words)
+        self.alter(f"ATTACH '{self.path('other.db')}' AS other", "REPLACE INTO rows SELECT * FROM other.rows WHERE point = 6")
+        self.check(expected, {6}, "points 6 are")
+
+    def test_pages_that_were_damaged(self):
+        """Each page in turn: rows are named and the rest goes on, or the file says that it is damaged."""
+        expected = self.made()
+        sound = content_of(self.path("a.db"))
+        repaired = 0
+        for page in range(1, len(sound) // 4096):
+            self.put("a.db", sound[:4096 * page] + bytes([0x5A]) * 4096 + sound[4096 * page + 4096:])
+            err = self.refused("export", self.path("a.db"), "--csv")
+            self.assertIn("damaged", err)
+            status, _, err = festoon("sweep", *SMALL, "-o", self.path("a.db"))
+            self.assertIn("damaged", err)
+            self.assertIn(status, (0, 2))
+            if status == 0:
+                repaired += 1
+                self.assertEqual(self.rows("a.db"), expected)
+        self.assertGreater(repaired, 2)
+        self.put("a.db", sound[:4096 * 6] + bytes(4096) + sound[4096 * 7:])
+        self.assertRegex(self.refused("export", self.path("a.db"), "--csv"), "rows of the points [0-9]+-[0-9]+ are lost")
+
+    def test_what_it_is_a_sweep_of(self):
+        self.made()
+        sound = content_of(self.path("a.db"))
+        for words, statement in (("agree with its checksum", "UPDATE festoon SET value = value || ' ' WHERE key = 'axis_1'"),
+                                 ("agree with its checksum", "DELETE FROM festoon WHERE key = 'checksum'"),
+                                 ("agree with its checksum", "UPDATE festoon SET value = 7 WHERE key = 'seed'"),
+                                 ("older festoon", "PRAGMA user_version = 1"), ("format 3", "PRAGMA user_version = 3"),
+                                 ("tables of this database", "CREATE INDEX i ON rows(mean_r)"),
+                                 ("tables of this database", "CREATE VIEW v AS SELECT 1"),
+                                 ("tables of this database", "CREATE TABLE t(a)"),
+                                 ("tables of this database", "CREATE TRIGGER t AFTER INSERT ON rows BEGIN SELECT 1; END"),
+                                 ("tables of this database", "ALTER TABLE rows ADD COLUMN more"),
+                                 ("no database of festoon", "PRAGMA application_id = 1")):
+            with self.subTest(statement=statement):
+                self.put("a.db", sound)
+                self.alter(statement)
+                for command in (("sweep", *SMALL, "-o", self.path("a.db")), ("export", self.path("a.db"), "--csv")):
+                    self.assertIn(words, self.refused(*command))
+
+    def test_all_that_makes_a_sweep_is_compared(self):
+        """Each line of the identity, with checksums that agree: another value is refused and named."""
+        self.made()
+        sound = content_of(self.path("a.db"))
+        for key, value in (("fingerprint", "0123456789abcdef"), ("arithmetic", "other"), ("results_version", "1"),
+                           ("carry", "up"), ("seed", "5")):
+            self.put("a.db", sound)
+            change(self.path("a.db"), ("UPDATE festoon SET value = ? WHERE key = ?", (value, key)))
+            self.assertIn(key, self.refused("sweep", *SMALL, "-o", self.path("a.db")))
+            self.rows("a.db")
+
+    def test_images_of_runs_may_be_there(self):
+        self.made()
+        self.alter("CREATE TABLE checkpoints(point INTEGER PRIMARY KEY, size INTEGER NOT NULL, checksum INTEGER NOT NULL, "
+                   "image BLOB NOT NULL)")
+        self.rows("a.db")
+
+
+class Names(Journal):
+    def test_every_name_is_that_of_a_file(self):
+        expected = self.made("usual.db")
+        for name in (":memory:", "file:a.db?mode=memory", "100%.db", "%41.db", "a#b.db", "a?immutable=1",
+                     " a b .db", "a'b\".db", "a\nb.db", "-x.db", "ä.db", "a&b=c;d.db"):
+            with self.subTest(name=name):
+                self.good("sweep", *SMALL, "-o", name, cwd=self.directory)
+                self.assertEqual(rows_in(self.path(name)), 18)
+                operand = name if name[0] != "-" else "./" + name
+                self.assertEqual(self.good("export", operand, "--csv", cwd=self.directory), expected)
+                self.assertIn("0 of them new", self.good("sweep", *SMALL, "-o", name, cwd=self.directory))
+                status, _, err = festoon("plot", operand, "-o", "figure.svg", cwd=self.directory)
+                if not (status == 1 and "gnuplot" in err):
+                    self.assertEqual(status, 0, err)
+                os.remove(self.path(name))
+
+    def test_every_name_where_nothing_may_be_written(self):
+        mount = self.path("small")
+        os.mkdir(mount)
+        if os.getuid() != 0 or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=1m", "none", mount],
+                                              stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("a small file system needs root")
+        self.addCleanup(subprocess.run, ["umount", "-l", mount], check=True)
+        expected = self.made("usual.db")
+        log = self.log_of("usual.db", "DELETE FROM rows WHERE point > 8", "UPDATE seal SET commits = 7")
+        names = ("100%.db", "a#b.db", "a?immutable=0", "a b.db")
+        for name in names:
+            shutil.copy(self.path("usual.db"), os.path.join(mount, name))
+        subprocess.run(["mount", "-o", "remount,ro", mount], check=True)
+        for name in names:
+            self.assertEqual(self.good("export", os.path.join(mount, name), "--csv"), expected)
+        subprocess.run(["mount", "-o", "remount,rw", mount], check=True)
+        self.put("small/a b.db-wal", log)
+        subprocess.run(["mount", "-o", "remount,ro", mount], check=True)
+        self.assertEqual(self.good("export", os.path.join(mount, "a b.db"), "--csv").count("\n"), 10)  # with its log
+
+    def test_links(self):
+        expected = self.made("right.db")
+        os.mkdir(self.path("folder"))
+        os.symlink("folder/a.db", self.path("link.db"))
+        self.assertIn("leads to nothing", self.refused("sweep", *SMALL, "-o", self.path("link.db")))
+        os.symlink("folder", self.path("short"))
+        self.assertEqual(self.made("short/a.db"), expected)
+        self.assertEqual(self.rows("link.db"), expected)
+        self.put("empty.db", b"")
+        self.assertEqual(self.made("empty.db"), expected)
+
+
+class Texts(Journal):
+    def test_quotes_in_csv(self):
+        self.made()
+        text = 'it said "no, never",\nand went "'
+        change(self.path("a.db"), ("UPDATE rows SET reason = ? WHERE point = 4", (text,)))
+        rows = list(csv.DictReader(io.StringIO(self.rows("a.db"))))
+        self.assertEqual(len(rows), 18)
+        self.assertEqual(rows[4]["reason"], text)
+
+    def test_units_of_an_hdf5_file(self):
+        self.made()
+        status, _, err = festoon("export", self.path("a.db"), "--hdf5", "-o", self.path("a.h5"))
+        if status == 1 and "HDF5" in err:
+            self.skipTest("built without HDF5")
+        self.assertEqual(status, 0, err)
+        file = Hdf5(self.path("a.h5"))
+        self.addCleanup(file.close)
+        units = file.attribute(None, "units")
+        for words in ("lengths in l", "times in 1/gamma", "fields in B0"):
+            self.assertIn(words, units)
+
+
+if __name__ == "__main__":
+    unittest.main()
