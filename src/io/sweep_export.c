@@ -272,7 +272,7 @@ static fst_status export_hdf5(export_job *job, const char *out, fst_error *error
     if (status != FST_OK)
         return status;
     hdf5_columns c = {NULL, NULL, NULL, NULL, 0};
-    fst_whole_file file = {NULL, NULL, NULL};
+    fst_whole_file file = {.path = NULL};
     status = list_columns(job, &c) ? fst_whole_file_open(&file, out, error)
                                    : fst_fail(error, FST_NO_MEMORY, out, "out of memory");
     if (status == FST_OK) {
