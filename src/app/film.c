@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "base/whole_file.h"
 #include "draw/ffmpeg.h"
+#include "draw/film_file.h"
 #include "draw/style.h"
 #include "io/module.h"
 
@@ -160,8 +161,16 @@ static fst_status give_frame(film *f, int index, fst_error *error)
 {
     if (f->folder[0]) {
         char path[FRAME_PATH];
+        fst_whole_file file;
         name_frame(f, index, path);
-        return f->module->write_png(f->canvas, path, error);
+        fst_status written = fst_whole_file_open_next(&file, path, error);
+        if (written != FST_OK)
+            return written;
+        written = f->module->write_png(f->canvas, file.stream, error);
+        if (written == FST_OK)
+            return fst_whole_file_commit(&file, error);
+        fst_whole_file_discard(&file);
+        return written;
     }
     int stride;
     const unsigned char *pixels = f->module->pixels(f->canvas, &stride);
@@ -225,6 +234,7 @@ static fst_status frames_into_folder(film *f, const char *folder, fst_error *err
     if (mkdir(folder, 0777) != 0 && !(errno == EEXIST && stat(folder, &there) == 0 && S_ISDIR(there.st_mode)))
         return fst_fail(error, errno == EEXIST ? FST_BAD_INPUT : FST_IO, folder,
                         "cannot make this folder for the frames: %s", strerror(errno));
+    fst_whole_file_tidy(folder, ".frame-");
     fst_status status = make_frames(f, error);
     return status == FST_OK ? remove_further_frames(f, error) : status;
 }
@@ -243,6 +253,8 @@ static fst_status frames_into_process(film *f, const char *out, const char *form
         fst_status ended = fst_ffmpeg_end(&f->process, status != FST_OK && status != FST_IO, error);
         if (status == FST_OK)
             status = ended;
+        if (status == FST_OK)
+            status = fst_film_file_check(file.temporary, format, f->frames, out, error);
     }
     if (status == FST_OK)
         return fst_whole_file_commit(&file, error);

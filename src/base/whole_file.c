@@ -59,15 +59,22 @@ static unsigned host_number(void)
     return number;
 }
 
-/* Whether `entry` is "PREFIXprocess-number.part". */
-static int is_temporary(const char *entry, const char *prefix)
+/* Where in `entry` the mark "HOST-PROCESS-NUMBER.part" of a temporary file of this host begins; 0: there is
+ * none. */
+static size_t mark_of(const char *entry)
 {
-    const size_t begin = strlen(prefix), length = strlen(entry);
-    if (strncmp(entry, prefix, begin) != 0 || length <= begin + strlen(ENDING) ||
-        strcmp(entry + length - strlen(ENDING), ENDING) != 0)
+    char host[16];
+    const size_t length = strlen(entry);
+    if (length <= strlen(ENDING) || strcmp(entry + length - strlen(ENDING), ENDING) != 0)
         return 0;
-    const size_t middle = length - strlen(ENDING) - begin;
-    return strspn(entry + begin, "0123456789-") == middle;
+    const size_t end = length - strlen(ENDING);
+    size_t mark = end;
+    while (mark > 0 && entry[mark - 1] != '.')
+        mark--;
+    (void)snprintf(host, sizeof host, "%08x-", host_number());
+    const size_t skipped = mark + strlen(host);
+    const int ours = mark > 0 && skipped < end && strncmp(entry + mark, host, strlen(host)) == 0;
+    return ours && strspn(entry + skipped, "0123456789-") == end - skipped ? mark : 0;
 }
 
 /* Remove a temporary file whose writer is gone.  The lock is taken first, so that nobody can begin with it in
@@ -83,19 +90,31 @@ static void remove_if_abandoned(int directory, const char *entry)
     (void)close(descriptor);
 }
 
-/* What killed commands left of earlier attempts at this file. */
-static void remove_leftovers(const char *path, const char *prefix)
+/* Remove the temporary files of dead writers whose names begin with `prefix`; with `whole`, the mark follows
+ * it. */
+static void remove_leftovers(const char *place, const char *prefix, int whole)
 {
-    const size_t length = directory_length(path);
-    char *place = length ? strndup(path, length) : strdup(".");
-    DIR *directory = place ? opendir(place) : NULL;
-    free(place);
+    DIR *directory = opendir(place);
     if (!directory)
         return;
-    for (const struct dirent *entry = readdir(directory); entry; entry = readdir(directory))
-        if (is_temporary(entry->d_name, prefix))
+    for (const struct dirent *entry = readdir(directory); entry; entry = readdir(directory)) {
+        const size_t mark = strncmp(entry->d_name, prefix, strlen(prefix)) == 0 ? mark_of(entry->d_name) : 0;
+        if (mark > 0 && (!whole || mark == strlen(prefix)))
             remove_if_abandoned(dirfd(directory), entry->d_name);
+    }
     (void)closedir(directory);
+}
+
+void fst_whole_file_tidy(const char *directory, const char *prefix)
+{
+    remove_leftovers(directory, prefix, 0);
+}
+
+/* The directory of `path`; free() it. */
+static char *directory_of(const char *path)
+{
+    const size_t length = directory_length(path);
+    return length ? strndup(path, length) : strdup(".");
 }
 
 /* A new locked file at file->temporary; -1: errno tells why.  Between making and locking it another command may
@@ -116,12 +135,15 @@ static int create_locked(const fst_whole_file *file)
 }
 
 /* A new file ".NAME.HOST-PROCESS-NUMBER.part" in the directory of file->path. */
-static int create_temporary(fst_whole_file *file)
+static int create_temporary(fst_whole_file *file, int tidy)
 {
     const size_t start = directory_length(file->path), size = strlen(file->path) + DECORATION;
     char prefix[LONGEST_NAME + DECORATION];
-    (void)snprintf(prefix, sizeof prefix, ".%.*s.%08x-", LONGEST_NAME, file->path + start, host_number());
-    remove_leftovers(file->path, prefix);
+    (void)snprintf(prefix, sizeof prefix, ".%.*s.", LONGEST_NAME, file->path + start);
+    char *place = tidy ? directory_of(file->path) : NULL;
+    if (place)
+        remove_leftovers(place, prefix, 1);
+    free(place);
     file->temporary = malloc(size);
     if (!file->temporary) {
         errno = ENOMEM;
@@ -129,8 +151,8 @@ static int create_temporary(fst_whole_file *file)
     }
     int descriptor = -1;
     for (int attempt = 0; attempt < 100 && descriptor < 0; attempt++) {
-        (void)snprintf(file->temporary, size, "%.*s%s%ld-%d" ENDING, (int)start, file->path, prefix,
-                       (long)getpid(), attempt);
+        (void)snprintf(file->temporary, size, "%.*s%s%08x-%ld-%d" ENDING, (int)start, file->path, prefix,
+                       host_number(), (long)getpid(), attempt);
         descriptor = create_locked(file);
         if (descriptor < 0 && errno != EEXIST)
             break;
@@ -175,7 +197,7 @@ static fst_status fail_open(fst_whole_file *file, const char *path, int reason, 
     return fst_fail(error, FST_IO, path, "cannot write here: %s", strerror(reason));
 }
 
-fst_status fst_whole_file_open(fst_whole_file *file, const char *path, fst_error *error)
+static fst_status open_file(fst_whole_file *file, const char *path, int tidy, fst_error *error)
 {
     *file = (fst_whole_file){NULL, NULL, NULL, NULL};
     if (path[0] == '\0')
@@ -193,10 +215,20 @@ fst_status fst_whole_file_open(fst_whole_file *file, const char *path, fst_error
         *file->hold = (struct fst_whole_file_hold){.descriptor = -1};
     if (!file->path || !file->hold)
         return fail_open(file, path, ENOMEM, error);
-    file->hold->descriptor = create_temporary(file);
+    file->hold->descriptor = create_temporary(file, tidy);
     if (file->hold->descriptor >= 0)
         file->stream = open_stream(file->hold);
     return file->stream ? FST_OK : fail_open(file, path, errno, error);
+}
+
+fst_status fst_whole_file_open(fst_whole_file *file, const char *path, fst_error *error)
+{
+    return open_file(file, path, 1, error);
+}
+
+fst_status fst_whole_file_open_next(fst_whole_file *file, const char *path, fst_error *error)
+{
+    return open_file(file, path, 0, error);
 }
 
 int fst_whole_file_descriptor(const fst_whole_file *file)
@@ -220,8 +252,7 @@ static int sync_descriptor(int descriptor)
  * systems that cannot sync one, leave nothing better to be had; 0, or the errno of a failure. */
 static int sync_directory_of(const char *path)
 {
-    const size_t length = directory_length(path);
-    char *place = length ? strndup(path, length) : strdup(".");
+    char *place = directory_of(path);
     const int descriptor = place ? open(place, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     free(place);
     if (descriptor < 0)

@@ -24,6 +24,11 @@ typedef struct fst_whole_file {
  * nothing can be written there.  The stream has no position: it only goes on. */
 fst_status fst_whole_file_open(fst_whole_file *file, const char *path, fst_error *error);
 
+/* The same without looking for leftovers, where many files go into one directory: tidy that once.  The second
+ * one removes the leftovers whose names begin with `prefix` (".NAME"). */
+fst_status fst_whole_file_open_next(fst_whole_file *file, const char *path, fst_error *error);
+void fst_whole_file_tidy(const char *directory, const char *prefix);
+
 /* The temporary file's descriptor, for writers other than the stream; it stays the file's. */
 int fst_whole_file_descriptor(const fst_whole_file *file);
 

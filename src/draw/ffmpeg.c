@@ -1,4 +1,4 @@
-#define _GNU_SOURCE /* pipe2 */
+#define _GNU_SOURCE /* pipe2, strsignal */
 
 #include "draw/ffmpeg.h"
 
@@ -112,7 +112,11 @@ fst_status fst_ffmpeg_end(fst_ffmpeg *film, int abandon, fst_error *error)
     while (done < 0 && errno == EINTR);
     if (abandon)
         return FST_OK;
-    if (done == film->child && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0)
+    /* Told to speak of errors only, it is silent when all is well; its status is 0 even on a full disk. */
+    if (done == film->child && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0 && !words[0])
         return FST_OK;
+    if (done == film->child && WIFSIGNALED(outcome))
+        return fst_fail(error, FST_IO, "ffmpeg", "it was ended by the signal %d (%s) %s", WTERMSIG(outcome),
+                        strsignal(WTERMSIG(outcome)), words);
     return fst_fail(error, FST_IO, "ffmpeg", "it failed: %s", words[0] ? words : "it said nothing");
 }
