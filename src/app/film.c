@@ -25,6 +25,7 @@ enum {
     USUAL_SIZE = 720,
     LEAST_SIZE = 160,
     GREATEST_SIZE = 4096,
+    MOST_FRAMES = 1000000,
     FRAME_PATH = 4160
 };
 
@@ -188,7 +189,11 @@ static fst_status make_frames(film *f, fst_error *error)
     fst_film_motion *m = &f->motion;
     const fst_film_options *o = f->options;
     double begin = m->drive_turns[m->first], turns = m->drive_turns[m->last] - begin;
-    f->frames = 1 + (int)floor(turns * o->seconds_per_turn * o->fps + 1e-9);
+    const double count = 1.0 + floor(turns * o->seconds_per_turn * o->fps + 1e-9);
+    if (!(count <= MOST_FRAMES))
+        return fst_fail(error, FST_BAD_INPUT, "film", "%.6g frames are too many: at most %d; take a shorter part",
+                        count, MOST_FRAMES);
+    f->frames = (int)count;
     for (int i = 0; i < f->frames; i++) {
         fst_film_frame frame = {.clock = NULL};
         char clock[64];

@@ -6,10 +6,15 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/whole_file.h"
 #include "io/json_parts.h"
+#include "io/regular_file.h"
 
 enum { INDENT = 2 };
+
+#define SPACES " \t\r\n"
+#define LONGEST_TEXT ((size_t)1 << 31) /* bytes of a file in JSON */
 
 static json_t *pairs(const double *re, const double *im, int count)
 {
@@ -291,18 +296,43 @@ static void read_end(const json_t *object, fst_branch_end *end)
     end->image = json_is_integer(image) ? (int)json_integer_value(image) : end->branch;
 }
 
+/* A parameter's name from a file goes into figures and messages: it is one of params.def, or the file is
+ * refused. */
+static fst_status check_parameter(const char *path, const char *member, const char *key, fst_error *error)
+{
+    const fst_param_info *info = fst_param_at(fst_param_find(key));
+    char quoted[FST_QUOTE_SIZE];
+    if (info && info->kind == FST_KIND_REAL)
+        return FST_OK;
+    return fst_fail(error, FST_BAD_INPUT, path, "\"%s\" is %s, which is no parameter with real values", member,
+                    fst_quote(key, quoted));
+}
+
 fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *error)
 {
     json_error_t why;
     memset(branch, 0, sizeof *branch);
-    json_t *object = json_load_file(path, 0, &why);
+    char *text;
+    size_t size;
+    fst_status status = fst_read_regular(path, LONGEST_TEXT, &text, &size, error);
+    if (status != FST_OK)
+        return status;
+    json_t *object = json_loadb(text, size, 0, &why);
+    free(text);
     const json_t *points = json_object_get(object, "points"), *specials = json_object_get(object, "specials"),
                  *crossings = json_object_get(object, "crossings"), *ends = json_object_get(object, "ends");
     const char *key = json_string_value(json_object_get(object, "parameter"));
     if (!object || !json_is_array(points) || !json_is_array(specials) || !key) {
-        const fst_status status =
-            fst_fail(error, FST_BAD_INPUT, path, "%s",
-                     object ? "this is no branch: make one with festoon branch -o FILE.json" : why.text);
+        status = fst_fail(error, FST_BAD_INPUT, path, "%s",
+                          object ? "this is no branch: make one with festoon branch -o FILE.json" : why.text);
+        json_decref(object);
+        return status;
+    }
+    const char *second = json_string_value(json_object_get(object, "second_parameter"));
+    status = check_parameter(path, "parameter", key, error);
+    if (status == FST_OK && second)
+        status = check_parameter(path, "second_parameter", second, error);
+    if (status != FST_OK) {
         json_decref(object);
         return status;
     }
@@ -313,7 +343,6 @@ fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *erro
     branch->from = json_number_value(json_object_get(object, "from"));
     branch->to = json_number_value(json_object_get(object, "to"));
     (void)snprintf(branch->key, sizeof branch->key, "%s", key);
-    const char *second = json_string_value(json_object_get(object, "second_parameter"));
     if (second) {
         (void)snprintf(branch->second_key, sizeof branch->second_key, "%s", second);
         branch->second_from = json_number_value(json_object_get(object, "second_from"));
@@ -324,7 +353,6 @@ fst_status fst_branch_read(const char *path, fst_branch *branch, fst_error *erro
     branch->specials =
         calloc(json_array_size(specials) + json_array_size(crossings) + 1, sizeof *branch->specials);
     branch->ends = calloc(json_array_size(ends) + 1, sizeof *branch->ends);
-    fst_status status = FST_OK;
     if (!branch->points || !branch->specials || !branch->ends) {
         fst_branch_free(branch);
         status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
@@ -354,32 +382,45 @@ static const json_t *parameter_of(const json_t *run, const char *key)
     return json_object_get(json_object_get(run, "scene"), key);
 }
 
+/* A point from a run's document, if it has both numbers; 0 where memory is short. */
+static int add_dot(const json_t *run, const char *key, const char *observable, double **dots, size_t *count)
+{
+    const json_t *x = parameter_of(run, key), *y = json_object_get(run, observable);
+    if (!json_is_number(x) || !json_is_number(y))
+        return 1;
+    double *more = realloc(*dots, 2 * (*count + 1) * sizeof *more);
+    if (!more)
+        return 0;
+    *dots = more;
+    more[2 * *count] = json_number_value(x);
+    more[2 * (*count)++ + 1] = json_number_value(y);
+    return 1;
+}
+
 fst_status fst_run_dots_read(const char *path, const char *key, const char *observable, double **dots,
                              size_t *count, fst_error *error)
 {
+    char *text;
+    size_t size;
     *dots = NULL;
     *count = 0;
-    FILE *in = fopen(path, "r");
-    if (!in)
-        return fst_fail(error, FST_BAD_INPUT, path, "this file cannot be read");
-    json_t *run;
-    json_error_t why;
-    fst_status status = FST_OK;
-    while (status == FST_OK && (run = json_loadf(in, JSON_DISABLE_EOF_CHECK, &why))) {
-        const json_t *x = parameter_of(run, key), *y = json_object_get(run, observable);
-        if (json_is_number(x) && json_is_number(y)) {
-            double *more = realloc(*dots, 2 * (*count + 1) * sizeof *more);
-            if (more) {
-                *dots = more;
-                more[2 * *count] = json_number_value(x);
-                more[2 * (*count)++ + 1] = json_number_value(y);
-            } else {
-                status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-            }
-        }
+    fst_status status = fst_read_regular(path, LONGEST_TEXT, &text, &size, error);
+    if (status != FST_OK)
+        return status;
+    int document = 0;
+    for (size_t at = strspn(text, SPACES); at < size && status == FST_OK; at += strspn(text + at, SPACES)) {
+        json_error_t why;
+        json_t *run = json_loadb(text + at, size - at, JSON_DISABLE_EOF_CHECK, &why);
+        ++document;
+        if (!run)
+            status = fst_fail(error, FST_BAD_INPUT, path, "document %d is no JSON: %s", document, why.text);
+        else if (!add_dot(run, key, observable, dots, count))
+            status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+        else
+            at += (size_t)why.position;
         json_decref(run);
     }
-    (void)fclose(in);
+    free(text);
     if (status == FST_OK && *count == 0)
         status = fst_fail(error, FST_BAD_INPUT, path,
                           "no document of festoon run --json with %s and %s is in it", key, observable);

@@ -21,21 +21,30 @@ typedef struct export_job {
 
 /* ------------------------------------------------------------------ CSV */
 
+/* Texts of a file go to terminals: they pass as one line without control characters. */
 static void write_quoted(FILE *out, const char *text)
 {
+    char *tame = strdup(text ? text : "");
     (void)fputc('"', out);
-    for (; *text; ++text) {
-        if (*text == '"')
+    if (tame)
+        fst_text_tame(tame);
+    for (const char *c = tame; c && *c; ++c) {
+        if (*c == '"')
             (void)fputc('"', out);
-        (void)fputc(*text, out);
+        (void)fputc(*c, out);
     }
     (void)fputc('"', out);
+    free(tame);
 }
 
 static void csv_head(export_job *job)
 {
-    for (int i = 0; i < job->columns; ++i)
-        (void)fprintf(job->stream, "%s%s", i ? "," : "", sqlite3_column_name(job->rows, i));
+    for (int i = 0; i < job->columns; ++i) {
+        char name[128];
+        (void)snprintf(name, sizeof name, "%s", sqlite3_column_name(job->rows, i));
+        fst_text_tame(name);
+        (void)fprintf(job->stream, "%s%s", i ? "," : "", name);
+    }
     (void)fputc('\n', job->stream);
 }
 
