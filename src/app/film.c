@@ -191,8 +191,8 @@ static fst_status make_frames(film *f, fst_error *error)
     double begin = m->drive_turns[m->first], turns = m->drive_turns[m->last] - begin;
     const double count = 1.0 + floor(turns * o->seconds_per_turn * o->fps + 1e-9);
     if (!(count <= MOST_FRAMES))
-        return fst_fail(error, FST_BAD_INPUT, "film", "%.6g frames are too many: at most %d; take a shorter part",
-                        count, MOST_FRAMES);
+        return fst_fail(error, FST_BAD_INPUT, "film",
+                        "%.6g frames are too many: at most %d; take a shorter part", count, MOST_FRAMES);
     f->frames = (int)count;
     for (int i = 0; i < f->frames; i++) {
         fst_film_frame frame = {.clock = NULL};
@@ -251,7 +251,7 @@ static fst_status frames_into_process(film *f, const char *out, const char *form
     if (status != FST_OK)
         return status;
     status = fst_ffmpeg_start(&f->process, f->stage.width, f->stage.height, f->options->fps, format,
-                              file.temporary, error);
+                              file.temporary, out, error);
     if (status == FST_OK) {
         status = make_frames(f, error);
         /* Where the process failed, its words say more than that it took no frames. */

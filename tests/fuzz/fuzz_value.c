@@ -10,7 +10,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { MOST_TEXT = 1024 };
+enum { MOST_TEXT = 256 };
 
 /* A number with a unit, read as each kind of quantity. */
 static void check_units(const char *text)

@@ -28,7 +28,8 @@ BUILD = os.path.abspath(os.environ.get("BUILD_DIR", os.path.join(SOURCE, "build"
 FESTOON = os.environ.get("FESTOON", os.path.join(BUILD, "festoon"))
 
 # Shares of the executions: an execution of the first ones takes microseconds, one of the last ones opens files.
-SHARES = {"scene": 0.30, "value": 0.42, "over": 0.12, "csv": 0.12, "branch": 0.035, "sweep": 0.005}
+SHARES = {"scene": 0.40, "csv": 0.30, "value": 0.20, "over": 0.07, "branch": 0.028, "sweep": 0.002}
+LENGTHS = {"scene": 2048, "csv": 4096, "value": 200, "over": 400, "branch": 4096, "sweep": 16384}
 WHAT = {"scene": "scenes (YAML)", "value": "settings: keys, numbers, units", "over": "axes of sweeps (--over)",
         "csv": "trajectories (CSV)", "branch": "branches (JSON)", "sweep": "databases of sweeps (SQLite)"}
 BATCHES = 20
@@ -96,7 +97,7 @@ def fuzz(work, name, runs, env):
     os.makedirs(findings, exist_ok=True)
     before = set(os.listdir(findings))
     result = run(os.path.join(work, "fuzz_" + name), corpus, f"-runs={runs}", "-timeout=10", "-rss_limit_mb=2048",
-                 "-max_len=16384" if name == "sweep" else "-max_len=4096", "-print_final_stats=1",
+                 f"-max_len={LENGTHS[name]}", "-print_final_stats=1",
                  "-artifact_prefix=" + findings, cwd=work, env=env)
     text = result.stdout.decode(errors="replace")
     counts = [int(line.split()[-1]) for line in text.splitlines() if "number_of_executed_units" in line]
