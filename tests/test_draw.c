@@ -157,7 +157,11 @@ static void the_script_draws_the_figure_again(void **state)
     options.colour = "slip";
     /* A name with all that a shell or gnuplot might take for something else. */
     assert_int_equal(fst_figure_trajectory(&table, inside("-it's a $(figure).svg"), &options, NULL), FST_OK);
-    assert_int_equal(fst_gnuplot_run(directory, "-it's a $(figure).gp", "it's again.svg", NULL), FST_OK);
+    FILE *other = fopen(inside("it's again.svg"), "w");
+    assert_non_null(other);
+    assert_int_equal(fst_gnuplot_run(directory, "-it's a $(figure).gp", "-it's a $(figure).dat", other, NULL),
+                     FST_OK);
+    assert_int_equal(fclose(other), 0);
     size_t size, size_again;
     char *first = contents("-it's a $(figure).svg", &size);
     char *again = contents("it's again.svg", &size_again);
@@ -244,9 +248,12 @@ static void much_output_does_not_block(void **state)
     (void)state;
     fst_error error;
     pretend_gnuplot(
-        "i=0; while [ $i -lt 3000 ]; do echo 'a line of some length, again and again'; i=$((i+1)); done; "
+        "i=0; while [ $i -lt 3000 ]; do echo 'a line of some length, again and again' >&2; i=$((i+1)); done; "
         "cat; exit 1");
-    assert_int_equal(fst_gnuplot_run(directory, "none.gp", "none.svg", &error), FST_IO);
+    FILE *other = fopen(inside("none.svg"), "w");
+    assert_non_null(other);
+    assert_int_equal(fst_gnuplot_run(directory, "none.gp", "none.dat", other, &error), FST_IO);
+    assert_int_equal(fclose(other), 0);
     assert_non_null(strstr(error.sentence, "again and again"));
 }
 

@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "base/whole_file.h"
 #include "draw/ffmpeg.h"
+#include "draw/film_file.h"
 #include "draw/style.h"
 #include "io/module.h"
 
@@ -24,6 +25,7 @@ enum {
     USUAL_SIZE = 720,
     LEAST_SIZE = 160,
     GREATEST_SIZE = 4096,
+    MOST_FRAMES = 1000000,
     FRAME_PATH = 4160
 };
 
@@ -160,8 +162,16 @@ static fst_status give_frame(film *f, int index, fst_error *error)
 {
     if (f->folder[0]) {
         char path[FRAME_PATH];
+        fst_whole_file file;
         name_frame(f, index, path);
-        return f->module->write_png(f->canvas, path, error);
+        fst_status written = fst_whole_file_open_next(&file, path, error);
+        if (written != FST_OK)
+            return written;
+        written = f->module->write_png(f->canvas, file.stream, error);
+        if (written == FST_OK)
+            return fst_whole_file_commit(&file, error);
+        fst_whole_file_discard(&file);
+        return written;
     }
     int stride;
     const unsigned char *pixels = f->module->pixels(f->canvas, &stride);
@@ -179,7 +189,11 @@ static fst_status make_frames(film *f, fst_error *error)
     fst_film_motion *m = &f->motion;
     const fst_film_options *o = f->options;
     double begin = m->drive_turns[m->first], turns = m->drive_turns[m->last] - begin;
-    f->frames = 1 + (int)floor(turns * o->seconds_per_turn * o->fps + 1e-9);
+    const double count = 1.0 + floor(turns * o->seconds_per_turn * o->fps + 1e-9);
+    if (!(count <= MOST_FRAMES))
+        return fst_fail(error, FST_BAD_INPUT, "film",
+                        "%.6g frames are too many: at most %d; take a shorter part", count, MOST_FRAMES);
+    f->frames = (int)count;
     for (int i = 0; i < f->frames; i++) {
         fst_film_frame frame = {.clock = NULL};
         char clock[64];
@@ -225,6 +239,7 @@ static fst_status frames_into_folder(film *f, const char *folder, fst_error *err
     if (mkdir(folder, 0777) != 0 && !(errno == EEXIST && stat(folder, &there) == 0 && S_ISDIR(there.st_mode)))
         return fst_fail(error, errno == EEXIST ? FST_BAD_INPUT : FST_IO, folder,
                         "cannot make this folder for the frames: %s", strerror(errno));
+    fst_whole_file_tidy(folder, ".frame-");
     fst_status status = make_frames(f, error);
     return status == FST_OK ? remove_further_frames(f, error) : status;
 }
@@ -236,13 +251,15 @@ static fst_status frames_into_process(film *f, const char *out, const char *form
     if (status != FST_OK)
         return status;
     status = fst_ffmpeg_start(&f->process, f->stage.width, f->stage.height, f->options->fps, format,
-                              file.temporary, error);
+                              file.temporary, out, error);
     if (status == FST_OK) {
         status = make_frames(f, error);
         /* Where the process failed, its words say more than that it took no frames. */
         fst_status ended = fst_ffmpeg_end(&f->process, status != FST_OK && status != FST_IO, error);
         if (status == FST_OK)
             status = ended;
+        if (status == FST_OK)
+            status = fst_film_file_check(file.temporary, format, f->frames, out, error);
     }
     if (status == FST_OK)
         return fst_whole_file_commit(&file, error);

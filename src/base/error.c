@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/text.h"
+
 fst_status fst_fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
 {
     if (!error)
@@ -16,6 +18,9 @@ fst_status fst_fail(fst_error *error, fst_status code, const char *where, const 
     /* The format may quote the old error's text, so both fields are replaced only now. */
     char place[sizeof error->where];
     (void)snprintf(place, sizeof place, "%s", where ? where : "");
+    /* Both may quote a file's words or its name, and go to a terminal. */
+    fst_text_tame(place);
+    fst_text_tame(sentence);
     error->code = code;
     memcpy(error->where, place, sizeof place);
     memcpy(error->sentence, sentence, sizeof sentence);

@@ -10,8 +10,9 @@ static void print_text(FILE *out, const char *path, const fst_model *model, cons
                        const char *scene)
 {
     const fst_groups groups = fst_model_groups(model);
-    (void)fprintf(out, "%s is a good scene.\n\nIn SI:\n%s\nScaled:\n", path ? path : "The default scene",
-                  scene);
+    char name[SHOWN_SIZE];
+    (void)fprintf(out, "%s is a good scene.\n\nIn SI:\n%s\nScaled:\n",
+                  path ? shown(path, name) : "The default scene", scene);
     print_groups(out, &groups);
     (void)fprintf(out, "\nStart state (X Y vX vY nX nY nZ WX WY WZ):\n ");
     for (int i = 0; i < FST_STATE_SIZE; i++)

@@ -48,6 +48,13 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
 /* Print a text made by the library, and free it; NULL is FST_NO_MEMORY. */
 fst_status print_and_free(char *text, FILE *out, fst_error *error);
 
+/* A file's name fit for a terminal; returns `text`. */
+#define SHOWN_SIZE 4200
+const char *shown(const char *path, char text[SHOWN_SIZE]);
+
+/* "wrote PATH" with a remark behind it, on standard error. */
+void tell_written(const char *path, const char *remark);
+
 /* Read exactly `count` numbers separated by commas. */
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,
                         fst_error *error);

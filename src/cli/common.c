@@ -12,6 +12,8 @@ fst_status fail(fst_error *error, fst_status code, const char *where, const char
     (void)vsnprintf(error->sentence, sizeof error->sentence, format, values);
     va_end(values);
     (void)snprintf(error->where, sizeof error->where, "%s", where);
+    fst_text_tame(error->sentence);
+    fst_text_tame(error->where);
     error->code = code;
     return code;
 }
@@ -77,6 +79,19 @@ fst_status print_and_free(char *text, FILE *out, fst_error *error)
     (void)fputs(text, out);
     free(text);
     return FST_OK;
+}
+
+const char *shown(const char *path, char text[SHOWN_SIZE])
+{
+    (void)snprintf(text, SHOWN_SIZE, "%s", path);
+    fst_text_tame(text);
+    return text;
+}
+
+void tell_written(const char *path, const char *remark)
+{
+    char text[SHOWN_SIZE];
+    (void)fprintf(stderr, "wrote %s%s\n", shown(path, text), remark);
 }
 
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count, fst_error *error)

@@ -25,7 +25,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     const char *to = option_value(given, "output");
     fst_status status = fst_sweep_export(operand(given), (fst_export_format)chosen, to, out, error);
     if (status == FST_OK && to)
-        (void)fprintf(stderr, "wrote %s\n", to);
+        tell_written(to, "");
     return status;
 }
 

@@ -59,7 +59,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status == FST_OK && figure)
         status = fst_figure_field(&params, figure, error);
     if (status == FST_OK && figure)
-        (void)fprintf(stderr, "wrote %s\n", figure);
+        tell_written(figure, "");
     return status;
 }
 

@@ -24,8 +24,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     status = fst_scene_write(path, &params, 1, force, error);
     if (status == FST_BAD_INPUT && !force && strstr(error->sentence, "already"))
         return fail(error, FST_BAD_INPUT, path, "this file is there already; --force overwrites it");
+    char text[SHOWN_SIZE], remark[SHOWN_SIZE + 40];
+    (void)snprintf(remark, sizeof remark, "; run it with: festoon run %s", shown(path, text));
     if (status == FST_OK)
-        (void)fprintf(stderr, "wrote %s; run it with: festoon run %s\n", path, path);
+        tell_written(path, remark);
     return status;
 }
 

@@ -80,7 +80,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     status = fst_film(&table, to, &film, error);
     progress_end(&line);
     if (status == FST_OK)
-        (void)fprintf(stderr, "wrote %s%s\n", to, table.complete ? "" : " (of an interrupted run)");
+        tell_written(to, table.complete ? "" : " (of an interrupted run)");
     fst_table_free(&table);
     return status;
 }

@@ -65,9 +65,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         (void)fputs(summary, out);
     free(summary);
     if (status == FST_OK && directory)
-        (void)fprintf(stderr, "wrote %s/report.html\n", directory);
-    else if (status == FST_INTERRUPTED && directory)
-        (void)fprintf(stderr, "%s/report.html has what was done until then, marked incomplete\n", directory);
+        tell_written(directory, "/report.html");
+    char text[SHOWN_SIZE];
+    if (status == FST_INTERRUPTED && directory)
+        (void)fprintf(stderr, "%s/report.html has what was done until then, marked incomplete\n",
+                      shown(directory, text));
     return status;
 }
 

@@ -119,7 +119,7 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     if (status == FST_OK)
         status = fst_figure_branch(&branch, observable, dots, dot_count, to, error);
     if (status == FST_OK)
-        (void)fprintf(stderr, "wrote %s\n", to);
+        tell_written(to, "");
     free(dots);
     fst_branch_free(&branch);
     return status;
@@ -154,7 +154,7 @@ static fst_status plot_sweep(const arguments *given, const char *path, const cha
     }
     fst_status status = fst_figure_sweep(path, keys, count, units, to, error);
     if (status == FST_OK)
-        (void)fprintf(stderr, "wrote %s\n", to);
+        tell_written(to, "");
     return status;
 }
 
@@ -181,7 +181,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return status;
     status = fst_figure_trajectory(&table, to, &figure, error);
     if (status == FST_OK)
-        (void)fprintf(stderr, "wrote %s%s\n", to, table.complete ? "" : " (of an interrupted run)");
+        tell_written(to, table.complete ? "" : " (of an interrupted run)");
     fst_table_free(&table);
     return status;
 }

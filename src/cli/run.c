@@ -139,7 +139,7 @@ static fst_status close_files(run_outputs *outputs, fst_status status, const fst
         if (closed != FST_OK)
             status = closed;
         else
-            (void)fprintf(stderr, "wrote %s%s\n", outputs->paths[i], status == FST_OK ? "" : " (incomplete)");
+            tell_written(outputs->paths[i], status == FST_OK ? "" : " (incomplete)");
     }
     return status;
 }

@@ -109,6 +109,8 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_progress *p
             p->processor_seconds, p->journal_seconds);
         return;
     }
+    char name[SHOWN_SIZE];
+    path = shown(path, name);
     (void)fprintf(out, "%s: all %lld points", path, (long long)p->points);
     if (p->added < p->points)
         (void)fprintf(out, ", %lld of them new", (long long)p->added);

@@ -46,10 +46,12 @@ void terminal_prepare(void)
     (void)sigemptyset(&action.sa_mask);
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
-    /* A closed pipe is a failed write, with a message and status 1. */
+    /* A closed pipe, and a file that grows over the limit of ulimit -f, are failed writes, with a message and
+     * status 1. */
     struct sigaction ignore = {.sa_handler = SIG_IGN};
     (void)sigemptyset(&ignore.sa_mask);
     (void)sigaction(SIGPIPE, &ignore, NULL);
+    (void)sigaction(SIGXFSZ, &ignore, NULL);
 }
 
 int interrupted(void)
@@ -121,15 +123,18 @@ void progress_end(progress_line *line)
         (void)fputs("\r\033[K", stderr);
 }
 
-/* 0, or errno. */
-static int write_all(const char *text, size_t size)
+/* 0, or errno; -1: a reader such as head(1) took a part and wants no more, which is no failure. */
+static int write_all(const char *text, size_t size, int *some)
 {
     while (size > 0) {
         ssize_t written = write(STDOUT_FILENO, text, size);
         if (written < 0 && errno == EINTR)
             continue;
-        if (written < 0)
-            return errno;
+        if (written < 0 && errno == EPIPE && *some)
+            return -1;
+        if (written <= 0)
+            return written < 0 ? errno : ENOSPC;
+        *some = 1;
         text += written;
         size -= (size_t)written;
     }
@@ -139,12 +144,14 @@ static int write_all(const char *text, size_t size)
 /* Some file systems tell only now that the disk is full. */
 static int end_standard_output(int reason)
 {
-    return close(STDOUT_FILENO) != 0 && reason == 0 ? errno : reason;
+    const int failed = close(STDOUT_FILENO) != 0 ? errno : 0;
+    return reason > 0 ? reason : reason < 0 ? 0 : failed == EINTR ? 0 : failed;
 }
 
 int write_standard_output(const char *text, size_t size)
 {
-    return end_standard_output(write_all(text, size));
+    int some = 0;
+    return end_standard_output(write_all(text, size, &some));
 }
 
 FILE *spool_open(void)
@@ -166,10 +173,10 @@ int spool_to_standard_output(FILE *spool)
 {
     char piece[65536];
     size_t size;
-    int reason = 0;
+    int reason = 0, some = 0;
     rewind(spool);
     while (reason == 0 && (size = fread(piece, 1, sizeof piece, spool)) > 0)
-        reason = write_all(piece, size);
+        reason = write_all(piece, size, &some);
     if (reason == 0 && ferror(spool))
         reason = EIO;
     return end_standard_output(reason);

@@ -300,12 +300,18 @@ static const unsigned char *pixels(fst_film_canvas *canvas, int *stride)
     return cairo_image_surface_get_data(canvas->surface);
 }
 
-static fst_status write_png(fst_film_canvas *canvas, const char *path, fst_error *error)
+static cairo_status_t write_bytes(void *out, const unsigned char *bytes, unsigned size)
 {
-    cairo_status_t status = cairo_surface_write_to_png(canvas->surface, path);
-    if (status == CAIRO_STATUS_SUCCESS)
+    return fwrite(bytes, 1, size, out) == size ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+}
+
+static fst_status write_png(fst_film_canvas *canvas, FILE *out, fst_error *error)
+{
+    const cairo_status_t status = cairo_surface_write_to_png_stream(canvas->surface, write_bytes, out);
+    if (status == CAIRO_STATUS_SUCCESS || status == CAIRO_STATUS_WRITE_ERROR)
         return FST_OK;
-    return fst_fail(error, FST_IO, path, "this frame cannot be written: %s", cairo_status_to_string(status));
+    return fst_fail(error, status == CAIRO_STATUS_NO_MEMORY ? FST_NO_MEMORY : FST_IO, "film",
+                    "a frame cannot be painted: %s", cairo_status_to_string(status));
 }
 
 FST_API extern const fst_film_module_table fst_film_module;

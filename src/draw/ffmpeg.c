@@ -1,4 +1,4 @@
-#define _GNU_SOURCE /* pipe2 */
+#define _GNU_SOURCE /* pipe2, strsignal */
 
 #include "draw/ffmpeg.h"
 
@@ -7,6 +7,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -14,18 +15,21 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { WORDS_SIZE = 512, MOST_ARGUMENTS = 40 };
+enum { MOST_ARGUMENTS = 40 };
 
 fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps, const char *format,
-                            const char *out, fst_error *error)
+                            const char *out, const char *name, fst_error *error)
 {
+    film->name = name;
+    film->said_size = 0;
+    film->said[0] = '\0';
     /* posix_spawn wants writable words, and touches none of them. */
     char size[32], rate[32], file[4096], kind[8];
     (void)snprintf(size, sizeof size, "%dx%d", width, height);
     (void)snprintf(rate, sizeof rate, "%.6g", fps);
     (void)snprintf(kind, sizeof kind, "%s", format);
     if (snprintf(file, sizeof file, "file:%s", out) >= (int)sizeof file)
-        return fst_fail(error, FST_BAD_INPUT, out, "the file name is too long");
+        return fst_fail(error, FST_BAD_INPUT, name, "the file name is too long");
     static const char *const mp4[] = {"-c:v",     "libx264", "-preset",   "veryfast",   "-crf", "20",
                                       "-pix_fmt", "yuv420p", "-movflags", "+faststart", NULL};
     static const char *const gif[] = {
@@ -42,11 +46,11 @@ fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps,
     int input[2], words[2];
     /* A socket, because send() can be told to raise no SIGPIPE when ffmpeg dies. */
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0)
-        return fst_fail(error, FST_IO, out, "no socket to ffmpeg: %s", strerror(errno));
+        return fst_fail(error, FST_IO, name, "no socket to ffmpeg: %s", strerror(errno));
     if (pipe2(words, O_CLOEXEC) != 0) {
         (void)close(input[0]);
         (void)close(input[1]);
-        return fst_fail(error, FST_IO, out, "no pipe from ffmpeg: %s", strerror(errno));
+        return fst_fail(error, FST_IO, name, "no pipe from ffmpeg: %s", strerror(errno));
     }
     char *writable[MOST_ARGUMENTS];
     memcpy(writable, arguments, sizeof writable);
@@ -61,49 +65,50 @@ fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps,
     (void)close(input[0]);
     (void)close(words[0]);
     if (failed == ENOENT)
-        return fst_fail(error, FST_UNAVAILABLE, out,
+        return fst_fail(error, FST_UNAVAILABLE, name,
                         "films need ffmpeg, which is not installed: install the package ffmpeg");
-    return fst_fail(error, FST_IO, out, "cannot start ffmpeg: %s", strerror(failed));
+    return fst_fail(error, FST_IO, name, "cannot start ffmpeg: %s", strerror(failed));
+}
+
+/* Keep the beginning of what it says, on one line; 0 once it says no more. */
+static int hear(fst_ffmpeg *film)
+{
+    char piece[512];
+    const ssize_t got = read(film->words, piece, sizeof piece);
+    for (ssize_t i = 0; i < got && film->said_size + 1 < sizeof film->said; i++)
+        film->said[film->said_size++] = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
+    film->said[film->said_size] = '\0';
+    return got > 0 || (got < 0 && errno == EINTR);
 }
 
 fst_status fst_ffmpeg_frame(fst_ffmpeg *film, const unsigned char *bytes, size_t size, fst_error *error)
 {
+    /* It must be heard meanwhile: a process whose complaints nobody takes waits for ever. */
+    struct pollfd ends[2] = {{.fd = film->frames, .events = POLLOUT}, {.fd = film->words, .events = POLLIN}};
     while (size > 0) {
-        ssize_t sent = send(film->frames, bytes, size, MSG_NOSIGNAL);
-        if (sent < 0 && errno == EINTR)
-            continue;
-        if (sent <= 0)
-            return fst_fail(error, FST_IO, "ffmpeg", "it takes no more frames: %s", strerror(errno));
-        bytes += sent;
-        size -= (size_t)sent;
+        if (poll(ends, 2, -1) < 0 && errno != EINTR)
+            return fst_fail(error, FST_IO, film->name, "cannot wait for ffmpeg: %s", strerror(errno));
+        if (ends[1].revents && !hear(film))
+            ends[1].fd = -1;
+        const ssize_t sent = ends[0].revents ? send(film->frames, bytes, size, MSG_NOSIGNAL | MSG_DONTWAIT) : 0;
+        if (sent < 0 && errno != EINTR && errno != EAGAIN)
+            return fst_fail(error, FST_IO, film->name, "ffmpeg takes no more frames: %s", strerror(errno));
+        if (sent > 0) {
+            bytes += sent;
+            size -= (size_t)sent;
+        }
     }
     return FST_OK;
 }
 
-/* Its last words on one line. */
-static void listen_to(int input, char *words, size_t size)
-{
-    size_t kept = 0;
-    for (;;) {
-        char piece[512];
-        ssize_t got = read(input, piece, sizeof piece);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            break;
-        for (ssize_t i = 0; i < got && kept + 1 < size; i++)
-            words[kept++] = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
-    }
-    words[kept] = '\0';
-}
-
 fst_status fst_ffmpeg_end(fst_ffmpeg *film, int abandon, fst_error *error)
 {
-    char words[WORDS_SIZE];
+    const char *words = film->said;
     if (abandon)
         (void)kill(film->child, SIGKILL);
     (void)close(film->frames);
-    listen_to(film->words, words, sizeof words);
+    while (hear(film))
+        continue;
     (void)close(film->words);
     int outcome = 0;
     pid_t done;
@@ -112,7 +117,11 @@ fst_status fst_ffmpeg_end(fst_ffmpeg *film, int abandon, fst_error *error)
     while (done < 0 && errno == EINTR);
     if (abandon)
         return FST_OK;
-    if (done == film->child && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0)
+    /* Told to speak of errors only, it is silent when all is well; its status is 0 even on a full disk. */
+    if (done == film->child && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0 && !words[0])
         return FST_OK;
-    return fst_fail(error, FST_IO, "ffmpeg", "it failed: %s", words[0] ? words : "it said nothing");
+    if (done == film->child && WIFSIGNALED(outcome))
+        return fst_fail(error, FST_IO, film->name, "ffmpeg was ended by the signal %d (%s) %s",
+                        WTERMSIG(outcome), strsignal(WTERMSIG(outcome)), words);
+    return fst_fail(error, FST_IO, film->name, "ffmpeg failed: %s", words[0] ? words : "it said nothing");
 }

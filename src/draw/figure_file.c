@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ------------------------------------------------------------------ names */
 
@@ -57,17 +58,13 @@ static char *beside(const fst_figure_file *figure, const char *ending)
 
 void fst_figure_quote(fst_figure_file *figure, const char *text)
 {
-    (void)fputc('\'', figure->script);
-    for (const char *c = text; *c; c++) {
-        if (*c == '\'')
-            (void)fputc('\'', figure->script);
-        (void)fputc(*c, figure->script);
-    }
-    (void)fputc('\'', figure->script);
+    fst_gnuplot_quote(figure->script, text);
 }
 
+/* A file beside the script, by a name that means no more than a file. */
 static void quote_name(fst_figure_file *figure, const char *ending)
 {
+    (void)fputs("'./'.", figure->script);
     fst_figure_quote(figure, figure->stem);
     (void)fprintf(figure->script, ".'.%s'", ending);
 }
@@ -97,13 +94,13 @@ static void write_head(fst_figure_file *figure, int width, int height)
                   "# Made by festoon %s.  gnuplot, run in this directory on this script, draws the\n"
                   "# figure again; -e \"figure='OTHER'\" before it draws into another file.\n",
                   fst_version());
-    (void)fputs("data = ", script);
+    (void)fputs("if (!exists('data')) data = ", script);
     quote_name(figure, "dat");
     (void)fputs("\nif (!exists('figure')) figure = ", script);
     quote_name(figure, figure->ending);
     (void)fputs("\nset encoding utf8\nset datafile missing 'nan'\n", script);
     write_terminal(figure, width, height);
-    (void)fputs("set output figure\n"
+    (void)fputs("if (figure ne '') set output figure\n"
                 "set border lc rgb '#333333' lw 1\n"
                 "set tics textcolor rgb '#333333' nomirror\n"
                 "set style line 101 lc rgb '#e4e4e4' lw 1\n",
@@ -146,70 +143,86 @@ fst_status fst_figure_begin(fst_figure_file *figure, const char *out, int width,
     return FST_OK;
 }
 
+static void write_comment(FILE *out, const char *text)
+{
+    char line[256];
+    (void)snprintf(line, sizeof line, "%s", text);
+    fst_text_tame(line);
+    (void)fprintf(out, "# %s\n", line);
+}
+
 void fst_figure_block(fst_figure_file *figure, const char *name, const char *columns)
 {
     /* Two empty lines end a block; the comment right before a block is the name that `index` looks for. */
     if (ftell(figure->data) > 0)
         (void)fputs("\n\n", figure->data);
-    (void)fprintf(figure->data, "# %s\n# %s\n", name, columns);
+    write_comment(figure->data, name);
+    write_comment(figure->data, columns);
 }
 
-/* gnuplot does not report a full disk: the figure's last bytes tell whether it is complete. */
-static int is_complete(const char *path, const char *ending)
+/* A gnuplot that was stopped half way may still say that all is well: the figure's last bytes tell whether it
+ * is complete. */
+static int is_complete(const fst_whole_file *file, const char *ending)
 {
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return 0;
-    char tail[65] = {0};
-    size_t got = 0;
-    if (fseek(file, -64, SEEK_END) == 0)
-        got = fread(tail, 1, 64, file);
-    (void)fclose(file);
+    char tail[64];
+    const int descriptor = fst_whole_file_descriptor(file);
+    const off_t size = lseek(descriptor, 0, SEEK_END), from = size > 64 ? size - 64 : 0;
+    const ssize_t got = size > 0 ? pread(descriptor, tail, sizeof tail, from) : 0;
     const char *mark = !strcmp(ending, "svg") ? "</svg>" : !strcmp(ending, "pdf") ? "%%EOF" : "IEND";
-    size_t length = strlen(mark);
-    for (size_t i = 0; i + length <= got; i++)
+    const size_t length = strlen(mark);
+    for (size_t i = 0; got > 0 && i + length <= (size_t)got; i++)
         if (memcmp(tail + i, mark, length) == 0)
             return 1;
     return 0;
 }
 
-/* Draw into a temporary file, which takes the figure's place once it is complete. */
-static fst_status draw(const fst_figure_file *figure, fst_error *error)
+/* The script, its data and the figure, each under a temporary name until all of them are on the disk. */
+enum { DATA, SCRIPT, FIGURE, FILES };
+
+/* How gnuplot, which runs in the figure's directory, calls a temporary file. */
+static const char *name_there(const fst_whole_file *file)
 {
-    fst_whole_file file;
-    fst_status status = fst_whole_file_open(&file, figure->out, error);
-    if (status != FST_OK)
-        return status;
-    (void)fclose(file.stream);
-    file.stream = NULL;
-    /* gnuplot runs in the figure's directory, and there a relative name is just the file's own. */
-    const char *slash = strrchr(file.temporary, '/');
-    const char *name = slash && file.temporary[0] != '/' ? slash + 1 : file.temporary;
-    char *script = malloc(strlen(figure->stem) + sizeof ".gp");
-    if (script) {
-        (void)sprintf(script, "%s.gp", figure->stem);
-        status = fst_gnuplot_run(figure->directory, script, name, error);
-    } else {
-        status = fst_fail(error, FST_NO_MEMORY, figure->out, "no memory for a file name");
-    }
-    free(script);
-    if (status == FST_OK && !is_complete(file.temporary, figure->ending))
-        status = fst_fail(error, FST_IO, figure->out, "gnuplot left an incomplete figure: is the disk full?");
+    const char *slash = strrchr(file->temporary, '/');
+    return slash && file->temporary[0] != '/' ? slash + 1 : file->temporary;
+}
+
+static fst_status draw(const fst_figure_file *figure, fst_whole_file files[FILES], fst_error *error)
+{
+    (void)fwrite(figure->data_text, 1, figure->data_size, files[DATA].stream);
+    (void)fwrite(figure->script_text, 1, figure->script_size, files[SCRIPT].stream);
+    fst_status status = fst_whole_file_sync(&files[DATA], error);
     if (status == FST_OK)
-        return fst_whole_file_commit(&file, error);
-    fst_whole_file_discard(&file);
+        status = fst_whole_file_sync(&files[SCRIPT], error);
+    if (status == FST_OK)
+        status = fst_gnuplot_run(figure->directory, name_there(&files[SCRIPT]), name_there(&files[DATA]),
+                                 files[FIGURE].stream, error);
+    if (status != FST_OK && error) { /* the script's temporary name tells nobody anything */
+        (void)snprintf(error->where, sizeof error->where, "%s", figure->out);
+        fst_text_tame(error->where);
+    }
+    if (status == FST_OK)
+        status = fst_whole_file_sync(&files[FIGURE], error);
+    if (status == FST_OK && !is_complete(&files[FIGURE], figure->ending))
+        status = fst_fail(error, FST_IO, figure->out, "gnuplot left an incomplete figure");
     return status;
 }
 
-/* Write `size` bytes to `path`. */
-static fst_status write_beside(const char *path, const char *bytes, size_t size, fst_error *error)
+static fst_status write_files(const fst_figure_file *figure, const char *const paths[FILES], fst_error *error)
 {
-    fst_whole_file file;
-    fst_status status = fst_whole_file_open(&file, path, error);
-    if (status != FST_OK)
-        return status;
-    (void)fwrite(bytes, 1, size, file.stream);
-    return fst_whole_file_commit(&file, error);
+    fst_whole_file files[FILES];
+    fst_status status = FST_OK;
+    int opened = 0, committed = 0;
+    while (opened < FILES && status == FST_OK) {
+        status = fst_whole_file_open(&files[opened], paths[opened], error);
+        opened += status == FST_OK;
+    }
+    if (status == FST_OK)
+        status = draw(figure, files, error);
+    for (; committed < FILES && status == FST_OK; committed++)
+        status = fst_whole_file_commit(&files[committed], error);
+    for (int i = committed; i < opened; i++)
+        fst_whole_file_discard(&files[i]);
+    return status;
 }
 
 /* Close a memory stream; 1 if everything went into it. */
@@ -231,12 +244,9 @@ fst_status fst_figure_finish(fst_figure_file *figure, fst_error *error)
     fst_status status = FST_OK;
     if (!good || !script || !data)
         status = fst_fail(error, FST_NO_MEMORY, figure->out, "no memory for a figure");
+    const char *const paths[FILES] = {[DATA] = data, [SCRIPT] = script, [FIGURE] = figure->out};
     if (status == FST_OK)
-        status = write_beside(data, figure->data_text, figure->data_size, error);
-    if (status == FST_OK)
-        status = write_beside(script, figure->script_text, figure->script_size, error);
-    if (status == FST_OK)
-        status = draw(figure, error);
+        status = write_files(figure, paths, error);
     free(script);
     free(data);
     release(figure);

@@ -6,6 +6,8 @@
 
 #include <festoon/festoon.h>
 
+#include <stdio.h>
+
 /* What the whole film has in common.  Lengths are in mm. */
 typedef struct fst_film_stage {
     int width, height;        /* pixels, both even */
@@ -41,7 +43,8 @@ typedef struct fst_film_module_table {
     /* Rows of pixels from the top, four bytes each in the order blue, green, red, unused, `*stride` bytes a
      * row. */
     const unsigned char *(*pixels)(fst_film_canvas *canvas, int *stride);
-    fst_status (*write_png)(fst_film_canvas *canvas, const char *path, fst_error *error);
+    /* A failed write shows at the stream. */
+    fst_status (*write_png)(fst_film_canvas *canvas, FILE *out, fst_error *error);
     void (*close)(fst_film_canvas *canvas);
 } fst_film_module_table;
 

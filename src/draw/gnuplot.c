@@ -1,13 +1,13 @@
-#define _GNU_SOURCE /* pipe2 */
+#define _GNU_SOURCE /* pipe2, strsignal */
 
 #include "draw/gnuplot.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "draw/process.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <limits.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdio.h>
@@ -26,34 +26,47 @@ static long long milliseconds(void)
     return (long long)now.tv_sec * 1000 + now.tv_nsec / 1000000;
 }
 
-/* Read until the other end closes or the deadline passes; keep the beginning, on one line. */
-static void listen_to(int input, long long deadline, char *words, size_t size)
+/* What gnuplot says: its beginning, on one line. */
+typedef struct last_words {
+    char text[WORDS_SIZE];
+    size_t kept;
+} last_words;
+
+static void keep_words(last_words *words, const char *piece, size_t size)
 {
-    size_t kept = 0;
-    for (;;) {
-        long long left = deadline - milliseconds();
-        struct pollfd waiting = {.fd = input, .events = POLLIN};
+    for (size_t i = 0; i < size && words->kept + 1 < sizeof words->text; i++) {
+        const char c = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
+        /* gnuplot underlines the error's place with white space: one blank says enough. */
+        if (c != ' ' || (words->kept > 0 && words->text[words->kept - 1] != ' '))
+            words->text[words->kept++] = c;
+    }
+    words->text[words->kept] = '\0';
+}
+
+/* Take the figure from ends[0] and the words from ends[1] until both are closed or the deadline passes. */
+static void listen_to(const int ends[2], long long deadline, FILE *figure, last_words *words)
+{
+    struct pollfd waiting[2] = {{.fd = ends[0], .events = POLLIN}, {.fd = ends[1], .events = POLLIN}};
+    while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
+        const long long left = deadline - milliseconds();
         if (left <= 0)
-            break;
-        int ready = poll(&waiting, 1, (int)left);
-        if (ready < 0 && errno == EINTR)
-            continue;
-        if (ready <= 0)
-            break;
-        char piece[1024];
-        ssize_t got = read(input, piece, sizeof piece);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got <= 0)
-            break;
-        for (ssize_t i = 0; i < got && kept + 1 < size; i++) {
-            char c = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
-            /* gnuplot underlines the error's place with white space: one blank says enough. */
-            if (c != ' ' || (kept > 0 && words[kept - 1] != ' '))
-                words[kept++] = c;
+            return;
+        const int ready = poll(waiting, 2, (int)left);
+        if (ready < 0 && errno != EINTR)
+            return;
+        for (int i = 0; i < 2 && ready > 0; i++) {
+            char piece[16384];
+            if (!waiting[i].revents)
+                continue;
+            const ssize_t got = read(ends[i], piece, sizeof piece);
+            if (got > 0 && i == 0)
+                (void)fwrite(piece, 1, (size_t)got, figure); /* a failure shows when the file is synced */
+            else if (got > 0)
+                keep_words(words, piece, (size_t)got);
+            else if (got == 0 || errno != EINTR)
+                waiting[i].fd = -1;
         }
     }
-    words[kept] = '\0';
 }
 
 /* Wait for the child, and end it at the deadline; 1 if it had to be ended. */
@@ -77,47 +90,112 @@ static int wait_for(pid_t child, long long deadline, int *outcome)
     }
 }
 
-fst_status fst_gnuplot_run(const char *directory, const char *script, const char *figure, fst_error *error)
+void fst_gnuplot_quote(FILE *out, const char *text)
 {
-    /* Quotes in the name are doubled; "./" keeps a script that begins with a minus from being an option. */
-    char setting[2 * PATH_MAX], file[PATH_MAX];
-    size_t used = (size_t)snprintf(setting, sizeof setting, "figure='");
-    for (const char *c = figure; *c && used + 4 < sizeof setting; c++) {
+    char *tame = strdup(text);
+    (void)fputc('\'', out);
+    if (tame)
+        fst_text_tame(tame);
+    for (const char *c = tame; c && *c; c++) {
         if (*c == '\'')
-            setting[used++] = '\'';
-        setting[used++] = *c;
+            (void)fputc('\'', out);
+        (void)fputc(*c, out);
     }
-    (void)memcpy(setting + used, "'", 2);
-    if (used + 4 >= sizeof setting || snprintf(file, sizeof file, "./%s", script) >= (int)sizeof file)
-        return fst_fail(error, FST_BAD_INPUT, script, "the file name is too long");
-    char name[] = "gnuplot", defaults[] = "--default-settings", execute[] = "-e";
-    char *const arguments[] = {name, defaults, execute, setting, file, NULL};
+    (void)fputc('\'', out);
+    free(tame);
+}
 
-    int ends[2];
-    if (pipe2(ends, O_CLOEXEC) != 0)
-        return fst_fail(error, FST_IO, script, "no pipe to gnuplot: %s", strerror(errno));
-    long long deadline = milliseconds() + PATIENCE_MS;
-    pid_t child = 0;
-    const fst_process gnuplot = {"gnuplot", arguments, directory, -1, ends[1], ends[1]};
-    int failed = fst_process_start(&gnuplot, &child);
-    (void)close(ends[1]);
-    if (failed) {
-        (void)close(ends[0]);
-        if (failed == ENOENT)
-            return fst_fail(error, FST_UNAVAILABLE, script,
-                            "figures need gnuplot, which is not installed: install the package gnuplot-nox");
-        return fst_fail(error, FST_IO, script, "cannot start gnuplot: %s", strerror(failed));
+/* What gnuplot is told before the script: an empty name of the figure is the standard output.  "./" keeps a
+ * name from meaning more than a file ("< command" does); free() it. */
+static char *settings(const char *data)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    char *path = malloc(strlen(data) + sizeof "./");
+    if (out && path) {
+        (void)sprintf(path, "%s%s", data[0] == '/' ? "" : "./", data);
+        (void)fputs("figure=''; data=", out);
+        fst_gnuplot_quote(out, path);
     }
-    char words[WORDS_SIZE];
-    listen_to(ends[0], deadline, words, sizeof words);
-    (void)close(ends[0]);
-    int outcome = 0;
-    if (wait_for(child, deadline, &outcome))
-        return fst_fail(error, FST_IO, script, "gnuplot did not end within %d s", PATIENCE_MS / 1000);
+    free(path);
+    if (!out || fclose(out) != 0 || size < sizeof "figure=''; data=''") {
+        free(text);
+        return NULL;
+    }
+    return text;
+}
+
+/* Start it, with its outputs at the writing ends of the two pipes, which are closed here; 0 or an errno. */
+static int start(const char *directory, char *setting, char *script, int pipes[2][2], pid_t *child)
+{
+    char name[] = "gnuplot", defaults[] = "--default-settings", execute[] = "-e";
+    char *const arguments[] = {name, defaults, execute, setting, script, NULL};
+    const fst_process gnuplot = {"gnuplot", arguments, directory, -1, pipes[0][1], pipes[1][1]};
+    const int failed = fst_process_start(&gnuplot, child);
+    (void)close(pipes[0][1]);
+    (void)close(pipes[1][1]);
+    return failed;
+}
+
+static fst_status judge(int outcome, const char *script, const char *words, fst_error *error)
+{
     if (WIFEXITED(outcome) && WEXITSTATUS(outcome) == 127 && words[0] == '\0')
         return fst_fail(error, FST_UNAVAILABLE, script,
                         "figures need gnuplot, which could not be run: install the package gnuplot-nox");
+    if (WIFSIGNALED(outcome))
+        return fst_fail(error, FST_IO, script, "gnuplot was ended by the signal %d (%s) %s", WTERMSIG(outcome),
+                        strsignal(WTERMSIG(outcome)), words);
     if (!WIFEXITED(outcome) || WEXITSTATUS(outcome) != 0)
         return fst_fail(error, FST_IO, script, "gnuplot failed: %s", words[0] ? words : "it said nothing");
     return FST_OK;
+}
+
+static fst_status run_on(const char *directory, char *setting, char *path, const char *script, FILE *figure,
+                         fst_error *error)
+{
+    int pipes[2][2];
+    if (pipe2(pipes[0], O_CLOEXEC) != 0)
+        return fst_fail(error, FST_IO, script, "no pipe to gnuplot: %s", strerror(errno));
+    if (pipe2(pipes[1], O_CLOEXEC) != 0) {
+        (void)close(pipes[0][0]);
+        (void)close(pipes[0][1]);
+        return fst_fail(error, FST_IO, script, "no pipe to gnuplot: %s", strerror(errno));
+    }
+    const long long deadline = milliseconds() + PATIENCE_MS;
+    const int ends[2] = {pipes[0][0], pipes[1][0]};
+    last_words words = {"", 0};
+    pid_t child = 0;
+    int outcome = 0, ended = 0;
+    const int failed = start(directory, setting, path, pipes, &child);
+    if (!failed)
+        listen_to(ends, deadline, figure, &words);
+    (void)close(ends[0]);
+    (void)close(ends[1]);
+    if (failed == ENOENT)
+        return fst_fail(error, FST_UNAVAILABLE, script,
+                        "figures need gnuplot, which is not installed: install the package gnuplot-nox");
+    if (failed)
+        return fst_fail(error, FST_IO, script, "cannot start gnuplot: %s", strerror(failed));
+    ended = wait_for(child, deadline, &outcome);
+    if (ended)
+        return fst_fail(error, FST_IO, script, "gnuplot did not end within %d s", PATIENCE_MS / 1000);
+    return judge(outcome, script, words.text, error);
+}
+
+fst_status fst_gnuplot_run(const char *directory, const char *script, const char *data, FILE *figure,
+                           fst_error *error)
+{
+    /* "./" keeps a script that begins with a minus from being an option. */
+    char *setting = settings(data), *path = malloc(strlen(script) + sizeof "./");
+    fst_status status = FST_OK;
+    if (setting && path) {
+        (void)sprintf(path, "%s%s", script[0] == '/' ? "" : "./", script);
+        status = run_on(directory, setting, path, script, figure, error);
+    } else {
+        status = fst_fail(error, FST_NO_MEMORY, script, "no memory for a file name");
+    }
+    free(setting);
+    free(path);
+    return status;
 }

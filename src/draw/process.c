@@ -45,6 +45,7 @@ int fst_process_start(const fst_process *process, pid_t *child)
     (void)sigemptyset(&none);
     (void)sigemptyset(&restored);
     (void)sigaddset(&restored, SIGPIPE);
+    (void)sigaddset(&restored, SIGXFSZ); /* a helper that ends by it cannot go on over a file cut off */
     (void)posix_spawnattr_setsigmask(&attributes, &none);
     (void)posix_spawnattr_setsigdefault(&attributes, &restored);
     (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);

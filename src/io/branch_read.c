@@ -6,7 +6,6 @@
  */
 #include <festoon/festoon_tools.h>
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +13,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/json_parts.h"
+#include "io/regular_file.h"
 
 enum { MOST_BRANCHES = 1000000 };
 
@@ -344,19 +344,15 @@ static void read_lists(reader *r, const json_t *document, fst_branch *branch)
 /* The document in a file; NULL: r->status says why. */
 static json_t *load(reader *r)
 {
+    char *text;
+    size_t size;
+    r->status = fst_read_regular(r->path, FST_LONGEST_JSON, &text, &size, r->error);
+    if (r->status != FST_OK)
+        return NULL;
     json_error_t why;
-    errno = 0;
-    FILE *in = fopen(r->path, "rb");
-    json_t *document = in ? json_loadf(in, JSON_REJECT_DUPLICATES, &why) : NULL;
-    const int reason = errno, unread = in && ferror(in);
-    if (in)
-        (void)fclose(in);
-    if (!in || (!document && unread)) {
-        const int by_disk =
-            in ? reason != EISDIR : reason == EIO || reason == ENOMEM || reason == EMFILE || reason == ENFILE;
-        r->status = fst_fail(r->error, by_disk ? FST_IO : FST_BAD_INPUT, r->path, "cannot read this file: %s",
-                             strerror(reason));
-    } else if (!document) {
+    json_t *document = json_loadb(text, size, JSON_REJECT_DUPLICATES, &why);
+    free(text);
+    if (!document) {
         char quoted[FST_QUOTE_SIZE];
         r->status = fst_fail(r->error, FST_BAD_INPUT, r->path, "line %d: this is no JSON: %s", why.line,
                              fst_quote(why.text, quoted));

@@ -6,12 +6,15 @@
  */
 #include "io/hdf5_module.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <hdf5.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "io/hdf5_driver.h"
 
 /* Rows in a chunk: also what is held in memory, so that a trajectory's length does not matter. */
 #define CHUNK 4096
@@ -24,6 +27,7 @@
 
 struct fst_hdf5_writer {
     hid_t file;
+    fst_hdf5_disk disk;
     hid_t *sets; /* data set of each column */
     const fst_column_info *const *columns;
     int count;
@@ -31,7 +35,6 @@ struct fst_hdf5_writer {
     size_t pending;   /* rows in the buffer */
     double *buffer;   /* count columns of CHUNK rows */
     const char *name; /* of the file that it will become, for messages */
-    char *path;
 };
 
 /* HDF5 prints its errors unless told not to; the caller's setting is put back. */
@@ -137,7 +140,8 @@ static int read_boolean(hid_t object, const char *name)
 
 static fst_status fail_write(const fst_hdf5_writer *writer, fst_error *error)
 {
-    return fst_fail(error, FST_IO, writer->name, "HDF5 could not write this file: is the disk full?");
+    return fst_fail(error, FST_IO, writer->name, "writing this file failed: %s",
+                    writer->disk.reason ? strerror(writer->disk.reason) : "HDF5 refuses, and does not say why");
 }
 
 /* Chunked, checksummed, and compressed where this HDF5 can. */
@@ -145,6 +149,7 @@ static hid_t storage_of_column(void)
 {
     const hsize_t chunk = CHUNK;
     hid_t storage = H5Pcreate(H5P_DATASET_CREATE);
+    (void)H5Pset_obj_track_times(storage, 0); /* the same run gives the same bytes */
     (void)H5Pset_chunk(storage, 1, &chunk);
     (void)H5Pset_shuffle(storage);
     if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0)
@@ -175,22 +180,39 @@ static int create_columns(fst_hdf5_writer *writer)
     return failed;
 }
 
-/* Close everything and free the writer; 1 if the file did not close well.  A file that is to be thrown away is
- * emptied first: on a full disk HDF5 could otherwise not write what it still holds, would keep the file open,
- * and crash over it at the end of the program. */
-static int close_writer(fst_hdf5_writer *writer, int thrown_away)
+/* Close everything and free the writer; an errno if not everything is in the file. */
+static int close_writer(fst_hdf5_writer *writer)
 {
-    int failed = thrown_away && truncate(writer->path, 0) != 0;
+    int failed = 0;
     for (int i = 0; i < writer->count; i++)
         if (writer->sets && writer->sets[i] >= 0)
             failed = H5Dclose(writer->sets[i]) < 0 || failed;
     if (writer->file >= 0)
         failed = H5Fclose(writer->file) < 0 || failed;
+    const int reason = writer->disk.reason ? writer->disk.reason : failed ? EIO : 0;
+    fst_hdf5_forget(&writer->disk);
+    if (writer->disk.descriptor >= 0)
+        (void)close(writer->disk.descriptor);
     free(writer->sets);
     free(writer->buffer);
-    free(writer->path);
     free(writer);
-    return failed;
+    return reason;
+}
+
+/* 1 if it cannot be opened. */
+static int open_file(fst_hdf5_writer *writer, const char *path)
+{
+    writer->disk.descriptor = open(path, O_RDWR | O_TRUNC | O_CLOEXEC);
+    if (writer->disk.descriptor < 0) {
+        writer->disk.reason = errno;
+        return 1;
+    }
+    const hid_t access = fst_hdf5_access(&writer->disk);
+    if (access >= 0) {
+        writer->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+        (void)H5Pclose(access);
+    }
+    return writer->file < 0;
 }
 
 static fst_status create(const char *path, const char *name, const fst_column_info *const *columns, int count,
@@ -204,25 +226,24 @@ static fst_status create(const char *path, const char *name, const fst_column_in
     writer->count = count;
     writer->file = -1;
     writer->name = name;
-    writer->path = strdup(path);
+    writer->disk = (fst_hdf5_disk){.descriptor = -1, .writing = 1};
     writer->sets = calloc((size_t)count, sizeof *writer->sets);
     writer->buffer = malloc((size_t)count * CHUNK * sizeof *writer->buffer);
-    if (!writer->path || !writer->sets || !writer->buffer) {
+    if (!writer->sets || !writer->buffer) {
         writer->count = 0; /* no data set is open yet */
-        (void)close_writer(writer, 0);
+        (void)close_writer(writer);
         return fst_fail(error, FST_NO_MEMORY, name, "out of memory");
     }
     for (int i = 0; i < count; i++)
         writer->sets[i] = -1;
     quiet before = be_quiet();
-    writer->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
-    int failed = writer->file < 0 || write_text(writer->file, "program", PROGRAM) ||
+    int failed = open_file(writer, path) || write_text(writer->file, "program", PROGRAM) ||
                  write_text(writer->file, "version", fst_version()) ||
                  write_text(writer->file, "units", UNITS) || write_text(writer->file, "scene", scene) ||
                  create_columns(writer);
     if (failed) {
         fail_write(writer, error);
-        (void)close_writer(writer, 1);
+        (void)close_writer(writer);
     }
     be_as_before(before);
     if (failed)
@@ -261,7 +282,7 @@ static fst_status row(fst_hdf5_writer *writer, const double *values, fst_error *
     if (++writer->pending < CHUNK)
         return FST_OK;
     quiet before = be_quiet();
-    int failed = flush_rows(writer);
+    int failed = flush_rows(writer) || writer->disk.reason;
     be_as_before(before);
     return failed ? fail_write(writer, error) : FST_OK;
 }
@@ -271,12 +292,11 @@ static fst_status finish(fst_hdf5_writer *writer, const char *result, int comple
     quiet before = be_quiet();
     int failed = flush_rows(writer) || (result && write_text(writer->file, "result", result)) ||
                  write_boolean(writer->file, "complete", complete);
-    if (!failed)
-        failed = H5Fflush(writer->file, H5F_SCOPE_LOCAL) < 0;
     const char *name = writer->name;
     fst_status status = failed ? fail_write(writer, error) : FST_OK;
-    if (close_writer(writer, failed) && status == FST_OK)
-        status = fst_fail(error, FST_IO, name, "HDF5 could not close this file: is the disk full?");
+    const int reason = close_writer(writer);
+    if (reason && status == FST_OK)
+        status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(reason));
     be_as_before(before);
     return status;
 }
@@ -284,7 +304,7 @@ static fst_status finish(fst_hdf5_writer *writer, const char *result, int comple
 static void abandon(fst_hdf5_writer *writer)
 {
     quiet before = be_quiet();
-    (void)close_writer(writer, 1);
+    (void)close_writer(writer);
     be_as_before(before);
 }
 
@@ -343,11 +363,9 @@ static fst_status read_root(hid_t file, const char *path, char **scene, int *com
     return FST_OK;
 }
 
-static fst_status read_all(const char *path, const fst_column_info *const *columns, int count, double **data,
-                           size_t *rows, char **scene, int *complete, fst_error *error)
+static fst_status read_file(hid_t file, const char *path, const fst_column_info *const *columns, int count,
+                            double **data, size_t *rows, char **scene, int *complete, fst_error *error)
 {
-    quiet before = be_quiet();
-    hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     fst_status status = FST_OK;
     if (file < 0)
         status = fst_fail(error, FST_BAD_INPUT, path, "HDF5 cannot open this file: it is damaged or cut off");
@@ -355,9 +373,28 @@ static fst_status read_all(const char *path, const fst_column_info *const *colum
         status = read_root(file, path, scene, complete, error);
     for (int i = 0; i < count && status == FST_OK; i++)
         status = read_column(file, path, columns[i]->name, i == 0, &data[i], rows, error);
+    return status;
+}
+
+static fst_status read_all(const char *path, const fst_column_info *const *columns, int count, double **data,
+                           size_t *rows, char **scene, int *complete, fst_error *error)
+{
+    fst_hdf5_disk disk = {.descriptor = open(path, O_RDONLY | O_CLOEXEC)};
+    if (disk.descriptor < 0)
+        return fst_fail(error, FST_IO, path, "cannot read this file: %s", strerror(errno));
+    quiet before = be_quiet();
+    const hid_t access = fst_hdf5_access(&disk);
+    const hid_t file = access >= 0 ? H5Fopen(path, H5F_ACC_RDONLY, access) : -1;
+    fst_status status = read_file(file, path, columns, count, data, rows, scene, complete, error);
     if (file >= 0)
         (void)H5Fclose(file);
+    if (access >= 0)
+        (void)H5Pclose(access);
     be_as_before(before);
+    (void)close(disk.descriptor);
+    /* A disk that cannot be read says nothing of the file. */
+    if (disk.reason)
+        status = fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(disk.reason));
     return status;
 }
 

@@ -5,6 +5,8 @@
 #include <festoon/festoon.h>
 #include <jansson.h>
 
+#define FST_LONGEST_JSON ((size_t)1 << 31) /* bytes of a file that is read */
+
 /* null where the value is not finite: JSON has no NaN and no infinity. */
 json_t *fst_json_number(double value);
 json_t *fst_json_numbers(const double *values, int count);

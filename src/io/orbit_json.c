@@ -6,10 +6,14 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "base/whole_file.h"
 #include "io/json_parts.h"
+#include "io/regular_file.h"
 
 enum { INDENT = 2 };
+
+#define SPACES " \t\r\n"
 
 static json_t *pairs(const double *re, const double *im, int count)
 {
@@ -239,32 +243,45 @@ static const json_t *parameter_of(const json_t *run, const char *key)
     return json_object_get(json_object_get(run, "scene"), key);
 }
 
+/* A point from a run's document, if it has both numbers; 0 where memory is short. */
+static int add_dot(const json_t *run, const char *key, const char *observable, double **dots, size_t *count)
+{
+    const json_t *x = parameter_of(run, key), *y = json_object_get(run, observable);
+    if (!json_is_number(x) || !json_is_number(y))
+        return 1;
+    double *more = realloc(*dots, 2 * (*count + 1) * sizeof *more);
+    if (!more)
+        return 0;
+    *dots = more;
+    more[2 * *count] = json_number_value(x);
+    more[2 * (*count)++ + 1] = json_number_value(y);
+    return 1;
+}
+
 fst_status fst_run_dots_read(const char *path, const char *key, const char *observable, double **dots,
                              size_t *count, fst_error *error)
 {
+    char *text;
+    size_t size;
     *dots = NULL;
     *count = 0;
-    FILE *in = fopen(path, "r");
-    if (!in)
-        return fst_fail(error, FST_BAD_INPUT, path, "this file cannot be read");
-    json_t *run;
-    json_error_t why;
-    fst_status status = FST_OK;
-    while (status == FST_OK && (run = json_loadf(in, JSON_DISABLE_EOF_CHECK, &why))) {
-        const json_t *x = parameter_of(run, key), *y = json_object_get(run, observable);
-        if (json_is_number(x) && json_is_number(y)) {
-            double *more = realloc(*dots, 2 * (*count + 1) * sizeof *more);
-            if (more) {
-                *dots = more;
-                more[2 * *count] = json_number_value(x);
-                more[2 * (*count)++ + 1] = json_number_value(y);
-            } else {
-                status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-            }
-        }
+    fst_status status = fst_read_regular(path, FST_LONGEST_JSON, &text, &size, error);
+    if (status != FST_OK)
+        return status;
+    int document = 0;
+    for (size_t at = strspn(text, SPACES); at < size && status == FST_OK; at += strspn(text + at, SPACES)) {
+        json_error_t why;
+        json_t *run = json_loadb(text + at, size - at, JSON_DISABLE_EOF_CHECK, &why);
+        ++document;
+        if (!run)
+            status = fst_fail(error, FST_BAD_INPUT, path, "document %d is no JSON: %s", document, why.text);
+        else if (!add_dot(run, key, observable, dots, count))
+            status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+        else
+            at += (size_t)why.position;
         json_decref(run);
     }
-    (void)fclose(in);
+    free(text);
     if (status == FST_OK && *count == 0)
         status = fst_fail(error, FST_BAD_INPUT, path,
                           "no document of festoon run --json with %s and %s is in it", key, observable);

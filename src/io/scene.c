@@ -2,10 +2,8 @@
  * only what a scene may hold: one mapping of groups of keys to scalars. */
 #include <festoon/festoon_tools.h>
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <yaml.h>
 
 #include "base/error.h"
@@ -379,26 +377,12 @@ fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_
 
 fst_status fst_scene_read(const char *path, fst_params *params, fst_error *error)
 {
-    int descriptor;
-    fst_status status = fst_open_regular(path, &descriptor, error);
+    char *text;
+    size_t size;
+    fst_status status = fst_read_regular(path, FST_SCENE_SIZE_LIMIT, &text, &size, error);
     if (status != FST_OK)
         return status;
-    const size_t room = FST_SCENE_SIZE_LIMIT + 1; /* one more than allowed, to notice */
-    char *text = malloc(room);
-    size_t size = 0;
-    ssize_t got = text ? 1 : 0;
-    while (text && size < room && got > 0) {
-        got = read(descriptor, text + size, room - size);
-        if (got > 0)
-            size += (size_t)got;
-    }
-    if (!text)
-        status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
-    else if (got < 0)
-        status = fst_fail(error, FST_BAD_INPUT, path, "cannot read the scene: %s", strerror(errno));
-    else
-        status = fst_scene_parse(text, size, path, params, error);
+    status = fst_scene_parse(text, size, path, params, error);
     free(text);
-    (void)close(descriptor);
     return status;
 }

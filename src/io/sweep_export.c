@@ -24,21 +24,30 @@ typedef struct export_job {
 
 /* ------------------------------------------------------------------ CSV */
 
+/* Texts of a file go to terminals: they pass as one line without control characters. */
 static void write_quoted(FILE *out, const char *text)
 {
+    char *tame = strdup(text ? text : "");
     (void)fputc('"', out);
-    for (; *text; ++text) {
-        if (*text == '"')
+    if (tame)
+        fst_text_tame(tame);
+    for (const char *c = tame; c && *c; ++c) {
+        if (*c == '"')
             (void)fputc('"', out);
-        (void)fputc(*text, out);
+        (void)fputc(*c, out);
     }
     (void)fputc('"', out);
+    free(tame);
 }
 
 static void csv_head(export_job *job)
 {
-    for (int i = 0; i < job->columns; ++i)
-        (void)fprintf(job->stream, "%s%s", i ? "," : "", sqlite3_column_name(job->row, i));
+    for (int i = 0; i < job->columns; ++i) {
+        char name[128];
+        (void)snprintf(name, sizeof name, "%s", sqlite3_column_name(job->row, i));
+        fst_text_tame(name);
+        (void)fprintf(job->stream, "%s%s", i ? "," : "", name);
+    }
     (void)fputc('\n', job->stream);
 }
 
@@ -266,7 +275,7 @@ static fst_status export_hdf5(export_job *job, const char *out, fst_error *error
     if (status != FST_OK)
         return status;
     hdf5_columns c = {NULL, NULL, NULL, NULL, 0};
-    fst_whole_file file = {NULL, NULL, NULL};
+    fst_whole_file file = {.path = NULL};
     status = list_columns(job, &c) ? fst_whole_file_open(&file, out, error)
                                    : fst_fail(error, FST_NO_MEMORY, out, "out of memory");
     if (status == FST_OK) {

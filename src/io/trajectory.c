@@ -1,6 +1,7 @@
 /* trajectory.c - trajectories in files: choosing the format, the temporary file, and the module for HDF5. */
 #include <festoon/festoon_tools.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -181,6 +182,20 @@ static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error
     return status;
 }
 
+/* Times and turns of the drive rise: figures and films count on it. */
+static fst_status check_order(const char *path, const fst_table *table, fst_error *error)
+{
+    static const int rising[] = {FST_COLUMN_t, FST_COLUMN_drive_turns};
+    for (size_t i = 0; i < sizeof rising / sizeof *rising; i++) {
+        const double *values = table->columns[rising[i]];
+        for (size_t row = 0; row < table->rows; row++)
+            if (!(fabs(values[row]) < 1e15) || (row > 0 && !(values[row] >= values[row - 1])))
+                return fst_fail(error, FST_BAD_INPUT, path, "row %zu: the column %s does not rise as in a trajectory",
+                                row + 1, fst_column_at(rising[i])->name);
+    }
+    return FST_OK;
+}
+
 fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *error)
 {
     *table = (fst_table){.params = fst_default_params()};
@@ -188,7 +203,8 @@ fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *er
     fst_status status = fst_open_regular(path, &descriptor, error);
     if (status != FST_OK)
         return status;
-    FILE *in = fdopen(descriptor, "r");
+    int reason = 0;
+    FILE *in = fst_regular_stream(descriptor, &reason);
     table->columns = calloc(FST_COLUMN_COUNT, sizeof *table->columns);
     if (!in || !table->columns)
         status = fst_fail(error, FST_NO_MEMORY, path, "out of memory");
@@ -196,10 +212,14 @@ fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *er
         status = read_hdf5(path, table, error);
     else
         status = fst_csv_read(in, path, table, error);
+    if (status == FST_OK)
+        status = check_order(path, table, error);
     if (in)
         (void)fclose(in);
-    else
-        (void)close(descriptor);
+    (void)close(descriptor);
+    /* A disk that cannot be read says nothing of the file. */
+    if (reason)
+        status = fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason));
     if (status != FST_OK)
         fst_table_free(table);
     return status;

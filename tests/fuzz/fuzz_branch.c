@@ -10,7 +10,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char path[64] = "/tmp/festoon-fuzz-XXXXXX";
+    char path[256];
+    const char *folder = getenv("TMPDIR");
+    (void)snprintf(path, sizeof path, "%.200s/festoon-fuzz-XXXXXX", folder ? folder : "/tmp");
     const int descriptor = mkstemp(path);
     if (descriptor < 0)
         return 0;

@@ -1,0 +1,34 @@
+/* hdf5_driver.h - how HDF5 reaches the disk: by a driver that never tells it of a failed write.
+ *
+ * HDF5 holds data back until a file is closed.  Where writing then fails, it cannot close the file, keeps it
+ * open, and crashes over it when the program ends.  This driver notes the first failure and keeps everything
+ * that comes after it in memory, where HDF5 can read it again: the file closes in peace, and the note says that
+ * it is worth nothing.
+ *
+ *     HDF5 --> write --> disk                   until a write fails
+ *                  \---> list of blocks         from then on (a few MiB: what HDF5 had held back)
+ *     HDF5 <-- read  <-- disk, then the list    the newest block wins
+ */
+#ifndef FST_IO_HDF5_DRIVER_H
+#define FST_IO_HDF5_DRIVER_H
+
+#include <hdf5.h>
+#include <stddef.h>
+
+typedef struct fst_hdf5_block fst_hdf5_block;
+
+typedef struct fst_hdf5_disk {
+    int descriptor; /* of the file; stays the caller's */
+    int writing;    /* failures are only noted; else a failed read is one for HDF5 too */
+    int reason;     /* errno of the first failure; 0: none */
+    fst_hdf5_block *oldest, *newest;
+} fst_hdf5_disk;
+
+/* A list of access properties that leads to `disk`, which must outlive the file; negative: HDF5 has no memory.
+ */
+hid_t fst_hdf5_access(fst_hdf5_disk *disk);
+
+/* Free the list of blocks. */
+void fst_hdf5_forget(fst_hdf5_disk *disk);
+
+#endif
