@@ -40,6 +40,7 @@ typedef struct search {
     int at_rest; /* the latest guess ended at an equilibrium that attracts */
     int leaves;  /* ... at one that does not: the bead is leaving it, or will */
     int tried_departure;
+    double rest[FST_STATE_SIZE]; /* that equilibrium */
 } search;
 
 static double distance(const double *a, const double *b)
@@ -104,6 +105,7 @@ static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
     if (!fst_solution_moves(s->family, guess)) { /* equilibria solve the equations of orbits, with any period */
         s->at_rest = comes_to_rest(s, guess->y[0]);
         s->leaves = !s->at_rest;
+        memcpy(s->rest, guess->y[0], sizeof s->rest);
         return 0;
     }
     if (!fst_solution_is_stable(guess))
@@ -179,12 +181,12 @@ static int try_librating(search *s, fst_solution *out, fst_error *error)
 static int try_departure(search *s, fst_solution *out, fst_error *error)
 {
     const double close = 1e-3;
+    const double *latest = s->peak[(s->peaks - 1) % PEAKS];
     double gap;
-    if (!s->leaves || s->tried_departure)
+    if (!s->leaves || s->tried_departure || !(distance(latest, s->rest) < close))
         return 0;
     s->tried_departure = 1;
-    return fst_departure_guess(s->family, s->peak[(s->peaks - 1) % PEAKS], close, out, &gap) &&
-           polish(s, out, gap, error);
+    return fst_departure_guess(s->family, latest, 4.0 * close, out, &gap) && polish(s, out, gap, error);
 }
 
 /* The passage of X = 0 in the last step; 1 if it completes a regular turn. */
@@ -278,7 +280,7 @@ static fst_status never_settled(const search *s, double t_end, fst_error *error)
 
 static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *error)
 {
-    int turns = 0, peaks = 0;
+    int turns = 0, peaks = 0, next_turn = 4, next_peak = 16;
     while (s->flow->t.high < t_end) {
         fst_status status = fst_flow_step(s->flow, t_end, error);
         fst_watch_reach(s->family->watch, s->flow->t.high / t_end);
@@ -292,18 +294,24 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
         fst_error ignored;
         if (note_passage(s)) {
             turns += 1;
-            /* Often while the returns are far apart costs time; the later, the rarer. */
-            if (turns % (turns < 40 ? 4 : 32) == 0 && try_turning(s, out, &ignored))
-                return FST_OK;
+            if (turns >= next_turn) {
+                /* Every try costs as much as a hundred turns: the later, the rarer. */
+                next_turn = turns + (turns < 40 ? 4 : turns < 128 ? 32 : turns / 4);
+                if (try_turning(s, out, &ignored))
+                    return FST_OK;
+            }
         }
         if (note_peak(s) && s->passages < 4 && s->flow->t.high > 20.0 * s->drive_period) {
             peaks += 1;
-            if (peaks % 16 == 0 && is_locked(s))
-                return went_elsewhere(s, "locks to the magnet", error);
-            if (peaks % 16 == 0 && (try_librating(s, out, &ignored) || try_departure(s, out, &ignored)))
-                return FST_OK;
-            if (peaks % 16 == 0 && s->at_rest)
-                return went_elsewhere(s, "locks to the magnet", error);
+            if (peaks >= next_peak) {
+                next_peak = peaks + (peaks < 64 ? 16 : peaks / 4);
+                if (is_locked(s))
+                    return went_elsewhere(s, "locks to the magnet", error);
+                if (try_librating(s, out, &ignored) || try_departure(s, out, &ignored))
+                    return FST_OK;
+                if (s->at_rest)
+                    return went_elsewhere(s, "locks to the magnet", error);
+            }
         }
         if (s->flow->accepted % 64 == 0 && is_locked(s))
             return went_elsewhere(s, "locks to the magnet", error);
