@@ -74,6 +74,18 @@ static int comes_to_rest(const search *s, const double *near)
     return last < first && last < 0.1;
 }
 
+/* Nearer than this to the circle a multiplier does not tell an orbit without the symmetry from the symmetric
+ * one on which it was born: their distance, of the order of the root of this, is lost in Newton's residual. */
+#define RESOLVED 1e-7
+
+static double greatest_multiplier(const fst_solution *s)
+{
+    double greatest = 0.0;
+    for (int i = 0; i < s->multipliers; ++i)
+        greatest = fmax(greatest, hypot(s->re[i], s->im[i]));
+    return greatest;
+}
+
 /* Newton's method, which converges slowly beside a point where orbits meet: every iteration takes a third of
  * the distance.  It is tried on as long as the residual falls. */
 static fst_status correct(search *s, fst_solution *guess, fst_error *error)
@@ -94,7 +106,7 @@ static fst_status correct(search *s, fst_solution *guess, fst_error *error)
  * being the greatest multiplier. */
 static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
 {
-    double start[FST_STATE_SIZE], greatest = 0.0;
+    double start[FST_STATE_SIZE];
     const double period = guess->period;
     memcpy(start, guess->y[0], sizeof start);
     s->attempts += 1;
@@ -110,9 +122,7 @@ static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
     }
     if (!fst_solution_is_stable(guess))
         return 0;
-    for (int i = 0; i < guess->multipliers; ++i)
-        greatest = fmax(greatest, hypot(guess->re[i], guess->im[i]));
-    return distance(start, guess->y[0]) <= 6.0 * gap / (1.0 - greatest) + 1e-7 &&
+    return distance(start, guess->y[0]) <= 6.0 * gap / (1.0 - greatest_multiplier(guess)) + 1e-7 &&
            fabs(guess->period / period - 1.0) < 0.1;
 }
 
@@ -153,6 +163,8 @@ static int try_turning(search *s, fst_solution *out, fst_error *error)
         if (polish(s, out, gap, error)) {
             if (!symmetric)
                 prefer_symmetric(s, out);
+            if (!out->symmetric && 1.0 - greatest_multiplier(out) < RESOLVED)
+                continue;
             choose_conjugate(s, out);
             return 1;
         }
