@@ -396,6 +396,100 @@ static void test_final_states(void **state)
         fst_model_free(models[i]);
 }
 
+/* ------------------------------------------------------------------ beads that graze the edge, or all but lift
+ * off */
+
+enum { GRAZING = 48 };
+
+typedef struct grazing {
+    int next;
+    fst_params params[GRAZING];
+    fst_run_result results[GRAZING];
+} grazing;
+
+static int next_grazing(void *user, fst_row_job *job)
+{
+    grazing *g = user;
+    if (g->next == GRAZING)
+        return 0;
+    memset(job, 0, sizeof *job);
+    job->point = g->next++;
+    job->params = g->params[job->point];
+    return 1;
+}
+
+static int grazing_done(void *user, fst_row_job *job, fst_status status, const fst_run_result *result,
+                        const fst_error *error)
+{
+    grazing *g = user;
+    if (status != FST_OK)
+        fail_msg("%s", error->sentence);
+    g->results[job->point] = *result;
+    return 0;
+}
+
+/* A weak bead, seen from its start on, under so great a weight that it stays on the plate. */
+static fst_params weak_bead(int i, int fast)
+{
+    const double omega = fast ? 0.6 + 0.3 * (i % 6) : 0.2 + 0.05 * (i % 6);
+    fst_params p = bead_at(omega, i & 1 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID);
+    p.model_kappa = 0.01 + (fast ? 0.004 : 0.002) * i;
+    p.start_r = 0.7 + 0.05 * (i % 5);
+    p.start_phi = 37.0 * i;
+    p.start_spin = FST_SPIN_REST;
+    p.run_periods = 5.0;
+    p.run_discard = 0.0;
+    p.plate_gravity = 200.0;
+    p.plate_radius = 10.0;
+    return p;
+}
+
+/* The same motion over a plate whose edge, or with a weight whose load, the bead passes by `by`, or just does
+ * not (by < 0): on a stretch of time shorter than the distance of the stages of a step. */
+static fst_params grazing_bead(int i)
+{
+    fst_params p = weak_bead(i / 4, i & 2);
+    const fst_run_result seen = run_of(&p);
+    const double by = i & 1 ? 1e-6 : -1e-6;
+    if (i & 2 && seen.min_load_weights < 1.0)
+        p.plate_gravity *= 1.0 - seen.min_load_weights - 0.1 * by;
+    else
+        p.plate_radius = fmax(seen.max_r - by, p.start_r + 1e-6) * p.magnet_half_length;
+    return p;
+}
+
+static void test_grazing_is_seen_in_lanes(void **state)
+{
+    (void)state;
+    static grazing g;
+    fst_run_result alone[GRAZING];
+    int left = 0, lifted = 0;
+    for (int i = 0; i < GRAZING; ++i) {
+        g.params[i] = grazing_bead(i);
+        alone[i] = run_of(&g.params[i]);
+        left += alone[i].regime == FST_REGIME_EJECTED;
+        lifted += alone[i].regime == FST_REGIME_LIFTED;
+        if (!(i & 1))
+            assert_true(alone[i].regime != FST_REGIME_LIFTED && alone[i].regime != FST_REGIME_EJECTED);
+    }
+    print_message("%d ejected, %d lifted\n", left, lifted);
+    assert_true(left >= 8 && lifted >= 8);
+    for (int lanes = 4; lanes <= 8; lanes += 4) {
+        if (!fst_lane_engine_of(FST_ARITHMETIC_PORTABLE, lanes))
+            continue;
+        g.next = 0;
+        const fst_row_work work = {&g, FST_ARITHMETIC_PORTABLE, lanes, next_grazing, grazing_done, never};
+        fst_error error;
+        assert_int_equal(fst_rows(&work, &error), FST_OK);
+        for (int i = 0; i < GRAZING; ++i) {
+            if (g.results[i].regime != alone[i].regime)
+                fail_msg("bead %d: regime %d alone, %d in %d lanes", i, alone[i].regime, g.results[i].regime,
+                         lanes);
+            assert_memory_equal(g.results[i].final_state, alone[i].final_state, sizeof alone[i].final_state);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -406,6 +500,7 @@ int main(void)
         cmocka_unit_test(test_tangents),
         cmocka_unit_test(test_no_such_engine),
         cmocka_unit_test(test_final_states),
+        cmocka_unit_test(test_grazing_is_seen_in_lanes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -166,17 +166,18 @@ int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double 
         *x = lo;
         return 1;
     }
-    for (int i = 1; i <= PIECES; ++i) {
+    for (int i = 0; i <= PIECES; ++i) {
+        const int before = i > 0 ? i - 1 : 0, after = i < PIECES ? i + 1 : PIECES;
         if (f[i] < 0) {
-            *x = fst_flow_locate(flow, function, at[i - 1], at[i], f[i - 1], f[i]);
+            *x = fst_flow_locate(flow, function, at[before], at[i], f[before], f[i]);
             return 1;
         }
-        if (i < PIECES && f[i] <= f[i - 1] && f[i] <= f[i + 1]) { /* a dip: it may go below zero in between */
+        if (f[i] <= f[before] && f[i] <= f[after]) { /* a dip: it may go below zero beside this place */
             double bottom;
             const double place =
-                fst_flow_extreme(flow, state_function_at, &function, -1.0, at[i - 1], at[i + 1], &bottom);
+                fst_flow_extreme(flow, state_function_at, &function, -1.0, at[before], at[after], &bottom);
             if (bottom < 0) {
-                *x = fst_flow_locate(flow, function, at[i - 1], place, f[i - 1], bottom);
+                *x = fst_flow_locate(flow, function, at[before], place, f[before], bottom);
                 return 1;
             }
         }

@@ -21,7 +21,7 @@
 
 #define TOLERANCE 1e-9
 #define LEAST_AMPLITUDE 1e-3
-#define GREATEST_AMPLITUDE 0.2
+#define GREATEST_AMPLITUDE 1.0
 
 /* Swings that are let pass, and over which the growth is taken. */
 enum { PASSED = 4, MEASURED = 3 };

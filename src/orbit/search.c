@@ -40,6 +40,7 @@ typedef struct search {
     int at_rest; /* the latest guess ended at an equilibrium that attracts */
     int leaves;  /* ... at one that does not: the bead is leaving it, or will */
     int tried_departure;
+    double rest[FST_STATE_SIZE]; /* that equilibrium */
 } search;
 
 static double distance(const double *a, const double *b)
@@ -73,6 +74,18 @@ static int comes_to_rest(const search *s, const double *near)
     return last < first && last < 0.1;
 }
 
+/* Nearer than this to the circle a multiplier does not tell an orbit without the symmetry from the symmetric
+ * one on which it was born: their distance, of the order of the root of this, is lost in Newton's residual. */
+#define RESOLVED 1e-7
+
+static double greatest_multiplier(const fst_solution *s)
+{
+    double greatest = 0.0;
+    for (int i = 0; i < s->multipliers; ++i)
+        greatest = fmax(greatest, hypot(s->re[i], s->im[i]));
+    return greatest;
+}
+
 /* Newton's method, which converges slowly beside a point where orbits meet: every iteration takes a third of
  * the distance.  It is tried on as long as the residual falls. */
 static fst_status correct(search *s, fst_solution *guess, fst_error *error)
@@ -93,7 +106,7 @@ static fst_status correct(search *s, fst_solution *guess, fst_error *error)
  * being the greatest multiplier. */
 static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
 {
-    double start[FST_STATE_SIZE], greatest = 0.0;
+    double start[FST_STATE_SIZE];
     const double period = guess->period;
     memcpy(start, guess->y[0], sizeof start);
     s->attempts += 1;
@@ -104,13 +117,12 @@ static int polish(search *s, fst_solution *guess, double gap, fst_error *error)
     if (!fst_solution_moves(s->family, guess)) { /* equilibria solve the equations of orbits, with any period */
         s->at_rest = comes_to_rest(s, guess->y[0]);
         s->leaves = !s->at_rest;
+        memcpy(s->rest, guess->y[0], sizeof s->rest);
         return 0;
     }
     if (!fst_solution_is_stable(guess))
         return 0;
-    for (int i = 0; i < guess->multipliers; ++i)
-        greatest = fmax(greatest, hypot(guess->re[i], guess->im[i]));
-    return distance(start, guess->y[0]) <= 6.0 * gap / (1.0 - greatest) + 1e-7 &&
+    return distance(start, guess->y[0]) <= 6.0 * gap / (1.0 - greatest_multiplier(guess)) + 1e-7 &&
            fabs(guess->period / period - 1.0) < 0.1;
 }
 
@@ -151,6 +163,8 @@ static int try_turning(search *s, fst_solution *out, fst_error *error)
         if (polish(s, out, gap, error)) {
             if (!symmetric)
                 prefer_symmetric(s, out);
+            if (!out->symmetric && 1.0 - greatest_multiplier(out) < RESOLVED)
+                continue;
             choose_conjugate(s, out);
             return 1;
         }
@@ -179,12 +193,12 @@ static int try_librating(search *s, fst_solution *out, fst_error *error)
 static int try_departure(search *s, fst_solution *out, fst_error *error)
 {
     const double close = 1e-3;
+    const double *latest = s->peak[(s->peaks - 1) % PEAKS];
     double gap;
-    if (!s->leaves || s->tried_departure)
+    if (!s->leaves || s->tried_departure || !(distance(latest, s->rest) < close))
         return 0;
     s->tried_departure = 1;
-    return fst_departure_guess(s->family, s->peak[(s->peaks - 1) % PEAKS], close, out, &gap) &&
-           polish(s, out, gap, error);
+    return fst_departure_guess(s->family, latest, 4.0 * close, out, &gap) && polish(s, out, gap, error);
 }
 
 /* The passage of X = 0 in the last step; 1 if it completes a regular turn. */
@@ -278,7 +292,7 @@ static fst_status never_settled(const search *s, double t_end, fst_error *error)
 
 static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *error)
 {
-    int turns = 0, peaks = 0;
+    int turns = 0, peaks = 0, next_turn = 4, next_peak = 16;
     while (s->flow->t.high < t_end) {
         fst_status status = fst_flow_step(s->flow, t_end, error);
         fst_watch_reach(s->family->watch, s->flow->t.high / t_end);
@@ -292,18 +306,24 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
         fst_error ignored;
         if (note_passage(s)) {
             turns += 1;
-            /* Often while the returns are far apart costs time; the later, the rarer. */
-            if (turns % (turns < 40 ? 4 : 32) == 0 && try_turning(s, out, &ignored))
-                return FST_OK;
+            if (turns >= next_turn) {
+                /* Every try costs as much as a hundred turns: the later, the rarer. */
+                next_turn = turns + (turns < 40 ? 4 : turns < 128 ? 32 : turns / 4);
+                if (try_turning(s, out, &ignored))
+                    return FST_OK;
+            }
         }
         if (note_peak(s) && s->passages < 4 && s->flow->t.high > 20.0 * s->drive_period) {
             peaks += 1;
-            if (peaks % 16 == 0 && is_locked(s))
-                return went_elsewhere(s, "locks to the magnet", error);
-            if (peaks % 16 == 0 && (try_librating(s, out, &ignored) || try_departure(s, out, &ignored)))
-                return FST_OK;
-            if (peaks % 16 == 0 && s->at_rest)
-                return went_elsewhere(s, "locks to the magnet", error);
+            if (peaks >= next_peak) {
+                next_peak = peaks + (peaks < 64 ? 16 : peaks / 4);
+                if (is_locked(s))
+                    return went_elsewhere(s, "locks to the magnet", error);
+                if (try_librating(s, out, &ignored) || try_departure(s, out, &ignored))
+                    return FST_OK;
+                if (s->at_rest)
+                    return went_elsewhere(s, "locks to the magnet", error);
+            }
         }
         if (s->flow->accepted % 64 == 0 && is_locked(s))
             return went_elsewhere(s, "locks to the magnet", error);
