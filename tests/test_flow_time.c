@@ -25,8 +25,8 @@ static void test_landing_leaves_nothing(void **unused)
     const fst_params p = bead_at(0.31, FST_DYNAMICS_RIGID);
     fst_model *model;
     fst_flow *flow = begun(&p, &model);
-    for (int i = 1; i <= 300; ++i) {
-        const double t = 0.1 * i + (i > 150 ? 100.0 / 3.0 : 0.0);
+    for (int i = 1; i <= 40; ++i) {
+        const double t = 7.1 * i + (i > 20 ? 100.0 / 3.0 : 0.0); /* several steps on */
         fst_stop stop;
         assert_int_equal(fst_flow_advance(flow, t, 0, &stop, NULL), FST_OK);
         const fst_flow_info info = fst_flow_get(flow);
@@ -70,6 +70,60 @@ static void test_the_phase_does_not_drift(void **unused)
     fst_model_free(model);
 }
 
+/* A bead that nothing acts on, going straight outwards; the plate ends at `edge`. */
+static fst_flow *going_outwards(double edge, fst_model **model)
+{
+    fst_params p = bead_at(0.3, FST_DYNAMICS_RIGID);
+    const double state[FST_STATE_SIZE] = {0.1, 0.02, 0.05, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
+    p.friction_law = FST_FRICTION_NONE;
+    p.model_kappa = 0.0;
+    p.plate_radius = edge * p.magnet_half_length;
+    *model = model_of(&p);
+    return flow_of(*model, 1e-10, state);
+}
+
+/* Of two events in one step the earlier one is told first, and then the other. */
+static void test_two_events_in_a_step(void **unused)
+{
+    (void)unused;
+    const unsigned events = 1u << FST_STOP_SECTION | 1u << FST_STOP_EDGE;
+    fst_model *model;
+    fst_flow *flow = going_outwards(1000.0, &model);
+    int tried = 0;
+    for (int step = 0; step < 400 && tried < 10; ++step) {
+        assert_int_equal(fst_flow_step(flow, 1e4, NULL), FST_OK);
+        const double *y = flow->step.y, *end = flow->step.end;
+        if (!(y[FST_X] * end[FST_X] < 0))
+            continue;
+        const double x = fst_flow_locate(flow, fst_section_function, 0.0, 1.0, y[FST_X], end[FST_X]);
+        double at[FST_STATE_SIZE];
+        fst_flow_at(flow, x, at);
+        const double crossing = hypot(at[FST_X], at[FST_Y]), r_end = hypot(end[FST_X], end[FST_Y]);
+        if (!(r_end > crossing * (1 + 1e-6)))
+            continue;
+        fst_model *smaller_model;
+        fst_flow *smaller = going_outwards(0.5 * (crossing + r_end), &smaller_model);
+        fst_stop stop = FST_STOP_SECTION, before = FST_STOP_TIME;
+        double time = 0.0, time_before = 0.0;
+        while (stop == FST_STOP_SECTION) {
+            before = stop;
+            time_before = time;
+            assert_int_equal(fst_flow_advance(smaller, 1e4, events, &stop, NULL), FST_OK);
+            time = fst_flow_get(smaller).t;
+            assert_true(time > time_before);
+        }
+        assert_int_equal(stop, FST_STOP_EDGE);
+        assert_int_equal(before, FST_STOP_SECTION);
+        CHECK_CLOSE(time_before, fst_flow_time(flow, x).high, 1e-9);
+        tried += 1;
+        fst_flow_free(smaller);
+        fst_model_free(smaller_model);
+    }
+    assert_true(tried > 2);
+    fst_flow_free(flow);
+    fst_model_free(model);
+}
+
 /* Half of a run no longer than the discard that a scene has unless told; what was told stays. */
 static void test_the_discard_of_short_runs(void **unused)
 {
@@ -95,6 +149,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_landing_leaves_nothing),
         cmocka_unit_test(test_the_phase_does_not_drift),
+        cmocka_unit_test(test_two_events_in_a_step),
         cmocka_unit_test(test_the_discard_of_short_runs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -401,6 +401,8 @@ def arguments():
     parser.add_argument("--fresh", action="store_true", help="forget the results of earlier runs")
     parser.add_argument("--trees", type=int, default=1, help="faults that are tried at the same time (1)")
     parser.add_argument("-j", "--jobs", type=int, default=os.cpu_count(), help="processes of each build")
+    parser.add_argument("--place", default=os.path.join(SOURCE, "build-mutants"), metavar="FOLDER",
+                        help="where the copies of the tree and the results are (build-mutants)")
     parser.add_argument("--write", action="store_true", help="rewrite section mutants of docs/reliability.md")
     return parser.parse_args()
 
@@ -421,7 +423,7 @@ def main():
     if not entries:
         raise SystemExit("no such fault: --list shows their names")
     names = copied_files()
-    place = os.path.join(SOURCE, "build-mutants")
+    place = os.path.abspath(options.place)
     results = Results(os.path.join(place, "results"), fingerprint_of_tree(names), options.likely)
     if options.fresh:
         shutil.rmtree(results.folder)
