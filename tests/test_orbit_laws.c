@@ -156,13 +156,108 @@ static void the_axis_is_passed(void **unused)
     fst_branch_free(&branch);
 }
 
+/* A libration loses its stability where a pair of its multipliers leaves the unit circle, and not before. */
+static void a_pair_leaves_the_circle(void **unused)
+{
+    (void)unused;
+    const fst_params params = scene_of(0.129, "rigid");
+    const fst_branch_options options = over_omega(FST_BRANCH_ALL, 0.1288, 0.1305);
+    fst_branch branch = followed(&params, &options);
+    const fst_special *s = special_near(&branch, FST_SPECIAL_NEIMARK_SACKER, 0.129014691545);
+    double least = INFINITY;
+    CHECK_CLOSE(s->value, 0.129014691545, 1e-9);
+    assert_int_equal(s->criticality, -1);
+    for (int i = 0; i < s->at.multipliers; ++i)
+        if (fabs(s->at.multiplier_im[i]) > 1e-6)
+            least = fmin(least, fabs(hypot(s->at.multiplier_re[i], s->at.multiplier_im[i]) - 1.0));
+    CHECK_CLOSE(least, 0.0, 1e-8);
+    fst_branch_free(&branch);
+}
+
+/* Determinant of the Jacobian at the equilibrium on the axis, where n lies along X and turns with the magnet,
+ * without the direction of n itself, along which nothing moves. */
+static double determinant_on_the_axis(double omega, double nx)
+{
+    enum { N = FST_STATE_SIZE - 1 };
+    const fst_params params = scene_of(omega, "rigid");
+    double state[FST_STATE_SIZE] = {0}, whole[FST_STATE_SIZE][FST_STATE_SIZE], a[N][N], product = 1.0;
+    fst_model *model;
+    state[FST_NX] = nx;
+    state[FST_WZ] = omega;
+    assert_int_equal(fst_model_new(&params, &model, NULL), FST_OK);
+    fst_jacobian(model, state, whole, NULL);
+    fst_model_free(model);
+    for (int i = 0; i < N; ++i)
+        for (int j = 0; j < N; ++j)
+            a[i][j] = whole[i + (i >= FST_NX)][j + (j >= FST_NX)];
+    for (int k = 0; k < N; ++k) {
+        int best = k;
+        for (int i = k + 1; i < N; ++i)
+            best = fabs(a[i][k]) > fabs(a[best][k]) ? i : best;
+        for (int j = 0; j < N && best != k; ++j) {
+            const double kept = a[k][j];
+            a[k][j] = a[best][j];
+            a[best][j] = kept;
+        }
+        product *= best == k ? a[k][k] : -a[k][k];
+        for (int i = k + 1; i < N; ++i) {
+            const double factor = a[i][k] / a[k][k];
+            for (int j = k; j < N; ++j)
+                a[i][j] -= factor * a[k][j];
+        }
+    }
+    return product;
+}
+
+/* The pitchfork on the axis lies where the determinant is zero, to the last digits. */
+static void the_pitchfork_on_the_axis(void **unused)
+{
+    (void)unused;
+    double best = INFINITY;
+    const fst_params params = scene_of(0.2, "rigid");
+    const fst_branch_options options = over_omega(FST_BRANCH_LOCKED, 0.19, 0.205);
+    fst_branch branch = followed(&params, &options);
+    const fst_special *s = special_near(&branch, FST_SPECIAL_PITCHFORK, 0.1975839610);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        double lo = 0.197, hi = 0.198, f_lo = determinant_on_the_axis(lo, sign);
+        if ((f_lo < 0) == (determinant_on_the_axis(hi, sign) < 0))
+            continue;
+        for (int i = 0; i < 50; ++i) {
+            const double middle = 0.5 * (lo + hi);
+            *((determinant_on_the_axis(middle, sign) < 0) == (f_lo < 0) ? &lo : &hi) = middle;
+        }
+        best = fabs(s->value - lo) < fabs(best) ? s->value - lo : best;
+    }
+    CHECK_CLOSE(best, 0.0, 1e-11);
+    fst_branch_free(&branch);
+}
+
+/* A branch that comes back to where it began is followed once round. */
+static void a_closed_branch_is_followed_once(void **unused)
+{
+    (void)unused;
+    const fst_params params = scene_of(0.21513626, "rigid");
+    fst_branch_options options = fst_default_branch_options();
+    options.kind = FST_BRANCH_COUNTER;
+    options.key = "model.h";
+    options.from = 0.51;
+    options.to = 0.56;
+    fst_branch branch = followed(&params, &options);
+    int closed = 0;
+    for (size_t i = 0; i < branch.end_count; ++i)
+        closed += strstr(branch.ends[i].reason, "closes on itself") != NULL;
+    assert_true(closed > 0);
+    assert_true(branch.point_count < 400);
+    fst_branch_free(&branch);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(derivatives_by_parameters),
-        cmocka_unit_test(swings_are_those_of_the_path),
-        cmocka_unit_test(branches_end_at_their_borders),
-        cmocka_unit_test(the_axis_is_passed),
+        cmocka_unit_test(derivatives_by_parameters),        cmocka_unit_test(swings_are_those_of_the_path),
+        cmocka_unit_test(branches_end_at_their_borders),    cmocka_unit_test(the_axis_is_passed),
+        cmocka_unit_test(the_pitchfork_on_the_axis),        cmocka_unit_test(a_pair_leaves_the_circle),
+        cmocka_unit_test(a_closed_branch_is_followed_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
