@@ -107,11 +107,30 @@ static void test_progress_that_says_stop(void **unused)
     }
 }
 
+/* A bead that turned at first and was then caught does not turn regularly: its means are those of the whole
+ * window, not of the turning alone, and no direction is made of them. */
+static void test_a_bead_that_was_caught(void **unused)
+{
+    (void)unused;
+    for (int i = 0; i < 3; ++i) {
+        fst_params p = bead_at(0.175 + 0.00125 * i, FST_DYNAMICS_RIGID);
+        p.run_discard = 0;
+        p.run_periods = 40;
+        p.run_rtol = 1e-8;
+        const fst_run_result r = run_of(&p);
+        assert_true(r.returns >= 6); /* it did turn */
+        CHECK_CLOSE(r.window_periods, 40, 1.0);
+        assert_true(r.regime != FST_REGIME_COUNTER_ROTATING && r.regime != FST_REGIME_COROTATING);
+        assert_null(fst_symmetry_name(r.symmetry));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_earlier_of_two_bounds),
         cmocka_unit_test(test_progress_that_says_stop),
+        cmocka_unit_test(test_a_bead_that_was_caught),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
