@@ -5,6 +5,7 @@ Environment: FESTOON is the program.
 """
 
 import csv
+import json
 import math
 import os
 import re
@@ -32,13 +33,16 @@ def read_csv(path):
 
 def read_blocks(path):
     """Blocks of numbers of a figure's data by name."""
-    blocks, name = {}, None
+    blocks, name, in_head = {}, None, False
     with open(path, encoding="utf-8") as file:
-        text = file.read()
-    for part in text.split("\n\n\n"):
-        lines = part.splitlines()
-        name = lines[0][2:]
-        blocks[name] = [[float(word) for word in line.split()] for line in lines[2:] if line.strip()]
+        for line in file:
+            if line.startswith("# ") and not in_head:
+                name, in_head = line[2:].strip(), True
+                blocks[name] = []
+            elif not line.startswith("#"):
+                in_head = False
+                if line.strip():
+                    blocks[name].append([float(word) for word in line.split()])
     return blocks
 
 
@@ -107,6 +111,24 @@ def test_colours_cover_the_range_shown():
             close(low, 0.0, 0.0)
         else:
             assert high - low < 2 * span, (column, low, high, span)
+
+
+def test_dots_of_runs_over_a_branch():
+    """A run's dot stands at its own drive, in the branch's parameter, and on the branch."""
+    for key, of_run in (("drive.omega", "omega"), ("drive.frequency", "frequency_hz")):
+        with tempfile.TemporaryDirectory() as folder:
+            low, high = (0.345, 0.355) if key == "drive.omega" else (17.2, 17.6)
+            festoon(folder, "branch", "--kind", "counter", "--over", f"{key}={low}:{high}", "-o", "b.json")
+            done = subprocess.run([FESTOON, "run", "--set", f"{key}={(low + high) / 2}", "--set", "run.periods=60",
+                                   "--json"], cwd=folder, capture_output=True, text=True, check=True)
+            with open(os.path.join(folder, "runs.json"), "w", encoding="utf-8") as file:
+                file.write(done.stdout)
+            festoon(folder, "plot", "b.json", "--runs", "runs.json", "-o", "f.svg")
+            blocks = read_blocks(os.path.join(folder, "f.dat"))
+        run = json.loads(done.stdout)
+        (dot,) = [rows for name, rows in blocks.items() if len(rows) == 1 and not math.isnan(rows[0][0])]
+        close(dot[0][0], run[of_run], 1e-6)
+        close(dot[0][1], run["mean_r"], 1e-6)
 
 
 for name, test in list(globals().items()):
