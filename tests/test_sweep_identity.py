@@ -25,6 +25,14 @@ class Identity(Case):
         self.good("sweep", *DRAWN, "--seed", "8", "-o", self.path("b.db"))
         self.assertNotEqual(self.rows("b.db"), before)
 
+    def test_failed_runs_are_counted(self):
+        """In the summary for people and in that for programs."""
+        words = ["sweep", *SHORT, "--set", "model.eps=0.10869565217391304", "--over",
+                 "start.r=0.10869565217391304,0.9,1", "-o"]
+        told = json.loads(self.good(*words, self.path("a.db"), "--json"))
+        self.assertEqual((told["points"], told["rows"], told["added"], told["failed"]), (3, 3, 3, 1))
+        self.assertIn("1 runs failed", self.good(*words, self.path("b.db")))
+
     def test_random_axes_are_not_one(self):
         """Two axes drawn together draw different numbers."""
         self.good("sweep", *DRAWN, "--seed", "7", "-o", self.path("a.db"))
