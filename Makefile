@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PACKAGES = tools/install-packages.sh
 C_FILES = $(shell find src include tests bench docs examples tools -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp')
 
-.PHONY: build demo test test-long bench install docs format check-format clean help
+.PHONY: build demo test test-long mutants bench install docs format check-format clean help
 
 build: ## build build/festoon (optimised)
 	@$(PACKAGES) build
@@ -30,6 +30,10 @@ test-long: ## run the long tests
 	@cmake --preset release --log-level=WARNING -DFESTOON_TESTS=ON
 	@cmake --build build -j $(JOBS)
 	@ctest --preset release-long -j $(JOBS)
+
+mutants: ## put faults into the code, one at a time, and count which ones the tests notice (hours)
+	@$(PACKAGES) test
+	@python3 tests/mutants/run.py --write -j $(JOBS)
 
 bench: ## time festoon against other integrators and AUTO-07p
 	@$(PACKAGES) bench

@@ -1,0 +1,160 @@
+/* The motion that a film shows, from samples whose motion is known exactly: a body that turns evenly about an
+ * axis at rest, and a bead that goes straight on. */
+#include "numeric.h"
+
+#include <stdlib.h>
+
+#include "app/film_motion.h"
+
+#include <festoon/festoon_tools.h>
+
+enum { ROWS = 81 };
+
+static const double TURNS = 4.0;                  /* of the drive, over all rows */
+static const double AXIS[3] = {0.48, -0.6, 0.64}; /* of the body's turning, a unit vector */
+static const double RATE = 3.1, TIME = 2.0, N0[3] = {0.36, 0.8, -0.48};
+
+/* v turned about AXIS by an angle. */
+static void turned(const double v[3], double angle, double out[3])
+{
+    const double along = AXIS[0] * v[0] + AXIS[1] * v[1] + AXIS[2] * v[2];
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const double across = AXIS[j] * v[k] - AXIS[k] * v[j];
+        out[i] = along * AXIS[i] + cos(angle) * (v[i] - along * AXIS[i]) + sin(angle) * across;
+    }
+}
+
+static fst_table table_of_turning(double colour_from, double colour_to)
+{
+    fst_table table = {.rows = ROWS, .params = fst_default_params(), .complete = 1};
+    table.columns = calloc((size_t)fst_column_count(), sizeof *table.columns);
+    assert_non_null(table.columns);
+    for (int c = 0; c < fst_column_count(); ++c) {
+        const char *name = fst_column_at(c)->name;
+        table.columns[c] = calloc(ROWS, sizeof *table.columns[c]);
+        assert_non_null(table.columns[c]);
+        for (int row = 0; row < ROWS; ++row) {
+            const double part = (double)row / (ROWS - 1), t = TIME * part;
+            double n[3];
+            turned(N0, RATE * t, n);
+            double *value = &table.columns[c][row];
+            if (!strcmp(name, "t"))
+                *value = t;
+            else if (!strcmp(name, "drive_turns"))
+                *value = TURNS * part;
+            else if (!strcmp(name, "x"))
+                *value = 0.5 + 0.25 * part;
+            else if (!strcmp(name, "y"))
+                *value = -1.0 + 2.0 * part;
+            else if (!strcmp(name, "slip"))
+                *value = colour_from + (colour_to - colour_from) * part;
+            else if (!strncmp(name, "n_", 2) && strlen(name) == 3)
+                *value = name[2] == 'x' ? n[0] : name[2] == 'y' ? n[1] : name[2] == 'z' ? n[2] : 0.0;
+            else if (!strncmp(name, "w_", 2))
+                *value = RATE * AXIS[name[2] - 'x'];
+        }
+    }
+    return table;
+}
+
+static void begin(fst_film_motion *motion, const fst_table *table, const char *colour)
+{
+    fst_error error = {FST_OK, "", ""};
+    if (fst_film_motion_begin(motion, table, NAN, NAN, colour, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+}
+
+/* Each axis of the painted body has turned with the body, by the right angle and the right way round, at
+ * samples and between them; the moment is the third axis, and the three are right-handed. */
+static void test_the_body_turns_with_the_bead(void **state)
+{
+    (void)state;
+    fst_table table = table_of_turning(0.0, 1.0);
+    fst_film_motion motion;
+    fst_film_frame frame = {.clock = NULL};
+    begin(&motion, &table, NULL);
+    double start[3][3];
+    fst_film_motion_to(&motion, 0.0);
+    fst_film_motion_frame(&motion, &frame);
+    memcpy(start, frame.turn, sizeof start);
+    for (int i = 0; i < 3; ++i)
+        CHECK_CLOSE(start[i][2], N0[i], 1e-14);
+    for (int step = 0; step <= 160; ++step) {
+        const double part = step / 160.0;
+        const int between = step % 2;
+        fst_film_motion_to(&motion, TURNS * part);
+        fst_film_motion_frame(&motion, &frame);
+        double(*turn)[3] = frame.turn;
+        for (int k = 0; k < 3; ++k) {
+            const double before[3] = {start[0][k], start[1][k], start[2][k]};
+            double now[3];
+            turned(before, RATE * TIME * part, now);
+            for (int i = 0; i < 3; ++i)
+                CHECK_CLOSE(turn[i][k], now[i], between ? 2e-3 : 1e-11);
+        }
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3, k = (i + 2) % 3;
+            CHECK_CLOSE(turn[j][0] * turn[k][1] - turn[k][0] * turn[j][1], turn[i][2], 1e-13);
+        }
+    }
+    fst_table_free(&table);
+}
+
+/* The bead and the magnet are where they are at that moment, not at the sample before. */
+static void test_places_between_samples(void **state)
+{
+    (void)state;
+    fst_table table = table_of_turning(0.0, 1.0);
+    fst_film_motion motion;
+    fst_film_frame frame = {.clock = NULL};
+    const double mm = 1e3 * table.params.magnet_half_length;
+    begin(&motion, &table, NULL);
+    for (int step = 0; step <= 333; ++step) {
+        const double part = step / 333.0;
+        fst_film_motion_to(&motion, TURNS * part);
+        fst_film_motion_frame(&motion, &frame);
+        CHECK_CLOSE(frame.x, mm * (0.5 + 0.25 * part), 1e-9);
+        CHECK_CLOSE(frame.y, mm * (-1.0 + 2.0 * part), 1e-9);
+        const double angle = 6.283185307179586476925287 * TURNS * part;
+        CHECK_CLOSE(cos(frame.magnet_angle), cos(angle), 1e-9);
+        CHECK_CLOSE(sin(frame.magnet_angle), sin(angle), 1e-9);
+    }
+    fst_table_free(&table);
+}
+
+/* Colours: both signs alike about zero, from zero where the least is close to it, n_z from -1 to 1. */
+static void test_ranges_of_colours(void **state)
+{
+    (void)state;
+    static const struct {
+        double from, to, low, high;
+        int both_signs;
+    } cases[] = {{-0.2, 0.7, -0.7, 0.7, 1},
+                 {-0.9, 0.3, -0.9, 0.9, 1},
+                 {0.1, 1.0, 0.0, 1.0, 0},
+                 {0.5, 1.0, 0.5, 1.0, 0},
+                 {-1.0, -0.5, -1.0, -0.5, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        fst_table table = table_of_turning(cases[i].from, cases[i].to);
+        fst_film_motion motion;
+        begin(&motion, &table, "slip");
+        CHECK_CLOSE(motion.low, cases[i].low, 1e-14);
+        CHECK_CLOSE(motion.high, cases[i].high, 1e-14);
+        assert_int_equal(motion.both_signs, cases[i].both_signs);
+        begin(&motion, &table, "n_z");
+        CHECK_CLOSE(motion.low, -1.0, 0.0);
+        CHECK_CLOSE(motion.high, 1.0, 0.0);
+        fst_table_free(&table);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_body_turns_with_the_bead),
+        cmocka_unit_test(test_places_between_samples),
+        cmocka_unit_test(test_ranges_of_colours),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
