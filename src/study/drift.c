@@ -131,8 +131,13 @@ fst_drift fst_drift_of(const fst_run_state *run)
     const double cut_off = ALIASED * swing.mean / (b.turns / b.count);
     compare(&worst, &greatest, "<r>", &r, fmax(least, cut_off));
     compare(&worst, &greatest, "delta r", &swing, fmax(least, cut_off));
+    /* What dies out or grows does so exponentially: its logarithm follows the line. */
+    double logarithms[FST_MARKS];
+    for (int i = 0; i < b.count; ++i)
+        logarithms[i] = log(fmax(b.swing[i], 1e-300));
+    const line growth = line_through(logarithms, b.count);
     if (swing.mean > SWING_SEEN * r.mean)
-        compare(&worst, &greatest, "delta r", &swing, SWING_MATTERS * swing.mean);
+        compare(&worst, &greatest, "the logarithm of delta r", &growth, SWING_MATTERS);
     return worst;
 }
 

@@ -20,6 +20,7 @@ static const double CLOSED = 1e-6;   /* greatest distance of successive section 
 static const double STEADY = 0.01;   /* relative change of the half distance over half the window: S1 */
 static const double RELAXING = 1e-2; /* below this, distances that halve over half the window are relaxing */
 static const double STILL_FALLING = 0.95; /* activity of the last half over the first: below, it dies out */
+static const double WIDE = 0.3;           /* range of Phi of a wide libration */
 static const double GROWTH = 10.0;        /* exponent times duration: e^10 of growth is chaos */
 static const double QUIET = 2.0;          /* the same: below e^2 of growth a motion with friction is regular */
 static const double QUIET_WITHOUT_FRICTION =
@@ -27,10 +28,11 @@ static const double QUIET_WITHOUT_FRICTION =
 static const double SIGNIFICANT = 3.0; /* exponent over its standard error */
 static const double ONE_WAY = 5.0; /* |<alpha'>| over its standard error: below, the bead circles neither way */
 enum {
-    LEAST_PERIODS = 4,                     /* whole drive periods without which nothing is decided */
-    LEAST_CROSSINGS = 6,                   /* of the section: for regular turning */
-    LEAST_OPEN_CROSSINGS = 64,             /* the same, where the orbit does not close */
-    LEAST_CROSSINGS_WITHOUT_FRICTION = 256 /* and nothing draws the bead to it */
+    LEAST_PERIODS = 4,                      /* whole drive periods without which nothing is decided */
+    LEAST_CROSSINGS = 6,                    /* of the section: for regular turning */
+    LEAST_OPEN_CROSSINGS = 64,              /* the same, where the orbit does not close */
+    LEAST_CROSSINGS_WITHOUT_FRICTION = 256, /* and nothing draws the bead to it */
+    LEAST_PERIODS_WITHOUT_FRICTION = 100    /* the same for a wide libration */
 };
 
 static int turns_regularly(const fst_run_state *run)
@@ -129,6 +131,16 @@ static int is_closing(const fst_mark_series *marks)
     return marks->count - from >= 4;
 }
 
+/* The returns of the window's last quarter all come close: one of them may by chance. */
+static int stays_close(const fst_mark_series *marks)
+{
+    const int from = marks->count - (marks->count + 3) / 4;
+    for (int i = from; i < marks->count; ++i)
+        if (!(marks->kept[i].full_distance < RELAXING))
+            return 0;
+    return 1;
+}
+
 /* A mean drifts beyond its noise: nothing is settled yet. */
 static int still_drifts(const fst_run_state *run, fst_run_result *result)
 {
@@ -193,8 +205,9 @@ static fst_status decide_turning(fst_run_state *run, fst_run_result *result, fst
         set_direction(result);
         return FST_OK;
     }
-    const int nears = half < 0.5 * middle->half_distance || full < 0.5 * middle->full_distance ||
-                      is_closing(&run->section_marks);
+    const int nears = stays_close(&run->section_marks) &&
+                      (half < 0.5 * middle->half_distance || full < 0.5 * middle->full_distance ||
+                       is_closing(&run->section_marks));
     if (full < CLOSED || (full < RELAXING && nears && !fst_hidden_drift_of(run).what)) {
         REASON("Phi turns regularly and the orbit is still closing: half returns differ by %.2g, in the middle "
                "of the window by %.2g; whole ones by %.2g, %.2g; for the symmetry run longer",
@@ -273,6 +286,14 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
     const fst_status status = test_chaos(run, result, &found, error);
     if (status != FST_OK || found != REGULAR)
         return status;
+    const int friction = run->flow->step.context.coefficients.friction > 0;
+    if (!friction && run->greatest_phi - run->least_phi > WIDE &&
+        marks->offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
+        REASON("Phi stays within %.4g rad, but nothing damps so wide a motion, which may turn out chaotic: run "
+               "longer",
+               run->greatest_phi - run->least_phi);
+        return FST_OK;
+    }
     result->regime = FST_REGIME_LIBRATING;
     REASON("Phi stays within %.4g rad and the motion does not die out", run->greatest_phi - run->least_phi);
     return FST_OK;

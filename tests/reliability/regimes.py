@@ -38,8 +38,9 @@ def pick(rng, *choices):
     return rng.choices([value for value, _ in choices], [weight for _, weight in choices])[0]
 
 
-def bands(rng, default_length):
-    """The sampling: what is fixed for a batch, and from where to where its random numbers lie."""
+def bands(rng, default_length, quick=False):
+    """The sampling: what is fixed for a batch, and from where to where its random numbers lie.  The quick one leaves out
+    what takes long: low frequencies, strong magnets, runs of more than 40 drive periods."""
     material = pick(rng, ("hard", 70), ("mixed", 20), ("paramagnetic", 10))
     fixed = {
         "model.dynamics": pick(rng, ("rigid", 60), ("farago2020", 40)),
@@ -59,6 +60,11 @@ def bands(rng, default_length):
     }
     if material != "paramagnetic":
         moving["model.kappa"] = pick(rng, ((0.02, 0.3), 10), ((0.3, 1), 20), ((1, 3), 45), ((3, 15), 20), ((15, 60), 5))
+    if quick:
+        fixed["run.periods"] = 400 if default_length else 40
+        moving["drive.frequency"] = pick(rng, ((6, 11), 20), ((11, 25), 30), ((25, 60), 25), ((60, 170), 15), ((170, 300), 10))
+        if material != "paramagnetic":
+            moving["model.kappa"] = pick(rng, ((0.02, 0.3), 10), ((0.3, 1), 25), ((1, 3), 50), ((3, 15), 15))
     if material != "hard":
         moving["bead.a"] = (1e-3, 5e-2)
     if material == "mixed":
@@ -82,13 +88,13 @@ def sweep(fixed, moving, count, seed, periods, path, threads):
     return [{name.split(" ")[0]: value for name, value in row.items()} for row in table]
 
 
-def study(count, seed, default_length, directory, threads, tell):
+def study(count, seed, default_length, quick, directory, threads, tell):
     """Pairs of rows, the run and the longer one."""
     pairs = []
     for number in range((count + BATCH - 1) // BATCH):
-        name = f"{seed}-{'default' if default_length else 'short'}-{number}"
+        name = f"{seed}-{'quick-' if quick else ''}{'default' if default_length else 'short'}-{number}"
         rng = random.Random(name)
-        fixed, moving = bands(rng, default_length)
+        fixed, moving = bands(rng, default_length, quick)
         size, grid_seed = min(BATCH, count - number * BATCH), rng.randrange(2**52)
         rows = [sweep(fixed, moving, size, grid_seed, fixed["run.periods"] * times,
                       os.path.join(directory, f"{name}-x{times}-{size}.db"), threads) for times in (1, LONGER)]
@@ -154,6 +160,7 @@ def report(pairs, out):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=1000, help="scenes (1000; the published table: 50000)")
+    parser.add_argument("--quick-count", type=int, default=0, help="further scenes, of the quick sampling (0)")
     parser.add_argument("--seed", type=int, default=2, help="of the sampling (2, the published table's)")
     parser.add_argument("--default-length", action="store_true", help="runs of 400 drive periods against 4000")
     parser.add_argument("--keep", metavar="DIR", help="folder of the databases; without: thrown away")
@@ -163,8 +170,10 @@ def main():
     with tempfile.TemporaryDirectory(prefix="festoon-regimes-") as scratch:
         directory = given.keep or scratch
         os.makedirs(directory, exist_ok=True)
-        pairs = study(given.count, given.seed, given.default_length, directory, given.threads,
-                      lambda text: print(text, file=sys.stderr, flush=True))
+        pairs = []
+        for quick, count in ((False, given.count), (True, given.quick_count)):
+            pairs += study(count, given.seed, given.default_length, quick, directory, given.threads,
+                           lambda text: print(text, file=sys.stderr, flush=True))
     report(pairs, sys.stdout)
     if given.json:
         with open(given.json, "w") as file:
