@@ -41,7 +41,7 @@ extern "C" {
 
 /* Changes when the same parameters give other bits than before: a sweep begun by another version is not
  * continued. */
-#define FST_RESULTS_VERSION 4
+#define FST_RESULTS_VERSION 5
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
@@ -341,6 +341,7 @@ typedef struct fst_sample {
 } fst_sample;
 typedef struct fst_ramp_point {
     double omega, frequency_hz, mean_r, std_r, mean_alpha_dot, mean_phi_dot, mean_nz;
+    int settled; /* the ramp waited here until the orbit closed; 0 where it did not wait, or not to the end */
 } fst_ramp_point;
 
 /* Where a run pushes what it finds.  Any callback may be NULL.  A callback that returns other than FST_OK ends
@@ -357,6 +358,9 @@ typedef struct fst_run_options {
     fst_run_sink sink;
     double ramp_from, ramp_to; /* drive omega at the start and end of a ramp; NAN: no ramp */
     int ramp_points;           /* pieces of the ramp over which means are taken */
+    double ramp_wait;          /* most turns of the magnet for which each piece waits, half way, until the motion
+                                * has settled; 0: the drive changes steadily */
+    double ramp_disturbance;   /* size of the disturbance with which the motion starts there, scaled */
     double sample_from;        /* drive periods before which no sample is taken */
     const double *start;       /* FST_STATE_SIZE numbers: the state at the start; NULL: what start.* says */
 } fst_run_options;

@@ -14,6 +14,10 @@ static const option options[] = {
     {"ramp", '\0', "FROM:TO",
      "slow ramp of the drive after the discard: 7:20 or 420rpm:1200rpm, or omega=0.2:0.4"},
     {"ramp-points", '\0', "N", "pieces of the ramp over which means are taken (64)"},
+    {"ramp-wait", '\0', "TURNS",
+     "most turns for which each piece waits half way until the motion has settled (1000; 0: a steady ramp)"},
+    {"ramp-disturbance", '\0', "SIZE",
+     "of velocities, scaled, with which the motion starts there, so that it leaves what is unstable (1e-6)"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -76,6 +80,23 @@ static fst_status read_ramp_end(const char *text, int scaled, double gamma, doub
         return fail(error, FST_BAD_INPUT, "--ramp", "\"%.40s\" is out of range: omega must be %g to %g", text,
                     range->least, range->greatest);
     return FST_OK;
+}
+
+/* A number that only a ramp needs, within bounds. */
+static fst_status read_of_ramp(const arguments *given, const char *name, double greatest, double *value,
+                               fst_error *error)
+{
+    const char *text = option_value(given, name);
+    char shown[32];
+    (void)snprintf(shown, sizeof shown, "--%s", name);
+    if (!text)
+        return FST_OK;
+    if (!option_value(given, "ramp"))
+        return fail(error, FST_BAD_INPUT, "", "%s needs --ramp FROM:TO", shown);
+    fst_status status = read_numbers(shown, text, value, 1, error);
+    if (status == FST_OK && !(*value >= 0 && *value <= greatest))
+        status = fail(error, FST_BAD_INPUT, shown, "\"%.40s\" must be a number from 0 to %g", text, greatest);
+    return status;
 }
 
 static fst_status read_ramp(const arguments *given, double gamma, fst_run_options *run, fst_error *error)
@@ -170,6 +191,10 @@ static fst_status run_into(const arguments *given, const fst_params *params, run
     fst_run_result result;
     fst_run_options run = fst_default_run_options();
     fst_status status = read_ramp(given, params->friction_gamma, &run, error);
+    if (status == FST_OK)
+        status = read_of_ramp(given, "ramp-wait", 1e6, &run.ramp_wait, error);
+    if (status == FST_OK)
+        status = read_of_ramp(given, "ramp-disturbance", 1e-2, &run.ramp_disturbance, error);
     if (status == FST_OK)
         status = open_files(given, params, outputs, error);
     if (status == FST_OK) {

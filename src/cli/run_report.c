@@ -157,12 +157,17 @@ void print_ramp(FILE *out, const fst_groups *groups, const fst_run_result *resul
 {
     if (result->regime == FST_REGIME_EJECTED || result->regime == FST_REGIME_LIFTED)
         print_sentence(out, groups, result);
+    else
+        (void)fprintf(out, "%s\n", result->reason);
     const double mm = 1e3 * groups->length_unit, hertz = 1.0 / (TWO_PI * groups->time_unit);
-    (void)fprintf(
-        out, "A ramp of the drive to %.6g Hz, means over its pieces:\n  %10s %10s %10s %12s %14s %14s %10s\n",
-        result->frequency_hz, "drive Hz", "omega", "<r> mm", "delta r mm", "<alpha'> Hz", "<phi'> Hz", "<n_z>");
+    (void)fprintf(out,
+                  "A ramp of the drive to %.6g Hz, means over its pieces (*: not settled):\n  %10s %10s %10s "
+                  "%12s %14s %14s %10s\n",
+                  result->frequency_hz, "drive Hz", "omega", "<r> mm", "delta r mm", "<alpha'> Hz", "<phi'> Hz",
+                  "<n_z>");
     for (size_t i = 0; i < count; i++)
-        (void)fprintf(out, "  %10.5g %10.6g %10.5g %12.4g %14.6g %14.6g %10.3g\n", points[i].frequency_hz,
+        (void)fprintf(out, "  %10.5g %10.6g %10.5g %12.4g %14.6g %14.6g %10.3g%s\n", points[i].frequency_hz,
                       points[i].omega, mm * points[i].mean_r, mm * points[i].std_r,
-                      hertz * points[i].mean_alpha_dot, hertz * points[i].mean_phi_dot, points[i].mean_nz);
+                      hertz * points[i].mean_alpha_dot, hertz * points[i].mean_phi_dot, points[i].mean_nz,
+                      points[i].settled ? "" : " *");
 }

@@ -98,6 +98,7 @@ static json_t *ramp_array(const fst_ramp_point *ramp, size_t count)
         json_object_set_new(point, "mean_alpha_dot", fst_json_number(ramp[i].mean_alpha_dot));
         json_object_set_new(point, "mean_phi_dot", fst_json_number(ramp[i].mean_phi_dot));
         json_object_set_new(point, "mean_nz", fst_json_number(ramp[i].mean_nz));
+        json_object_set_new(point, "settled", json_boolean(ramp[i].settled));
         json_array_append_new(array, point);
     }
     return array;

@@ -107,6 +107,7 @@ void fst_flow_restart(fst_flow *flow)
 {
     fst_bead_step_double *s = &flow->step;
     memcpy(s->y, s->end, sizeof s->y);
+    s->omega = fst_flow_omega(flow, flow->t);
     fst_begin_steps_double(s);
     flow->rhs_calls += 1;
     flow->phi_start = flow->phi;
@@ -124,8 +125,23 @@ double fst_flow_omega(const fst_flow *flow, fst_twofold t)
     return flow->omega_start + flow->step.ramp * fst_twofold_difference(t, flow->ramp_start);
 }
 
+/* Angle of the drive since t = 0: what it was when the ramp began, and omega t + ramp t^2/2 since. */
+static fst_twofold drive_phase(const fst_flow *flow, fst_twofold t)
+{
+    const fst_twofold before = flow->ramp_start;
+    const double on_ramp = fst_twofold_difference(t, before);
+    const fst_twofold since = fst_twofold_add(fst_twofold_add(t, -before.high), -before.low);
+    fst_twofold phase = fst_twofold_times(since, flow->omega_start);
+    if (on_ramp > 0)
+        phase = fst_twofold_add(phase, 0.5 * flow->step.ramp * (on_ramp * on_ramp));
+    return fst_twofold_add(fst_twofold_add(phase, flow->phase_start.high), flow->phase_start.low);
+}
+
 void fst_flow_begin_ramp(fst_flow *flow, double rate)
 {
+    const double omega = fst_flow_omega(flow, flow->t);
+    flow->phase_start = drive_phase(flow, flow->t);
+    flow->omega_start = omega;
     flow->ramp_start = flow->t;
     flow->step.ramp = rate;
 }
@@ -288,10 +304,7 @@ void fst_flow_drive_turns(const fst_flow *flow, fst_twofold t, double *whole, do
 {
     /* (omega t + ramp t_ramp^2/2)/(2 pi), with 1/(2 pi) as the sum of two doubles. */
     static const double inverse_high = 0.15915494309189535, inverse_low = -9.839338337591243e-18;
-    const double on_ramp = fst_twofold_difference(t, flow->ramp_start);
-    fst_twofold phase = fst_twofold_times(t, flow->omega_start);
-    if (on_ramp > 0)
-        phase = fst_twofold_add(phase, 0.5 * flow->step.ramp * (on_ramp * on_ramp));
+    const fst_twofold phase = drive_phase(flow, t);
     fst_twofold turns = fst_twofold_times(phase, inverse_high);
     turns = fst_twofold_add(turns, phase.high * inverse_low);
     *whole = floor(turns.high);

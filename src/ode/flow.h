@@ -12,8 +12,9 @@ struct fst_flow {
     fst_bead_step_double step; /* the last accepted step, from step.y to step.end */
     fst_groups groups;
     double rtol, atol[FST_STATE_SIZE], greatest_step;
-    double omega_start;          /* drive before the ramp, whose rate is step.ramp */
-    fst_twofold ramp_start;      /* when the ramp began */
+    double omega_start;          /* drive at ramp_start, from where it changes at the rate step.ramp */
+    fst_twofold ramp_start;      /* when that began */
+    fst_twofold phase_start;     /* angle of the drive there */
     fst_twofold t_start, t;      /* times of step.y and step.end */
     double h_next;               /* proposal for the next step, positive */
     int has_step;                /* a step was made: step.end is the state, else step.y */

@@ -297,8 +297,7 @@ fst_status fst_run_conclude(fst_run_state *run, fst_run_result *result, fst_erro
         return FST_OK;
     }
     if (run->ramp_rate != 0.0) {
-        (void)snprintf(result->reason, sizeof result->reason,
-                       "a ramp has no single regime: its pieces tell how the motion changed");
+        fst_ramp_conclude(run, result);
         return FST_OK;
     }
     const fst_mark_series *series = fst_window_of(run);

@@ -5,26 +5,34 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "study/drift.h"
 
 #define TWO_PI 6.283185307179586476925287
 
 /* Thresholds, scaled.  docs/regimes.md says why these. */
-static const double AT_REST = 1e-8;  /* greatest |d(state)/dt| of a locked bead, or run.rtol if larger */
-static const double STILL = 1e-10;   /* n within this of rest is at rest */
-static const double KEPT = 1e-9;     /* Phi within this keeps its place */
-static const double NOISE = 100.0;   /* times run.rtol: slower motion is not told from the integrator's noise */
-static const double GROWING = 2.0;   /* activity of the last half over the first: above, it is no mere noise */
+static const double AT_REST = 1e-8; /* greatest |d(state)/dt| of a locked bead, or run.rtol if larger */
+static const double STILL = 50.0;   /* times run.rtol: n within this of rest is at rest */
+static const double KEPT = 1e-9;    /* Phi within this, or within run.rtol, keeps its place */
+static const double NOISE = 100.0;  /* times run.rtol: slower motion is not told from the integrator's noise */
+static const double GROWING =
+    2.0; /* activity of a third of the window over the one before: above, twice, it grows */
 static const double CLOSED = 1e-6;   /* greatest distance of successive section states of a closed orbit */
 static const double STEADY = 0.01;   /* relative change of the half distance over half the window: S1 */
 static const double RELAXING = 1e-2; /* below this, distances that halve over half the window are relaxing */
 static const double STILL_FALLING = 0.95; /* activity of the last half over the first: below, it dies out */
+static const double WIDE = 0.3;           /* range of Phi of a wide libration */
 static const double GROWTH = 10.0;        /* exponent times duration: e^10 of growth is chaos */
-static const double SIGNIFICANT = 3.0;    /* exponent over the part of its error that is chance */
+static const double QUIET = 2.0;          /* the same: below e^2 of growth a motion with friction is regular */
+static const double QUIET_WITHOUT_FRICTION =
+    4.0;                               /* neighbours on tori part like a power of time: e^2.4 for the first */
+static const double SIGNIFICANT = 3.0; /* exponent over the part of its error that is chance */
 static const double ONE_WAY = 5.0; /* |<alpha'>| over its standard error: below, the bead circles neither way */
 enum {
-    LEAST_PERIODS = 4,        /* whole drive periods without which nothing is decided */
-    LEAST_CROSSINGS = 6,      /* of the section: for regular turning */
-    LEAST_OPEN_CROSSINGS = 64 /* the same, where the orbit does not close */
+    LEAST_PERIODS = 4,                      /* whole drive periods without which nothing is decided */
+    LEAST_CROSSINGS = 6,                    /* of the section: for regular turning */
+    LEAST_OPEN_CROSSINGS = 64,              /* the same, where the orbit does not close */
+    LEAST_CROSSINGS_WITHOUT_FRICTION = 256, /* and nothing draws the bead to it */
+    LEAST_PERIODS_WITHOUT_FRICTION = 100    /* the same for a wide libration */
 };
 
 static int turns_regularly(const fst_run_state *run)
@@ -79,8 +87,12 @@ static fst_status find_exponent(fst_run_state *run, fst_error *error)
     return FST_OK;
 }
 
-/* Chaotic if the exponent across the flow is positive beyond its error; *positive tells. */
-static fst_status test_chaos(fst_run_state *run, fst_run_result *result, int *positive, fst_error *error)
+/* What the exponent says: neighbours part exponentially, or they do not, or the window is too short to tell. */
+typedef enum { REGULAR, UNCLEAR, CHAOTIC } chaos;
+
+/* Chaotic if the exponent across the flow is positive beyond its error: the regime is set then, and the reason
+ * too where it cannot be told. */
+static fst_status test_chaos(fst_run_state *run, fst_run_result *result, chaos *found, fst_error *error)
 {
     const fst_status status = find_exponent(run, error);
     if (status != FST_OK)
@@ -89,10 +101,20 @@ static fst_status test_chaos(fst_run_state *run, fst_run_result *result, int *po
     result->rhs_calls += run->exponent.rhs_calls;
     result->largest_exponent = exponent;
     result->largest_exponent_error = standard_error;
-    *positive = exponent > SIGNIFICANT * run->exponent.chance && exponent * run->exponent.duration > GROWTH;
-    if (*positive) {
+    const double growth = exponent * run->exponent.duration;
+    const double quiet = run->flow->step.context.coefficients.friction > 0 ? QUIET : QUIET_WITHOUT_FRICTION;
+    *found = exponent > SIGNIFICANT * run->exponent.chance && growth > GROWTH ? CHAOTIC
+             : growth > quiet                                                 ? UNCLEAR
+                                                                              : REGULAR;
+    if (*found == CHAOTIC) {
         result->regime = FST_REGIME_CHAOTIC;
-        REASON("the largest Lyapunov exponent is positive: %.4g +- %.2g", exponent, standard_error);
+        REASON("the largest Lyapunov exponent is positive over the window: %.4g +- %.2g", exponent,
+               standard_error);
+    } else if (*found == UNCLEAR) {
+        REASON("regular or chaotic cannot be told yet: the Lyapunov exponent across the flow is %.3g +- %.2g, "
+               "so that "
+               "neighbours parted by e^%.2g over the window; run longer",
+               exponent, standard_error, growth);
     }
     return FST_OK;
 }
@@ -118,12 +140,67 @@ static int is_closing(const fst_mark_series *marks)
     return marks->count - from >= 4;
 }
 
+/* The returns of the window's last quarter all come close: one of them may by chance. */
+static int stays_close(const fst_mark_series *marks)
+{
+    const int from = marks->count - (marks->count + 3) / 4;
+    for (int i = from; i < marks->count; ++i)
+        if (!(marks->kept[i].full_distance < RELAXING))
+            return 0;
+    return 1;
+}
+
+/* A mean drifts beyond its noise: nothing is settled yet. */
+static int still_drifts(const fst_run_state *run, fst_run_result *result)
+{
+    const fst_drift drift = fst_drift_of(run);
+    if (!drift.what)
+        return 0;
+    REASON("still drifts: %s changed by %.2g +- %.1g over the window of %.4g turns (%.2g a turn, at a mean of "
+           "%.4g); "
+           "raise run.periods and run.discard, or start nearer to where it goes",
+           drift.what, drift.change, drift.noise, drift.turns, drift.change / drift.turns, drift.mean);
+    return 1;
+}
+
+/* Phi turns regularly on an orbit that does not close: chaotic, regular, or not to be told. */
+static fst_status decide_open(fst_run_state *run, fst_run_result *result, double full, fst_error *error)
+{
+    chaos found;
+    const fst_status status = test_chaos(run, result, &found, error);
+    if (status != FST_OK || found != REGULAR)
+        return status;
+    const fst_drift hidden = fst_hidden_drift_of(run);
+    if (hidden.what) {
+        REASON("may still drift: %s changed by %.2g over the window of %.4g turns (mean %.4g), and swings so "
+               "slowly that a "
+               "drift by %.2g could hide in it; raise run.periods and run.discard until the window holds many "
+               "swings",
+               hidden.what, hidden.change, hidden.turns, hidden.mean, hidden.noise);
+        return FST_OK;
+    }
+    const int friction = run->flow->step.context.coefficients.friction > 0;
+    if (run->returns.crossings < (friction ? LEAST_OPEN_CROSSINGS : LEAST_CROSSINGS_WITHOUT_FRICTION)) {
+        REASON("Phi turned regularly %lld times, but the orbit has not closed (whole returns differ by %.2g): "
+               "run longer",
+               (long long)(run->returns.crossings / 2), full);
+        return FST_OK;
+    }
+    REASON("Phi turns regularly on an orbit that does not close in one return (differing by %.2g); exponent "
+           "across the flow %.3g +- %.2g, not positive",
+           full, result->largest_exponent, result->largest_exponent_error);
+    set_direction(result);
+    return FST_OK;
+}
+
 /* Phi turns regularly: which orbit closes, or is it chaotic, or open? */
 static fst_status decide_turning(fst_run_state *run, fst_run_result *result, fst_error *error)
 {
     const fst_mark *middle = &run->section_marks.kept[run->section_marks.count / 2];
     const fst_mark *last = &run->section_marks.latest;
     const double half = last->half_distance, full = last->full_distance;
+    if (still_drifts(run, result))
+        return FST_OK;
     if (half < CLOSED) {
         result->symmetry = FST_SYMMETRY_S2;
         REASON("a closed orbit with the symmetry S2: successive half returns differ by %.2g", half);
@@ -137,32 +214,17 @@ static fst_status decide_turning(fst_run_state *run, fst_run_result *result, fst
         set_direction(result);
         return FST_OK;
     }
-    if (full < CLOSED ||
-        (full < RELAXING && (half < 0.5 * middle->half_distance || full < 0.5 * middle->full_distance ||
-                             is_closing(&run->section_marks)))) {
+    const int nears = stays_close(&run->section_marks) &&
+                      (half < 0.5 * middle->half_distance || full < 0.5 * middle->full_distance ||
+                       is_closing(&run->section_marks));
+    if (full < CLOSED || (full < RELAXING && nears && !fst_hidden_drift_of(run).what)) {
         REASON("Phi turns regularly and the orbit is still closing: half returns differ by %.2g, in the middle "
-               "of the "
-               "window by %.2g; whole ones by %.2g, %.2g; for the symmetry run longer",
+               "of the window by %.2g; whole ones by %.2g, %.2g; for the symmetry run longer",
                half, middle->half_distance, full, middle->full_distance);
         set_direction(result);
         return FST_OK;
     }
-    int chaotic;
-    const fst_status status = test_chaos(run, result, &chaotic, error);
-    if (status != FST_OK || chaotic)
-        return status;
-    if (run->returns.crossings < LEAST_OPEN_CROSSINGS) {
-        REASON("Phi turned regularly %lld times, but the orbit has not closed (whole returns differ by %.2g): "
-               "run longer",
-               (long long)(run->returns.crossings / 2), full);
-        return FST_OK;
-    }
-    REASON("Phi turns regularly on an orbit that does not close in one return (differing by %.2g); exponent "
-           "across "
-           "the flow %.3g +- %.2g, not positive",
-           full, result->largest_exponent, result->largest_exponent_error);
-    set_direction(result);
-    return FST_OK;
+    return decide_open(run, result, full, error);
 }
 
 /* Greatest activity over the marks [from, to[. */
@@ -174,18 +236,28 @@ static double activity_over(const fst_mark_series *marks, int from, int to)
     return greatest;
 }
 
+/* The activity grows from third to third of the window.  Noise has single peaks, forty times as high as the
+ * rest: two halves would not tell them from growth. */
+static int grows(const fst_mark_series *marks)
+{
+    const int third = (marks->count - 1) / 3;
+    const double a = activity_over(marks, 1, 1 + third), b = activity_over(marks, 1 + third, 1 + 2 * third),
+                 c = activity_over(marks, marks->count - third, marks->count);
+    return third > 0 && b > GROWING * a && c > GROWING * b;
+}
+
 /* The speed below which a bead at rest is not told from noise: that of the integrator, or what the torque of a
  * strong magnet makes of the errors of n while the place is kept. */
 static double noise_of(const fst_run_state *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
     const double of_steps = NOISE * run->params->run_rtol;
-    if (run->greatest_phi - run->least_phi > KEPT)
+    if (run->greatest_phi - run->least_phi > fmax(KEPT, run->params->run_rtol))
         return of_steps;
     fst_pull_double p;
     fst_magnetic_pull_double(c, run->flow->step.end, &p);
     const double b = sqrt(p.b[0] * p.b[0] + p.b[1] * p.b[1] + p.b[2] * p.b[2]);
-    return fmax(of_steps, STILL * (c->torque * fabs(p.strength) * b));
+    return fmax(of_steps, STILL * run->params->run_rtol * (c->torque * fabs(p.strength) * b));
 }
 
 /* Phi stays within one turn: librating, chaotic, or dying out towards a locked state. */
@@ -197,7 +269,7 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
     const double noise = noise_of(run);
     /* At an equilibrium the step size grows until the error of a step is the tolerance, and the state jitters.
      */
-    if (late < noise && late <= GROWING * early) {
+    if (late < noise && !grows(marks)) {
         result->regime = FST_REGIME_LOCKED;
         REASON("at rest in the turning frame to within the integrator's noise: |d(state)/dt| stays below %.2g, "
                "that is %.2g run.rtol, and does not grow",
@@ -210,6 +282,8 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
                early, late);
         return FST_OK;
     }
+    if (late >= noise && still_drifts(run, result))
+        return FST_OK;
     if (late < noise) {
         REASON("the motion is no faster than the integrator's noise but grows (speed in the turning frame from "
                "%.2g "
@@ -217,10 +291,18 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
                early, late);
         return FST_OK;
     }
-    int chaotic;
-    const fst_status status = test_chaos(run, result, &chaotic, error);
-    if (status != FST_OK || chaotic)
+    chaos found;
+    const fst_status status = test_chaos(run, result, &found, error);
+    if (status != FST_OK || found != REGULAR)
         return status;
+    const int friction = run->flow->step.context.coefficients.friction > 0;
+    if (!friction && run->greatest_phi - run->least_phi > WIDE &&
+        marks->offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
+        REASON("Phi stays within %.4g rad, but nothing damps so wide a motion, which may turn out chaotic: run "
+               "longer",
+               run->greatest_phi - run->least_phi);
+        return FST_OK;
+    }
     result->regime = FST_REGIME_LIBRATING;
     REASON("Phi stays within %.4g rad and the motion does not die out", run->greatest_phi - run->least_phi);
     return FST_OK;
@@ -258,9 +340,11 @@ fst_status fst_decide_regime(fst_run_state *run, fst_run_result *result, fst_err
         return decide_turning(run, result, error);
     if (run->greatest_phi - run->least_phi < TWO_PI)
         return decide_bounded(run, result, error);
-    int chaotic;
-    const fst_status status = test_chaos(run, result, &chaotic, error);
-    if (status == FST_OK && !chaotic)
+    if (still_drifts(run, result))
+        return FST_OK;
+    chaos found;
+    const fst_status status = test_chaos(run, result, &found, error);
+    if (status == FST_OK && found == REGULAR)
         REASON("Phi turns irregularly (%lld crossings of the section), but the exponent %.3g +- %.2g is not "
                "positive "
                "beyond its error: run longer",

@@ -84,6 +84,8 @@ void fst_returns_step(fst_run_state *run)
         fst_apply_s2(mark.state, image);
     mark.half_distance = r->since_break > 1 ? distance(image, r->section[0]) : NAN;
     mark.full_distance = r->since_break > 2 ? distance(image, r->section[1]) : NAN;
+    if (run->is_waiting)
+        fst_ramp_crossing(run, &mark, image);
     memcpy(r->section[1], r->section[0], sizeof image);
     memcpy(r->section[0], image, sizeof image);
     if (r->crossings % 2 == 1)

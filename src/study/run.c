@@ -18,6 +18,8 @@ fst_run_options fst_default_run_options(void)
     o.cookie = FST_RUN_OPTIONS_COOKIE;
     o.ramp_from = o.ramp_to = NAN;
     o.ramp_points = 64;
+    o.ramp_wait = 1000.0;
+    o.ramp_disturbance = 1e-6;
     return o;
 }
 
@@ -32,6 +34,11 @@ static fst_status check_options(const fst_run_options *o, fst_error *error)
         (!(o->ramp_from > 0) || !(o->ramp_to > 0) || !isfinite(o->ramp_from) || !isfinite(o->ramp_to)))
         return fst_fail(error, FST_BAD_INPUT, "fst_run", "the drive of a ramp must stay positive: %g to %g",
                         o->ramp_from, o->ramp_to);
+    if (!(o->ramp_wait >= 0 && o->ramp_wait <= 1e6) ||
+        !(o->ramp_disturbance >= 0 && o->ramp_disturbance <= 1e-2))
+        return fst_fail(error, FST_BAD_INPUT, "fst_run",
+                        "ramp_wait = %g or ramp_disturbance = %g is out of range: 0 to 1e6, and 0 to 0.01",
+                        o->ramp_wait, o->ramp_disturbance);
     if (o->ramp_points < 1 || o->ramp_points > 1000000)
         return fst_fail(error, FST_BAD_INPUT, "fst_run", "ramp_points = %d is out of range: 1 to 1000000",
                         o->ramp_points);
@@ -201,10 +208,11 @@ static fst_status report_progress(fst_run_state *run, fst_error *error)
     const fst_run_sink *sink = &run->options->sink;
     if (!sink->progress || run->flow->accepted % 64 != 0)
         return FST_OK;
-    return sink->progress(sink->user, FST_RUN_SHARE * run->flow->t.high / run->t_end, error);
+    const double done = run->ramp_waits ? fst_ramp_progress(run) : run->flow->t.high / run->t_end;
+    return sink->progress(sink->user, FST_RUN_SHARE * done, error);
 }
 
-static fst_status one_step(fst_run_state *run, double t_limit, fst_error *error)
+fst_status fst_run_one_step(fst_run_state *run, double t_limit, fst_error *error)
 {
     fst_status status = fst_flow_step(run->flow, t_limit, error);
     if (status != FST_OK)
@@ -216,18 +224,17 @@ static fst_status one_step(fst_run_state *run, double t_limit, fst_error *error)
         return push_samples(run, run->end_fraction, error);
     fst_run_watch_step(run);
     status = push_samples(run, 1.0, error);
-    if (status == FST_OK && run->is_ramp)
+    if (status == FST_OK && run->is_ramp && !run->ramp_waits)
         status = fst_ramp_step(run, error);
     return status == FST_OK ? report_progress(run, error) : status;
 }
 
-/* Steps up to a time, landing on it. */
-static fst_status steps_until(fst_run_state *run, double t, fst_error *error)
+fst_status fst_run_steps_until(fst_run_state *run, double t, fst_error *error)
 {
     const fst_twofold end = {t, 0.0};
     fst_status status = FST_OK;
     while (status == FST_OK && !run->ended && fst_twofold_difference(end, run->flow->t) > 0)
-        status = one_step(run, t, error);
+        status = fst_run_one_step(run, t, error);
     return status;
 }
 
@@ -247,11 +254,13 @@ static fst_status simulate(fst_run_state *run, fst_error *error)
 {
     fst_status status = push_samples(run, 1.0, error);
     if (status == FST_OK && run->ramp_rate != 0.0) {
-        status = steps_until(run, run->t_discard, error);
+        status = fst_run_steps_until(run, run->t_discard, error);
+        if (status == FST_OK && run->ramp_waits)
+            return fst_ramp_with_waiting(run, error);
         fst_flow_begin_ramp(run->flow, run->ramp_rate);
     }
     if (status == FST_OK)
-        status = steps_until(run, run->t_end, error);
+        status = fst_run_steps_until(run, run->t_end, error);
     return status;
 }
 
@@ -271,6 +280,7 @@ static void set_times(fst_run_state *run, const fst_groups *g)
     const double duration = turns * TWO_PI / (0.5 * (o->ramp_from + o->ramp_to));
     run->ramp_rate = (o->ramp_to - o->ramp_from) / duration;
     run->t_end = run->t_discard + duration;
+    run->ramp_waits = run->ramp_rate != 0.0 && o->ramp_wait > 0;
 }
 
 fst_status fst_run_begin(fst_run_state *run, fst_error *error)

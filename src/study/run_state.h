@@ -19,6 +19,14 @@ typedef struct fst_returns {
 /* Of the progress that a run reports, the steps' part; the rest is that of an exponent, if one is needed. */
 #define FST_RUN_SHARE 0.7
 
+/* The last whole returns since a ramp began to wait. */
+enum { FST_WAIT_RETURNS = 8 };
+typedef struct fst_ramp_wait {
+    int64_t returns;                      /* whole ones, and the first crossing */
+    fst_mark marks[FST_WAIT_RETURNS + 1]; /* ring: return i is at i % (FST_WAIT_RETURNS + 1) */
+    double asymmetry[FST_WAIT_RETURNS + 1];
+} fst_ramp_wait;
+
 typedef struct fst_run_state {
     const fst_params *params;
     const fst_run_options *options;
@@ -49,7 +57,12 @@ typedef struct fst_run_state {
     double ramp_rate;
     int ramp_piece;
     fst_mark piece_start, piece_first, piece_last; /* marks of the present piece */
-    int piece_returns;
+    int64_t piece_returns;
+    /* a ramp that waits half way through each piece */
+    int ramp_waits, is_waiting;
+    int unsettled_pieces;
+    double unsettled_first, unsettled_last; /* drive of the first and the last of them */
+    fst_ramp_wait wait;
 } fst_run_state;
 
 /* Model, start state, flow and times of a run whose params and options are set. */
@@ -95,6 +108,20 @@ void fst_result_clear(fst_run_result *result);
 /* Means over [first, last]: what both the result and a ramp's pieces need. */
 void fst_means_between(const fst_run_state *run, const fst_mark *first, const fst_mark *last,
                        fst_ramp_point *means);
+
+/* One step towards t_limit, and what it holds; steps up to a time, landing on it. */
+fst_status fst_run_one_step(fst_run_state *run, double t_limit, fst_error *error);
+fst_status fst_run_steps_until(fst_run_state *run, double t, fst_error *error);
+
+/* The ramp of a run at the end of its discard, waiting half way through each piece; how much of it is done. */
+fst_status fst_ramp_with_waiting(fst_run_state *run, fst_error *error);
+double fst_ramp_progress(const fst_run_state *run);
+
+/* A crossing of the section while the ramp waits: `image` is its state on the side Y > 0, before it is kept. */
+void fst_ramp_crossing(fst_run_state *run, const fst_mark *mark, const double *image);
+
+/* Why a ramp has no regime, and where it did not settle. */
+void fst_ramp_conclude(const fst_run_state *run, fst_run_result *result);
 
 /* A ramp's bookkeeping after each step, and the piece that ends with the run. */
 fst_status fst_ramp_step(fst_run_state *run, fst_error *error);

@@ -1,0 +1,162 @@
+/* drift.c - is a motion settled?  A straight line is laid through the means of the window's blocks.
+ *
+ *     <r> |                        x x      The line's change over the window is a drift if it stands out of
+ * the |                 x  x x          scatter about the line, and is large enough to matter.  A motion that
+ *         |           x  x                  goes back and forth scatters about a level line; one that relaxes,
+ * or |      x  x                       creeps away, does not. |  x x
+ *         +--------------------------- t
+ *
+ * Where the blocks follow a slow swing of few cycles, a drift can hide in it: a swing of k cycles tilts the
+ * line by up to 6 sqrt(2)/(pi k) standard deviations.  The changes of sign of what is left of the line count
+ * the cycles.
+ *
+ * What is kept of a run is at most FST_MARKS blocks however long it is, so this costs nothing while it runs.
+ */
+#include "study/drift.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#include "study/regime.h"
+
+#define TWO_PI 6.283185307179586476925287
+
+/* docs/regimes.md says why these, and how often they err. */
+static const double STANDS_OUT = 5.0; /* change over its standard error: below, the scatter explains it */
+static const double MATTERS =
+    1e-4; /* change over the scale of the quantity: below, the means hold to 4 digits */
+static const double ALIASED = 0.1;       /* part of the swing that a block shows when it ends within one */
+static const double SWING_MATTERS = 0.1; /* relative change of the swing of a bead that librates */
+static const double SWING_SEEN = 1e-7;   /* a swing below this part of <r> is rounding */
+static const double HIDES = 0.1;         /* a drift of this part of a mean must be seen, where there is one */
+enum { LEAST_BLOCKS = 4 };               /* for a line and its scatter */
+
+/* Means between one kept mark and the next, and their straight line of least squares. */
+typedef struct blocks {
+    int count;
+    double turns; /* of the magnet, all together */
+    double r[FST_MARKS], alpha_dot[FST_MARKS], nz[FST_MARKS],
+        swing[FST_MARKS]; /* swing: delta r within a block */
+} blocks;
+
+typedef struct line {
+    double mean, change, noise; /* over all blocks; the standard error of the change */
+    double hidden;              /* change that a slow swing could hide */
+} line;
+
+static int takes_section(const fst_run_state *run)
+{
+    return fst_window_of(run) == &run->section_marks;
+}
+
+static void fill_blocks(const fst_run_state *run, blocks *b)
+{
+    const fst_mark_series *series = fst_window_of(run);
+    if (series->count - 1 < LEAST_BLOCKS)
+        series = &run->period_marks;
+    b->count = series->count - 1;
+    for (int i = 0; i < b->count; ++i) {
+        fst_ramp_point means;
+        fst_means_between(run, &series->kept[i], &series->kept[i + 1], &means);
+        b->r[i] = means.mean_r;
+        b->alpha_dot[i] = means.mean_alpha_dot;
+        b->nz[i] = means.mean_nz;
+        b->swing[i] = means.std_r;
+    }
+    b->turns = b->count > 0
+                   ? fst_twofold_difference(series->kept[b->count].t, series->kept[0].t) / run->drive_period
+                   : 0;
+}
+
+static line line_through(const double *values, int count)
+{
+    line found = {.mean = 0.0};
+    const double middle = 0.5 * (count - 1);
+    double moment = 0.0, spread = 0.0, scatter = 0.0, before = 0.0;
+    int turns = 0;
+    for (int i = 0; i < count; ++i)
+        found.mean += values[i] / count;
+    for (int i = 0; i < count; ++i) {
+        moment += (i - middle) * (values[i] - found.mean);
+        spread += (i - middle) * (i - middle);
+    }
+    const double slope = moment / spread;
+    for (int i = 0; i < count; ++i) {
+        const double rest = values[i] - found.mean - slope * (i - middle);
+        scatter += rest * rest;
+        turns += i > 0 && (rest > 0) != (before > 0);
+        before = rest;
+    }
+    found.change = slope * count;
+    found.noise = count * sqrt(scatter / (count - 2) / spread);
+    found.hidden = 12.0 * sqrt(2.0) / (0.5 * TWO_PI) * sqrt(scatter / count) / (turns + 1);
+    return found;
+}
+
+/* Keep the worst: `least` is the least change that matters. */
+static void compare(fst_drift *worst, double *greatest, const char *what, const line *l, double least)
+{
+    const double size = fabs(l->change);
+    if (!(size > STANDS_OUT * l->noise) || !(size > *greatest * least))
+        return;
+    *greatest = size / least;
+    worst->what = what;
+    worst->change = l->change;
+    worst->noise = l->noise;
+    worst->mean = l->mean;
+}
+
+fst_drift fst_drift_of(const fst_run_state *run)
+{
+    fst_drift worst = {.what = NULL};
+    blocks b;
+    fill_blocks(run, &b);
+    worst.turns = b.turns;
+    if (b.count < LEAST_BLOCKS)
+        return worst;
+    double greatest = 1.0;
+    const line r = line_through(b.r, b.count), swing = line_through(b.swing, b.count);
+    const double least = MATTERS * r.mean;
+    if (takes_section(run)) {
+        const line alpha_dot = line_through(b.alpha_dot, b.count), nz = line_through(b.nz, b.count);
+        const double omega = fst_flow_omega(run->flow, run->flow->t);
+        compare(&worst, &greatest, "<r>", &r, least);
+        compare(&worst, &greatest, "<alpha'>", &alpha_dot, MATTERS * omega);
+        compare(&worst, &greatest, "<n_z>", &nz, MATTERS);
+        compare(&worst, &greatest, "delta r", &swing, least);
+        return worst;
+    }
+    /* Whole drive periods are no whole swings: what a block cuts off goes round slowly, and looks like a drift.
+     */
+    const double cut_off = ALIASED * swing.mean / (b.turns / b.count);
+    compare(&worst, &greatest, "<r>", &r, fmax(least, cut_off));
+    compare(&worst, &greatest, "delta r", &swing, fmax(least, cut_off));
+    /* What dies out or grows does so exponentially: its logarithm follows the line. */
+    double logarithms[FST_MARKS];
+    for (int i = 0; i < b.count; ++i)
+        logarithms[i] = log(fmax(b.swing[i], 1e-300));
+    const line growth = line_through(logarithms, b.count);
+    if (swing.mean > SWING_SEEN * r.mean)
+        compare(&worst, &greatest, "the logarithm of delta r", &growth, SWING_MATTERS);
+    return worst;
+}
+
+fst_drift fst_hidden_drift_of(const fst_run_state *run)
+{
+    fst_drift found = {.what = NULL};
+    blocks b;
+    fill_blocks(run, &b);
+    found.turns = b.turns;
+    if (b.count < LEAST_BLOCKS)
+        return found;
+    const line r = line_through(b.r, b.count), alpha_dot = line_through(b.alpha_dot, b.count);
+    const int in_alpha_dot = alpha_dot.hidden * r.mean > r.hidden * fabs(alpha_dot.mean);
+    const line *worst = in_alpha_dot ? &alpha_dot : &r;
+    if (!(worst->hidden > HIDES * fabs(worst->mean)))
+        return found;
+    found.what = in_alpha_dot ? "<alpha'>" : "<r>";
+    found.change = worst->change;
+    found.noise = worst->hidden;
+    found.mean = worst->mean;
+    return found;
+}

@@ -1,0 +1,23 @@
+/* drift.h - do the means of a window still drift? */
+#ifndef FST_STUDY_DRIFT_H
+#define FST_STUDY_DRIFT_H
+
+#include "study/run_state.h"
+
+typedef struct fst_drift {
+    const char *what; /* the mean that drifts most, for a sentence; NULL: none does */
+    double change;    /* its change over the window, by a straight line through the blocks */
+    double noise;     /* standard error of that change */
+    double mean;      /* over the window */
+    double turns;     /* length of the window in turns of the magnet */
+} fst_drift;
+
+/* Look for a drift of the window's means: of <r>, delta r, and where Phi turns of <alpha'> and <n_z>.
+ * docs/regimes.md says by what test. */
+fst_drift fst_drift_of(const fst_run_state *run);
+
+/* Whether <r> or <alpha'> of a turning motion vary so slowly and so much that a drift of a tenth of them could
+ * not be seen; then `what` is set, and `noise` is the change that could hide. */
+fst_drift fst_hidden_drift_of(const fst_run_state *run);
+
+#endif

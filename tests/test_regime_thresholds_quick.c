@@ -1,0 +1,321 @@
+/* Every threshold by which a regime is decided, with a case just on either side of it.  The runs are made up:
+ * their marks hold what a run would have left, so that one number at a time decides. */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "physics.h"
+#include "study/drift.h"
+#include "study/regime.h"
+
+enum { BLOCKS = FST_MARKS - 1 }; /* as many as are kept of a long run */
+
+/* What a made-up run looks like.  The beginning is a librating or a turning bead with nothing special. */
+typedef struct made_up {
+    int turns, crossings, blocks;
+    double rtol, speed_at_end, activity[2]; /* in the halves of the window */
+    double phi_range;
+    double half[2], full[2]; /* distances of returns: in the middle of the window, at its end */
+    double alpha_dot, alpha_dot_error;
+    double growth;    /* exponent times duration */
+    double r_rise;    /* of <r> over the blocks, as a line */
+    double r_scatter; /* and back and forth from block to block */
+    double r_slow;    /* and as a slow swing of two cycles */
+    double swing[2];  /* delta r in the first block and in the last */
+    int without_friction;
+    int64_t periods;         /* whole drive periods offered, if not as many as there are blocks */
+    double full_before_last; /* the full distance of the mark before the last, if not 0 */
+    double kappa;
+} made_up;
+
+static const made_up LIBRATING = {.blocks = BLOCKS,
+                                  .rtol = 1e-10,
+                                  .speed_at_end = 0.1,
+                                  .activity = {0.1, 0.1},
+                                  .phi_range = 0.5,
+                                  .alpha_dot = 0.3,
+                                  .growth = -1.0,
+                                  .swing = {0.1, 0.1},
+                                  .kappa = 1.5};
+static const made_up TURNING = {.turns = 1,
+                                .crossings = 65,
+                                .blocks = BLOCKS,
+                                .rtol = 1e-10,
+                                .speed_at_end = 0.1,
+                                .activity = {0.1, 0.1},
+                                .phi_range = 100,
+                                .half = {0.5, 0.5},
+                                .full = {0.2, 0.2},
+                                .alpha_dot = -0.05,
+                                .alpha_dot_error = 1e-6,
+                                .growth = -1.0,
+                                .swing = {0.1, 0.1},
+                                .kappa = 1.5};
+
+static void fill_marks(fst_mark_series *series, const made_up *m, double from, double step)
+{
+    fst_marks_begin(series);
+    double r_integral = 0.0, r2_integral = 0.0;
+    for (int i = 0; i <= m->blocks; ++i) {
+        fst_mark mark;
+        memset(&mark, 0, sizeof mark);
+        mark.t.high = from + i * step;
+        mark.integrals[FST_Q_R] = r_integral;
+        mark.integrals[FST_Q_R2] = r2_integral;
+        mark.big_phi = (m->turns ? m->alpha_dot - 0.3 : 0.0) * mark.t.high;
+        const int late = 2 * i > m->blocks;
+        mark.half_distance = m->half[2 * i >= m->blocks + 2];
+        mark.full_distance = m->full[2 * i >= m->blocks + 2];
+        mark.activity = m->activity[late];
+        fst_marks_offer(series, &mark);
+        const double part = (double)i / (m->blocks - 1);
+        const double r = 1.0 + m->r_rise * (part - 0.5) + (i % 2 ? m->r_scatter : -m->r_scatter) +
+                         m->r_slow * sin(2 * TWO_PI * part);
+        const double swing = m->swing[0] * pow(m->swing[1] / m->swing[0], part);
+        r_integral += r * step;
+        r2_integral += (r * r + swing * swing) * step;
+    }
+}
+
+static fst_run_result decide(const made_up *m)
+{
+    fst_params p = bead_at(0.3, FST_DYNAMICS_RIGID);
+    p.run_rtol = m->rtol;
+    p.model_kappa = m->kappa;
+    p.friction_law = m->without_friction ? FST_FRICTION_NONE : FST_FRICTION_VISCOUS;
+    fst_run_options options = fst_default_run_options();
+    fst_error error = {FST_OK, "", ""};
+    fst_run_state *run = calloc(1, sizeof *run);
+    assert_non_null(run);
+    run->params = &p;
+    run->options = &options;
+    assert_int_equal(fst_run_begin(run, &error), FST_OK);
+    const double step = TWO_PI / 0.3;
+    fill_marks(&run->period_marks, m, 0.0, step);
+    fill_marks(&run->section_marks, m, 0.0, step);
+    if (m->periods > 0)
+        run->period_marks.offered = m->periods;
+    if (m->full_before_last > 0)
+        run->section_marks.kept[m->blocks - 1].full_distance = m->full_before_last;
+    run->flow->t.high = m->blocks * step;
+    memset(run->flow->step.k[12], 0, sizeof run->flow->step.k[12]);
+    run->flow->step.k[12][FST_X] = m->speed_at_end;
+    run->returns.crossings = m->turns ? m->crossings : 0;
+    run->returns.since_break = run->returns.crossings;
+    run->least_phi = 0.0;
+    run->greatest_phi = m->phi_range;
+    run->exponent_is = FST_EXPONENT_KNOWN;
+    run->exponent.duration = 1000.0;
+    run->exponent.value = m->growth / 1000.0;
+    run->exponent.standard_error = 1e-9;
+    fst_run_result result;
+    memset(&result, 0, sizeof result);
+    result.omega = 0.3;
+    result.mean_alpha_dot = m->alpha_dot;
+    result.mean_alpha_dot_error = m->alpha_dot_error;
+    assert_int_equal(fst_decide_regime(run, &result, &error), FST_OK);
+    fst_flow_free(run->flow);
+    fst_model_free(run->model);
+    free(run);
+    return result;
+}
+
+static void expect(const made_up *m, fst_regime regime, const char *why)
+{
+    const fst_run_result r = decide(m);
+    if (r.regime != regime || !strstr(r.reason, why))
+        fail_msg("%s (%s), expected %s (%s)", fst_regime_name(r.regime), r.reason, fst_regime_name(regime),
+                 why);
+}
+
+/* One member of a made-up run below and above a threshold. */
+#define EITHER_SIDE(base, member, below, regime_below, why_below, above, regime_above, why_above)              \
+    do {                                                                                                       \
+        made_up either = (base);                                                                               \
+        either.member = (below);                                                                               \
+        expect(&either, (regime_below), (why_below));                                                          \
+        either.member = (above);                                                                               \
+        expect(&either, (regime_above), (why_above));                                                          \
+    } while (0)
+
+static void test_beginnings(void **unused)
+{
+    (void)unused;
+    expect(&LIBRATING, FST_REGIME_LIBRATING, "does not die out");
+    expect(&TURNING, FST_REGIME_COUNTER_ROTATING, "does not close");
+}
+
+static void test_at_rest(void **unused)
+{
+    (void)unused;
+    EITHER_SIDE(LIBRATING, speed_at_end, 0.9e-8, FST_REGIME_LOCKED, "at rest", 1.1e-8, FST_REGIME_LIBRATING,
+                "die out");
+    made_up loose = LIBRATING;
+    loose.rtol = 1e-6;
+    EITHER_SIDE(loose, speed_at_end, 0.9e-6, FST_REGIME_LOCKED, "at rest", 1.1e-6, FST_REGIME_LIBRATING,
+                "die out");
+}
+
+static void set_activity(made_up *m, double early, double late)
+{
+    m->activity[0] = early;
+    m->activity[1] = late;
+}
+
+/* Slower than 100 run.rtol is the integrator's noise; where a strong magnet keeps the place, slower than what
+ * its torque makes of an error of n of 50 run.rtol. */
+static void test_noise(void **unused)
+{
+    (void)unused;
+    made_up m = LIBRATING;
+    m.rtol = 1e-9;
+    set_activity(&m, 0.95e-7, 0.95e-7);
+    expect(&m, FST_REGIME_LOCKED, "noise");
+    set_activity(&m, 1.05e-7, 1.05e-7);
+    expect(&m, FST_REGIME_LIBRATING, "die out");
+    m.kappa = 1e4;
+    m.phi_range = 0.95e-9;
+    fst_params p = bead_at(0.3, FST_DYNAMICS_RIGID);
+    fst_model *model = model_of(&p);
+    double start[FST_STATE_SIZE], b[3], gradient[3][3];
+    start_of(&p, model, start);
+    fst_field(model, start[FST_X], start[FST_Y], b, gradient);
+    fst_model_free(model);
+    const double floor_of_torque = 50e-9 * 2.5 * 1e4 * sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+    set_activity(&m, 0.95 * floor_of_torque, 0.95 * floor_of_torque);
+    expect(&m, FST_REGIME_LOCKED, "noise");
+    set_activity(&m, 1.05 * floor_of_torque, 1.05 * floor_of_torque);
+    expect(&m, FST_REGIME_LIBRATING, "die out");
+    set_activity(&m, 0.95 * floor_of_torque, 0.95 * floor_of_torque);
+    m.phi_range = 1.05e-9;
+    expect(&m, FST_REGIME_LIBRATING, "die out");
+}
+
+static void test_dies_out(void **unused)
+{
+    (void)unused;
+    made_up m = LIBRATING;
+    set_activity(&m, 0.1, 0.0951);
+    expect(&m, FST_REGIME_LIBRATING, "die out");
+    set_activity(&m, 0.1, 0.0949);
+    expect(&m, FST_REGIME_UNDECIDED, "dying out");
+}
+
+static void test_closed(void **unused)
+{
+    (void)unused;
+    made_up m = TURNING;
+    m.half[0] = 0.9e-6;
+    m.full[0] = m.full[1] = 1e-3;
+    EITHER_SIDE(m, half[1], 0.95e-6, FST_REGIME_COUNTER_ROTATING, "symmetry S2", 1.05e-6,
+                FST_REGIME_COUNTER_ROTATING, "does not close");
+    m = TURNING;
+    m.full[0] = 1e-6;
+    EITHER_SIDE(m, full[1], 0.95e-6, FST_REGIME_COUNTER_ROTATING, "closed orbit: ", 1.05e-6,
+                FST_REGIME_COUNTER_ROTATING, "does not close");
+    /* S1 only if the half distance has stopped changing */
+    m.full[1] = 0.5e-6;
+    EITHER_SIDE(m, half[0], 0.5 * 1.009, FST_REGIME_COUNTER_ROTATING, "closed orbit: ", 0.5 * 1.011,
+                FST_REGIME_COUNTER_ROTATING, "still closing");
+}
+
+static void test_relaxing(void **unused)
+{
+    (void)unused;
+    made_up m = TURNING;
+    m.half[0] = 1.1;
+    m.growth = 100.0;
+    EITHER_SIDE(m, full[1], 0.95e-2, FST_REGIME_COUNTER_ROTATING, "still closing", 1.05e-2, FST_REGIME_CHAOTIC,
+                "exponent");
+}
+
+static void test_one_way(void **unused)
+{
+    (void)unused;
+    made_up m = TURNING;
+    m.alpha_dot_error = 0.01;
+    EITHER_SIDE(m, alpha_dot, -0.049, FST_REGIME_UNDECIDED, "neither way", -0.051, FST_REGIME_COUNTER_ROTATING,
+                "does not close");
+    EITHER_SIDE(m, alpha_dot, 0.049, FST_REGIME_UNDECIDED, "neither way", 0.051, FST_REGIME_COROTATING,
+                "does not close");
+}
+
+static void test_least_numbers(void **unused)
+{
+    (void)unused;
+    EITHER_SIDE(TURNING, crossings, 63, FST_REGIME_UNDECIDED, "run longer", 64, FST_REGIME_COUNTER_ROTATING,
+                "does not close");
+    made_up free_bead = TURNING;
+    free_bead.without_friction = 1;
+    EITHER_SIDE(free_bead, crossings, 255, FST_REGIME_UNDECIDED, "run longer", 256, FST_REGIME_COUNTER_ROTATING,
+                "does not close");
+    made_up closed = TURNING;
+    closed.half[0] = closed.half[1] = 1e-9;
+    EITHER_SIDE(closed, crossings, 5, FST_REGIME_UNDECIDED, "irregularly", 6, FST_REGIME_COUNTER_ROTATING,
+                "S2");
+    EITHER_SIDE(LIBRATING, blocks, 3, FST_REGIME_UNDECIDED, "too short", 4, FST_REGIME_LIBRATING, "die out");
+}
+
+static void test_growth(void **unused)
+{
+    (void)unused;
+    EITHER_SIDE(TURNING, growth, 1.9, FST_REGIME_COUNTER_ROTATING, "does not close", 2.1, FST_REGIME_UNDECIDED,
+                "cannot be told");
+    EITHER_SIDE(TURNING, growth, 9.9, FST_REGIME_UNDECIDED, "cannot be told", 10.1, FST_REGIME_CHAOTIC,
+                "exponent");
+    made_up free_bead = LIBRATING;
+    free_bead.without_friction = 1;
+    EITHER_SIDE(free_bead, growth, 3.9, FST_REGIME_LIBRATING, "die out", 4.1, FST_REGIME_UNDECIDED,
+                "cannot be told");
+}
+
+/* A rise of <r> of 1e-4 is none; a larger one is, if it stands out of the scatter by 5 standard errors: of a
+ * line through 32 values that go up and down by s, the change over all of them has the error s sqrt(12/30)
+ * 32/sqrt(32^2 - 1). */
+static void test_drift(void **unused)
+{
+    (void)unused;
+    EITHER_SIDE(TURNING, r_rise, 0.9e-4, FST_REGIME_COUNTER_ROTATING, "does not close", 1.1e-4,
+                FST_REGIME_UNDECIDED, "still drifts: <r>");
+    made_up m = TURNING;
+    m.r_scatter = 0.01;
+    const double error = 0.01 * sqrt(12.0 / 29.0);
+    EITHER_SIDE(m, r_rise, 4.6 * error, FST_REGIME_COUNTER_ROTATING, "does not close", 5.4 * error,
+                FST_REGIME_UNDECIDED, "still drifts: <r>");
+    /* a closed orbit does not drift any less for being closed */
+    m = TURNING;
+    m.half[0] = m.half[1] = 1e-9;
+    EITHER_SIDE(m, r_rise, 0.9e-4, FST_REGIME_COUNTER_ROTATING, "S2", 1.1e-4, FST_REGIME_UNDECIDED,
+                "still drifts: <r>");
+    /* of a bounded motion whole drive periods cut the swing anywhere: a tenth of it counts for nothing */
+    EITHER_SIDE(LIBRATING, r_rise, 0.9e-2, FST_REGIME_LIBRATING, "die out", 1.1e-2, FST_REGIME_UNDECIDED,
+                "still drifts: <r>");
+    m = LIBRATING;
+    set_activity(&m, 0.1, 0.0999);
+    m.swing[0] = 1e-4;
+    EITHER_SIDE(m, swing[1], 0.915e-4, FST_REGIME_LIBRATING, "die out", 0.895e-4, FST_REGIME_UNDECIDED,
+                "delta r changed");
+    m.swing[0] = 0.9e-7;
+    EITHER_SIDE(m, swing[1], 0.5e-7, FST_REGIME_LIBRATING, "die out", 0.9e-7, FST_REGIME_LIBRATING, "die out");
+}
+
+/* s sin over two cycles: a line takes 6/(4 pi^2) of its variance away, what is left changes its sign 5 times,
+ * and hides a drift of 12 sqrt(2)/pi * 0.92 s/sqrt(2)/6: more than a tenth of <r> from s = 0.17 on. */
+static void test_hidden_drift(void **unused)
+{
+    (void)unused;
+    EITHER_SIDE(TURNING, r_slow, 0.155, FST_REGIME_COUNTER_ROTATING, "does not close", 0.185,
+                FST_REGIME_UNDECIDED, "may still drift: <r>");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_beginnings),   cmocka_unit_test(test_at_rest),
+        cmocka_unit_test(test_noise),        cmocka_unit_test(test_dies_out),
+        cmocka_unit_test(test_closed),       cmocka_unit_test(test_relaxing),
+        cmocka_unit_test(test_one_way),      cmocka_unit_test(test_least_numbers),
+        cmocka_unit_test(test_growth),       cmocka_unit_test(test_drift),
+        cmocka_unit_test(test_hidden_drift),
+    };
+    return cmocka_run_group_tests_name("thresholds of regimes", tests, NULL, NULL);
+}
