@@ -282,18 +282,28 @@ MEASURE(corotation)
     double hertz = run->params.friction_gamma / (2.0 * PI);
     fst_paper_bracket locked = paper->changes[FST_CHANGE_LOCKED][dynamics],
                       swinging = paper->changes[FST_CHANGE_COROTATION][dynamics];
-    (void)snprintf(
-        note, size,
-        "released at rest, ⟨α′⟩ = ω and r and Φ constant up to here (± %.2f Hz: by bisection); beyond, the "
-        "bead swings about the magnet while it goes round with it, up to %.2f ± %.2f Hz",
-        0.5 * (locked.high - locked.low) * hertz, 0.5 * (swinging.low + swinging.high) * hertz,
-        0.5 * (swinging.high - swinging.low) * hertz);
-    return 0.5 * (locked.low + locked.high) * hertz;
+    const double end = 0.5 * (locked.low + locked.high) * hertz,
+                 crossing = 0.5 * (swinging.low + swinging.high) * hertz;
+    if (isfinite(paper->exact[dynamics].locked_end))
+        (void)snprintf(note, size,
+                       "the last locked state loses its stability there, in a Hopf point of the branch (ω = "
+                       "%.9f); beyond, the bead swings about the magnet while it goes round with it, up to "
+                       "%.4f Hz, where that orbit passes the axis",
+                       0.5 * (locked.low + locked.high), crossing);
+    else
+        (void)snprintf(
+            note, size,
+            "released at rest, ⟨α′⟩ = ω and r and Φ constant up to here (± %.2f Hz: by bisection of "
+            "settled runs); beyond, the bead swings about the magnet while it goes round with it, up to "
+            "%.2f ± %.2f Hz. The orbits: %.200s",
+            0.5 * (locked.high - locked.low) * hertz, crossing, 0.5 * (swinging.high - swinging.low) * hertz,
+            paper->exact[dynamics].missing);
+    return end;
 }
 
 MEASURE(irregular)
 {
-    int all = 0, irregular = 0;
+    int all = 0, irregular = 0, undecided = 0;
     static const fst_scan both[] = {FST_SCAN_COMPARISON, FST_SCAN_SLOW};
     for (int s = 0; s < 2; s++) {
         for (int i = 0; i < paper->counts[both[s]]; i++) {
@@ -301,14 +311,15 @@ MEASURE(irregular)
             if (result->frequency_hz < 7.0 || result->frequency_hz > 10.0)
                 continue;
             all++;
+            undecided += result->regime == FST_REGIME_UNDECIDED;
             irregular += result->regime == FST_REGIME_CHAOTIC || result->regime == FST_REGIME_UNDECIDED ||
                          result->regime == FST_REGIME_EJECTED || result->regime == FST_REGIME_LIFTED;
         }
     }
     (void)snprintf(note, size,
-                   "%d of %d runs between 7 and 10 Hz are chaotic, undecided or end off the plate; the "
+                   "%d of %d runs between 7 and 10 Hz are chaotic, undecided (%d) or end off the plate; the "
                    "others are locked, swing about the magnet or counter-rotate",
-                   irregular, all);
+                   irregular, all, undecided);
     return all > 0 ? 100.0 * irregular / all : NAN;
 }
 
@@ -354,17 +365,20 @@ MEASURE(bell_shape)
 MEASURE(inversion)
 {
     static const fst_scan both[] = {FST_SCAN_COMPARISON, FST_SCAN_SLOW};
-    int all = 0, others = 0;
+    int all = 0, others = 0, undecided = 0;
     for (int s = 0; s < 2; s++)
         for (int i = 0; i < paper->counts[both[s]]; i++) {
             const fst_paper_run *run = &paper->scans[both[s]][dynamics][i];
             if (run->result.frequency_hz < 10.0)
                 continue;
             all++;
-            others += !fst_paper_counter_rotates(run);
+            undecided += run->result.regime == FST_REGIME_UNDECIDED;
+            others +=
+                run->result.regime != FST_REGIME_COUNTER_ROTATING && run->result.regime != FST_REGIME_UNDECIDED;
         }
-    (void)snprintf(note, size, "of %d runs from 10 Hz on, from the rolling start and released at rest", all);
-    return others;
+    (void)snprintf(note, size, "of %d runs from 10 Hz on, from the rolling start and released at rest%s", all,
+                   undecided ? "; some are undecided" : "");
+    return others == 0 && undecided > 0 ? NAN : (double)others;
 }
 
 MEASURE(slowness)

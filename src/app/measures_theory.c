@@ -226,38 +226,55 @@ MEASURE(friction_on_centre)
     return worst_residual(paper, dynamics, FST_BALANCE_KINETIC, note, size);
 }
 
-MEASURE(friction_moment_sign)
+/* Motions in which a mean is not positive; NAN where one has not settled and none of the others is an
+ * exception. */
+static double not_positive(const fst_paper_state *paper, fst_dynamics dynamics, fst_balance_kind kind,
+                           char *note, size_t size)
 {
-    int wrong = 0;
+    int wrong = 0, unsettled = 0;
     double least = INFINITY;
     for (int i = 0; i < FST_BALANCE_CASES; i++) {
-        double moment = paper->balances[dynamics][i].of[FST_BALANCE_MOMENT].friction;
-        wrong += !(moment > 0.0);
-        least = fmin(least, moment);
+        const fst_balances *motion = &paper->settled[dynamics][i];
+        const int settled = fst_balances_settled(motion);
+        unsettled += !settled;
+        wrong += settled && !(motion->of[kind].friction > 0.0);
+        least = fmin(least, motion->of[kind].friction);
     }
-    (void)snprintf(note, size, "of three motions, drives 0.1, 0.3 and 0.6; least ⟨rV_α⟩ = %.1e ℓ²γ²", least);
-    return wrong;
+    (void)snprintf(note, size, "of three motions, drives 0.1, 0.3 and 0.6; least %.1e ℓ²γ²%s", least,
+                   unsettled ? "; undecided: one or more had not settled" : "");
+    return wrong == 0 && unsettled > 0 ? NAN : (double)wrong;
+}
+
+MEASURE(friction_moment_sign)
+{
+    return not_positive(paper, dynamics, FST_BALANCE_MOMENT, note, size);
 }
 
 MEASURE(friction_on_centre_sign)
 {
-    int wrong = 0;
-    for (int i = 0; i < FST_BALANCE_CASES; i++)
-        wrong += !(paper->balances[dynamics][i].of[FST_BALANCE_KINETIC].friction > 0.0);
-    (void)snprintf(note, size, "of three motions, drives 0.1, 0.3 and 0.6");
-    return wrong;
+    return not_positive(paper, dynamics, FST_BALANCE_KINETIC, note, size);
 }
 
 MEASURE(splitting)
 {
-    const fst_balances *fastest = &paper->balances[dynamics][FST_BALANCE_CASES - 1];
+    const fst_balances *fastest = &paper->settled[dynamics][FST_BALANCE_CASES - 1];
     double product = fastest->mean_alpha_dot * fastest->of[FST_BALANCE_MOMENT].friction;
-    (void)snprintf(
-        note, size,
-        "at the drive 0.6, where ⟨α′⟩ = %+.4f: in a stationary motion the exact identities make it ω/⟨α′⟩, so "
-        "that the step holds for a locked bead only; what excludes counter-rotation is the identity carried "
-        "on",
-        fastest->mean_alpha_dot);
+    double boundary = fst_balance_boundary(&fastest->of[FST_BALANCE_MOMENT]);
+    if (!fst_balances_settled(fastest)) {
+        (void)snprintf(
+            note, size,
+            "undecided: at the drive 0.6 the motion had not settled over %g turns of the magnet (the "
+            "state's change adds %.1f %%)",
+            fastest->periods, 100.0 * boundary);
+        return NAN;
+    }
+    (void)snprintf(note, size,
+                   "at the drive 0.6 over %g turns of the magnet, where ⟨α′⟩ = %+.4f (the state's change adds "
+                   "%.1f %%): in a "
+                   "stationary motion the exact identities make it ω/⟨α′⟩, so that the step holds for a locked "
+                   "bead only; what "
+                   "excludes counter-rotation is the identity carried on",
+                   fastest->periods, fastest->mean_alpha_dot, 100.0 * boundary);
     return fastest->of[FST_BALANCE_KINETIC].friction / product;
 }
 
@@ -296,10 +313,16 @@ MEASURE(rolling_identity)
 
 MEASURE(remanence)
 {
-    (void)snprintf(note, size,
-                   "least κ of a magnetisable bead, a = %g, at the drive %g; a neodymium bead has 1.5",
-                   fst_remanence_strengths[0], fst_remanence_drives[0]);
-    return 100.0 * paper->remanence[dynamics][0][0] / 1.5;
+    const fst_least_found *least = &paper->remanence[dynamics][0][0];
+    (void)snprintf(
+        note, size,
+        "least κ found of a magnetisable bead, a = %g, at the drive %g, from one of %d starts, in a "
+        "scan from %g by factors of %.2f and then between %.3g and %.3g; smaller ranges can be missed. A "
+        "neodymium bead has 1.5",
+        fst_remanence_strengths[0], fst_remanence_drives[0], fst_remanence_scan.starts, fst_remanence_scan.low,
+        pow(fst_remanence_scan.high / fst_remanence_scan.low, 1.0 / (fst_remanence_scan.points - 1)),
+        least->below, least->kappa);
+    return 100.0 * least->kappa / 1.5;
 }
 
 MEASURE(anisotropy)

@@ -50,7 +50,7 @@ typedef struct fst_paper_run {
     fst_table trajectory; /* of the scans that keep it, else empty */
 } fst_paper_run;
 
-/* A drive at which the motion changes its kind, by bisection: between `low` and `high`. */
+/* A drive at which the motion changes its kind, by a branch or by bisection: between `low` and `high`. */
 typedef struct fst_paper_bracket {
     double low, high;
 } fst_paper_bracket;
@@ -95,10 +95,12 @@ typedef struct fst_paper_pattern {
 /* Read off the branch of periodic orbits (paper_exact.c). */
 typedef struct fst_paper_exact {
     fst_paper_pattern closed[FST_TABLE1_ROWS];
-    double halving;       /* the pitchfork; NAN: none found */
-    int criticality;      /* 1 supercritical, -1 subcritical */
-    double fold;          /* where the counter-rotating orbit ends; NAN: beyond the range */
-    double most_s1;       /* greatest N of stable S1 orbits */
+    double halving;    /* the pitchfork; NAN: none found */
+    int criticality;   /* 1 supercritical, -1 subcritical */
+    double fold;       /* where the counter-rotating orbit ends; NAN: beyond the range */
+    double origin;     /* where it passes the axis, going down, and is a libration from there; NAN: nowhere */
+    double locked_end; /* where the last locked state loses its stability, a Hopf point; NAN: not found */
+    double most_s1;    /* greatest N of stable S1 orbits */
     double locked_minima; /* stable locked states at the drive 0.02 */
     double damping;       /* -Re/|lambda| of the least damped swing about a pole at kappa = 0.015 */
     char missing[768];    /* why there is none of this, else "" */
@@ -139,8 +141,9 @@ typedef struct fst_paper_state {
     fst_paper_ansatz ansatz[FST_PAPER_DYNAMICS][FST_ANSATZ_DRIVES][FST_ANSATZ_STARTS];
     fst_search_entry *search[FST_PAPER_DYNAMICS]; /* the same starts with both dynamics */
     int search_count;
-    fst_balances balances[FST_PAPER_DYNAMICS][FST_BALANCE_CASES];
-    double remanence[FST_PAPER_DYNAMICS][FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS]; /* least kappa */
+    fst_balances balances[FST_PAPER_DYNAMICS][FST_BALANCE_CASES]; /* for the identities, */
+    fst_balances settled[FST_PAPER_DYNAMICS][FST_BALANCE_CASES];  /* and over longer windows, for the means */
+    fst_least_found remanence[FST_PAPER_DYNAMICS][FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS];
     double seconds, processor_seconds;    /* the time that all took, on the clock and on all processors, */
     fst_paper_part parts[FST_MOST_PARTS]; /* and its parts in their order */
     int part_count;
@@ -163,6 +166,15 @@ void fst_paper_note_time(fst_paper_state *paper, const char *what, double began)
 /* Is the step done, and are the runs of `scan` and of the scans that are made before it? */
 int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan scan);
 
+/* Make a run; while its motion has not settled, again and twice as long with all of it discarded, up to eight
+ * times as long.  `params` are then those of the last one.  The trajectory may be NULL. */
+fst_status fst_paper_run_settled(fst_params *params, fst_run_result *result, fst_table *trajectory,
+                                 fst_error *error);
+/* Its regime is decided, and the errors of its means are small.  (Neither chaotic nor off the plate.) */
+int fst_paper_is_settled(const fst_run_result *result);
+/* Runs of a scan that did not settle in all this time. */
+int fst_paper_unsettled(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics);
+
 /* Fill paper->exact of the dynamics `index`; where LAPACK is missing, with the sentence that says so. */
 fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *error);
 /* All undefined, as before the search. */
@@ -181,6 +193,7 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *o
 /* Drives and strengths of the probes. */
 extern const double fst_ansatz_drives[FST_ANSATZ_DRIVES], fst_remanence_drives[FST_REMANENCE_DRIVES],
     fst_remanence_strengths[FST_REMANENCE_STRENGTHS];
+extern const fst_kappa_scan fst_remanence_scan;
 /* The drive of the period halving: the pitchfork of the orbits where it is known, else where |<n_z>|^2, a
  * straight line near the threshold, reaches zero (fst_paper_halving_line); NAN: no halving was found. */
 double fst_paper_halving_drive(const fst_paper_state *paper, fst_dynamics dynamics);
@@ -272,6 +285,8 @@ void fst_statement_command(const fst_statement *statement, const fst_paper_state
 const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dynamics);
 /* Is all there that the statement rests on? */
 int fst_statement_known(const fst_statement *statement, const fst_paper_state *paper);
+/* The verdict that a value earns by the statement's rule. */
+fst_verdict fst_statement_verdict(const fst_statement *statement, double value);
 fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper);
 /* Add the verdicts on the paper's claims that are known to `tally`; how many claims those are. */
 int fst_paper_tally(const fst_paper_state *paper, int tally[FST_PAPER_DYNAMICS][3]);

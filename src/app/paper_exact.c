@@ -9,7 +9,10 @@
 
 /* Drives between which the branch is followed: the experiment's range and beyond, to the fold at which the
  * orbit ends. */
-static const double BRANCH_FROM = 0.19, BRANCH_TO = 4.0;
+static const double BRANCH_FROM = 0.17, BRANCH_TO = 4.0;
+static const double BRANCH_START = 0.3; /* a drive at which the bead counter-rotates */
+/* Drives between which the last locked state loses its stability. */
+static const double LOCKED_FROM = 0.14, LOCKED_TO = 0.17;
 static const double LOCKED_AT = 0.02; /* the slowest drive of the runs */
 /* A small kappa, and a drive at which so weakly held a bead stays locked. */
 static const double WEAK = 0.015, WEAK_DRIVE = 0.001;
@@ -48,6 +51,8 @@ static void read_branch(const fst_branch *branch, fst_paper_exact *exact)
             exact->criticality = special->criticality;
         } else if (special->type == FST_SPECIAL_FOLD) {
             exact->fold = special->omega;
+        } else if (special->type == FST_SPECIAL_ORIGIN_CROSSING) {
+            exact->origin = special->omega;
         }
     }
     for (size_t i = 0; i < branch->point_count; i++) {
@@ -55,6 +60,28 @@ static void read_branch(const fst_branch *branch, fst_paper_exact *exact)
         if (point->stable && point->turns < 0 && point->symmetry == FST_SYMMETRY_S1)
             exact->most_s1 = fmax(exact->most_s1, point->festoons);
     }
+}
+
+/* The point at which the stable locked states end that reach highest. */
+static fst_status find_locked_end(const fst_params *params, fst_paper_exact *exact, fst_error *error)
+{
+    fst_branch_options options = fst_default_branch_options();
+    options.kind = FST_BRANCH_LOCKED;
+    options.from = LOCKED_FROM;
+    options.to = LOCKED_TO;
+    fst_branch branch;
+    const fst_status status = fst_branch_follow(params, &options, &branch, error);
+    double highest = -INFINITY;
+    for (size_t i = 0; status == FST_OK && i < branch.point_count; i++)
+        if (branch.points[i].stable)
+            highest = fmax(highest, branch.points[i].omega);
+    for (size_t i = 0; status == FST_OK && i < branch.special_count; i++) {
+        const fst_special *special = &branch.specials[i];
+        if (special->type == FST_SPECIAL_HOPF && special->omega >= highest)
+            exact->locked_end = fmin(special->omega, isnan(exact->locked_end) ? INFINITY : exact->locked_end);
+    }
+    fst_branch_free(&branch);
+    return status;
 }
 
 static fst_status count_minima(fst_dynamics dynamics, fst_paper_exact *exact, fst_error *error)
@@ -96,7 +123,7 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
 {
     fst_dynamics dynamics = (fst_dynamics)index;
     fst_paper_exact *exact = &paper->exact[dynamics];
-    fst_params params = params_at(dynamics, BRANCH_FROM);
+    fst_params params = params_at(dynamics, BRANCH_START);
     fst_branch_options options = fst_default_branch_options();
     options.from = BRANCH_FROM;
     options.to = BRANCH_TO;
@@ -108,6 +135,8 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
         status = close_patterns(&params, &branch, exact, &why);
     }
     fst_branch_free(&branch);
+    if (status == FST_OK)
+        status = find_locked_end(&params, exact, &why);
     if (status == FST_OK)
         status = count_minima(dynamics, exact, &why);
     if (status == FST_OK)
@@ -124,7 +153,8 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
 
 void fst_paper_exact_begin(fst_paper_exact *exact)
 {
-    *exact = (fst_paper_exact){.halving = NAN, .fold = NAN, .locked_minima = NAN, .damping = NAN};
+    *exact = (fst_paper_exact){
+        .halving = NAN, .fold = NAN, .origin = NAN, .locked_end = NAN, .locked_minima = NAN, .damping = NAN};
     for (int row = 0; row < FST_TABLE1_ROWS; row++)
         exact->closed[row].omega = NAN;
 }

@@ -157,7 +157,7 @@ fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_pape
     for (int d = 0; d < FST_REMANENCE_DRIVES; d++) {
         for (int i = 0; i < FST_REMANENCE_STRENGTHS; i++) {
             strength[i] = 1e3 * fst_remanence_strengths[i];
-            share[d][i] = 100.0 * paper->remanence[FST_DYNAMICS_RIGID][d][i] / 1.5;
+            share[d][i] = 100.0 * paper->remanence[FST_DYNAMICS_RIGID][d][i].kappa / 1.5;
         }
         curves[d] = (fst_chart_curve){.title = names[d],
                                       .x = strength,
@@ -166,7 +166,7 @@ fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_pape
                                       .colour = d ? FST_COLOUR_VERMILION : FST_COLOUR_BLUE,
                                       .style = d ? FST_CURVE_DASHED_POINTS : FST_CURVE_LINE_POINTS};
     }
-    const fst_chart_panel panel = {.left_label = "least κ, % of a neodymium bead's",
+    const fst_chart_panel panel = {.left_label = "least κ found, % of a neodymium bead's",
                                    .low = 0.0,
                                    .high = NAN,
                                    .key = "top left",

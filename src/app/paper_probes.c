@@ -88,6 +88,15 @@ static double relaxation_time(const returns *all)
     return s0 >= 8.0 && slope < 0.0 ? -1.0 / slope : NAN;
 }
 
+/* Whether the asymmetry, over the last eighth of the time, has stayed where it is. */
+static int is_settled(const returns *all)
+{
+    if (all->count < 32)
+        return 0;
+    double last = all->asymmetry[all->count - 1], before = all->asymmetry[all->count - 1 - all->count / 8];
+    return fabs(last - before) < 1e-4 * last + 1e-6;
+}
+
 /* Successive extremes of r, each by a parabola through three values, and from them p. */
 static double order_parameter(const double *r, int count)
 {
@@ -171,6 +180,8 @@ fst_status fst_probe_halving(const fst_params *params, double periods, fst_halvi
     *point = (fst_halving_point){.omega = p.groups.omega, .relaxation = relaxation_time(all)};
     if (status == FST_OK)
         status = watch_end(&p, end, point, r_of_t, count, error);
+    if (!is_settled(all))
+        point->mean_nz = point->order = NAN;
     probe_end(&p);
     free(all);
     return status;

@@ -11,7 +11,7 @@
 /* The settled motion at one drive near the halving. */
 typedef struct fst_halving_point {
     double omega;
-    double mean_nz;    /* |<n_z>| over whole returns */
+    double mean_nz;    /* |<n_z>| over whole returns; NAN, as the next one: the motion had not settled */
     double order;      /* the paper's p = Delta+/Delta- - 1 */
     double relaxation; /* time in 1/gamma in which the distance from the settled motion falls by e; NAN: not
                           seen */

@@ -1,7 +1,6 @@
 /* paper_runs.c - the runs that the comparison with the paper rests on. */
 #include "app/paper.h"
 
-#include "app/collect.h"
 #include "base/error.h"
 
 #include <stdio.h>
@@ -92,18 +91,17 @@ static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_d
 
 static fst_status make_run(fst_scan scan, fst_paper_run *run, fst_error *error)
 {
-    fst_run_options options = fst_default_run_options();
-    fst_status status = scans[scan].samples
-                            ? fst_collect_run(&run->params, &run->result, &run->trajectory, error)
-                            : fst_run(&run->params, &options, &run->result, error);
+    fst_table *trajectory = scans[scan].samples ? &run->trajectory : NULL;
+    const fst_status status = fst_paper_run_settled(&run->params, &run->result, trajectory, error);
     run->done = status == FST_OK;
     return status;
 }
 
-/* The command for one run of a scan, its drive given as text. */
-static void write_command(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, const char *omega,
+/* The command for one run of a scan, its drive given as text, its length that of `params`. */
+static void write_command(const fst_params *params, fst_scan scan, fst_dynamics dynamics, const char *omega,
                           char *text, size_t size)
 {
+    const fst_params usual = fst_default_params();
     size_t used = (size_t)snprintf(text, size, "festoon run --set drive.omega=%s --set model.dynamics=%s%s%s",
                                    omega, dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020",
                                    strcmp(scans[scan].spin, "rest") == 0 ? " --set start.spin=rest" : "",
@@ -112,9 +110,9 @@ static void write_command(const fst_paper_state *paper, fst_scan scan, fst_dynam
         if (used < size)
             used += (size_t)snprintf(text + used, size - used, " --set %s=%s", anisotropic[i].key,
                                      anisotropic[i].value);
-    if (paper->options->reduced && used < size)
-        (void)snprintf(text + used, size - used, " --set run.discard=%s --set run.periods=%s", reduced_discard,
-                       reduced_periods);
+    if (params->run_periods != usual.run_periods && used < size)
+        (void)snprintf(text + used, size - used, " --set run.discard=%g --set run.periods=%g",
+                       params->run_discard, params->run_periods);
 }
 
 void fst_paper_scan_command(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, char *text,
@@ -123,7 +121,8 @@ void fst_paper_scan_command(const fst_paper_state *paper, fst_scan scan, fst_dyn
     char omega[32] = "OMEGA";
     if (paper->counts[scan] == 1)
         (void)snprintf(omega, sizeof omega, "%g", scans[scan].low);
-    write_command(paper, scan, dynamics, omega, text, size);
+    /* Of many runs some may have been longer, until they settled: the length is that of the first. */
+    write_command(&paper->scans[scan][dynamics][0].params, scan, dynamics, omega, text, size);
     size_t used = strlen(text);
     if (paper->counts[scan] > 1 && scan != FST_SCAN_TABLE)
         (void)snprintf(text + used, size - used, "   # OMEGA: %d values from %g to %g", paper->counts[scan],
@@ -135,7 +134,8 @@ void fst_paper_table1_command(const fst_paper_state *paper, int row, fst_dynamic
 {
     char omega[32];
     (void)snprintf(omega, sizeof omega, "%g", fst_table1[row].omega);
-    write_command(paper, FST_SCAN_TABLE, dynamics, omega, text, size);
+    write_command(&paper->scans[FST_SCAN_TABLE][dynamics][row].params, FST_SCAN_TABLE, dynamics, omega, text,
+                  size);
     size_t used = strlen(text);
     (void)snprintf(text + used, size - used, " --json");
 }
@@ -176,23 +176,30 @@ static int is_below(fst_change change, const fst_run_result *result)
            (change == FST_CHANGE_COROTATION && result->regime == FST_REGIME_LIBRATING);
 }
 
-/* Is a run at `omega` below the change? */
+/* Is a run at `omega` below the change?  -1: it has not settled, so that it does not tell. */
 static fst_status probe(const fst_paper_state *paper, fst_change change, fst_dynamics dynamics, double omega,
                         int *below, fst_error *error)
 {
     fst_params params;
     fst_run_result result;
-    fst_run_options options = fst_default_run_options();
     fst_status status = scan_params(paper, changes[change].scan, dynamics, omega, &params, error);
     if (changes[change].periods && !paper->options->reduced) {
         status = set(&params, "run.periods", changes[change].periods, status, error);
         status = set(&params, "run.discard", changes[change].discard, status, error);
     }
     if (status == FST_OK)
-        status = fst_run(&params, &options, &result, error);
+        status = fst_paper_run_settled(&params, &result, NULL, error);
     if (status == FST_OK)
-        *below = is_below(change, &result);
+        *below = result.regime == FST_REGIME_UNDECIDED ? -1 : is_below(change, &result);
     return status;
+}
+
+/* What the branches tell of a change; NAN: nothing. */
+static double exact_change(const fst_paper_exact *exact, fst_change change)
+{
+    return change == FST_CHANGE_HALVING  ? exact->halving
+           : change == FST_CHANGE_LOCKED ? exact->locked_end
+                                         : exact->origin;
 }
 
 /* The last change of a scan, refined by bisection; NAN where the scan has none. The last: a bead at rest under
@@ -205,8 +212,9 @@ static fst_status find_change(fst_paper_state *paper, int index, fst_error *erro
     const fst_paper_run *runs = paper->scans[scan][dynamics];
     fst_paper_bracket *bracket = &paper->changes[change][dynamics];
     *bracket = (fst_paper_bracket){NAN, NAN};
-    if (change == FST_CHANGE_HALVING && isfinite(paper->exact[dynamics].halving)) {
-        bracket->low = bracket->high = paper->exact[dynamics].halving;
+    const double exact = exact_change(&paper->exact[dynamics], change);
+    if (isfinite(exact)) {
+        bracket->low = bracket->high = exact;
         return FST_OK;
     }
     int last = paper->counts[scan] - 2;
@@ -219,11 +227,11 @@ static fst_status find_change(fst_paper_state *paper, int index, fst_error *erro
     bracket->high = scan_omega(paper, scan, last + 1);
     int halvings = paper->options->reduced ? changes[change].reduced_halvings : changes[change].halvings;
     fst_status status = FST_OK;
-    for (int i = 0; i < halvings && status == FST_OK; i++) {
+    for (int i = 0, below = 0; i < halvings && status == FST_OK && below >= 0; i++) {
         double middle = 0.5 * (bracket->low + bracket->high);
-        int below = 0;
         status = probe(paper, change, dynamics, middle, &below, error);
-        *(below ? &bracket->low : &bracket->high) = middle;
+        if (below >= 0) /* else the bracket stays as wide as it is */
+            *(below ? &bracket->low : &bracket->high) = middle;
     }
     return status;
 }
@@ -310,5 +318,5 @@ const fst_paper_run *fst_paper_single(const fst_paper_state *paper, fst_scan sca
 
 int fst_paper_counter_rotates(const fst_paper_run *run)
 {
-    return run->result.regime == FST_REGIME_COUNTER_ROTATING;
+    return run->result.regime == FST_REGIME_COUNTER_ROTATING && fst_paper_is_settled(&run->result);
 }

@@ -19,6 +19,9 @@ static const double NEAR_THRESHOLD = 0.0012;
 
 enum { SEARCH = 240, REDUCED_SEARCH = 24 };
 
+const fst_kappa_scan fst_remanence_scan = {2e-3, 1.5, 45, 4, 2, 600.0};
+static const fst_kappa_scan reduced_remanence_scan = {2e-3, 1.5, 8, 1, 1, 100.0};
+
 static fst_params probe_params(fst_dynamics dynamics, double omega)
 {
     fst_params params = fst_default_params();
@@ -93,28 +96,41 @@ static fst_status search_piece(fst_paper_state *paper, int index, fst_error *err
     return fst_search_one(start, (fst_dynamics)dynamics, &paper->search[dynamics][start], error);
 }
 
+/* The identities hold over any window, with what the state's change adds; a mean by itself tells of the motion
+ * only over one in which that is little. */
 static fst_status balance_piece(fst_paper_state *paper, int index, fst_error *error)
 {
     /* Strengths and drives where the bead is locked, and where it circles and is far from any period. */
     static const double cases[FST_BALANCE_CASES][2] = {{5e-3, 0.1}, {1e-3, 0.3}, {5e-3, 0.6}};
+    static const double discards[] = {50.0, 350.0, 750.0}, windows[] = {100.0, 400.0, 800.0};
     int motion = index / FST_PAPER_DYNAMICS, dynamics = index % FST_PAPER_DYNAMICS;
+    fst_balances *balances = &paper->balances[dynamics][motion], *settled = &paper->settled[dynamics][motion];
     fst_params params = probe_params((fst_dynamics)dynamics, cases[motion][1]);
     params.bead_material = FST_MATERIAL_PARAMAGNETIC;
     params.bead_a = cases[motion][0];
-    return fst_paramagnet_balances(&params, 50.0, 100.0, &paper->balances[dynamics][motion], error);
+    fst_status status = fst_paramagnet_balances(&params, discards[0], windows[0], balances, error);
+    *settled = *balances;
+    int longest = paper->options->reduced ? 1 : 2;
+    for (int i = 1; i <= longest && status == FST_OK && !fst_balances_settled(settled); i++)
+        status = fst_paramagnet_balances(&params, discards[i], windows[i], settled, error);
+    return status;
 }
 
+/* The figure shows all of `rigid`; of the other dynamics the statement alone needs a number. */
 static fst_status remanence_piece(fst_paper_state *paper, int index, fst_error *error)
 {
     int dynamics = index % FST_PAPER_DYNAMICS, place = index / FST_PAPER_DYNAMICS;
     int strength = place % FST_REMANENCE_STRENGTHS, drive = place / FST_REMANENCE_STRENGTHS;
+    fst_least_found *least = &paper->remanence[dynamics][drive][strength];
+    *least = (fst_least_found){NAN, NAN};
+    if (dynamics != FST_DYNAMICS_RIGID && place > 0)
+        return FST_OK;
     fst_params params = probe_params((fst_dynamics)dynamics, fst_remanence_drives[drive]);
     params.bead_material = FST_MATERIAL_MIXED;
     params.bead_a = fst_remanence_strengths[strength];
     params.run_rtol = 1e-8;
-    return fst_least_kappa(&params, 2e-3, 1.5, paper->options->reduced ? 3 : 8,
-                           paper->options->reduced ? 100.0 : 600.0,
-                           &paper->remanence[dynamics][drive][strength], error);
+    return fst_least_kappa(&params, paper->options->reduced ? &reduced_remanence_scan : &fst_remanence_scan,
+                           least, error);
 }
 
 fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *only, fst_error *error)

@@ -78,15 +78,39 @@ static int passes(const fst_statement *statement, double value, fst_verdict verd
     return 0;
 }
 
+fst_verdict fst_statement_verdict(const fst_statement *statement, double value)
+{
+    return passes(statement, value, FST_VERDICT_REPRODUCED) ? FST_VERDICT_REPRODUCED
+           : passes(statement, value, FST_VERDICT_CLOSE)    ? FST_VERDICT_CLOSE
+                                                            : FST_VERDICT_NOT;
+}
+
+/* A statement about one motion that has not settled has no value; where a value is missing and runs have not
+ * settled, the note says that it is undecided. */
+static double unless_unsettled(const fst_statement *statement, const fst_paper_state *paper,
+                               fst_dynamics dynamics, double value, char *note, size_t size)
+{
+    const int unsettled = fst_paper_unsettled(paper, statement->scan, dynamics);
+    if (unsettled == 0)
+        return value;
+    const int all = paper->counts[statement->scan];
+    if (all > 1 && !isnan(value))
+        return value;
+    (void)snprintf(note, size,
+                   "undecided: %d of %d runs had not settled when they ended; the last says: %.120s", unsettled,
+                   all, paper->scans[statement->scan][dynamics][all - 1].result.reason);
+    return NAN;
+}
+
 fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper)
 {
     fst_finding finding = {.note = {"", ""}};
     for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
         double value = statement->measure(paper, (fst_dynamics)d, finding.note[d], sizeof finding.note[d]);
+        value =
+            unless_unsettled(statement, paper, (fst_dynamics)d, value, finding.note[d], sizeof finding.note[d]);
         finding.value[d] = value;
-        finding.verdict[d] = passes(statement, value, FST_VERDICT_REPRODUCED) ? FST_VERDICT_REPRODUCED
-                             : passes(statement, value, FST_VERDICT_CLOSE)    ? FST_VERDICT_CLOSE
-                                                                              : FST_VERDICT_NOT;
+        finding.verdict[d] = fst_statement_verdict(statement, value);
     }
     return finding;
 }

@@ -218,7 +218,7 @@ fst_status fst_paramagnet_balances(const fst_params *params, double discard, dou
     if (status == FST_OK)
         status = look_at(&bead, t0 + time, &last, error);
     double omega = bead.groups.omega, field = mean.field_moment;
-    *balances = (fst_balances){.mean_alpha_dot = (last.alpha - first.alpha) / time};
+    *balances = (fst_balances){.mean_alpha_dot = (last.alpha - first.alpha) / time, .periods = periods};
     balances->of[FST_BALANCE_ENERGY] =
         (fst_balance){mean.slip2, omega * field, (last.energy - first.energy) / time};
     balances->of[FST_BALANCE_MOMENT] =
@@ -246,24 +246,59 @@ double fst_balance_boundary(const fst_balance *balance)
     return fabs(balance->boundary) / scale_of(balance);
 }
 
+int fst_balances_settled(const fst_balances *balances)
+{
+    static const double STATIONARY = 0.02;
+    return fst_balance_boundary(&balances->of[FST_BALANCE_MOMENT]) < STATIONARY &&
+           fst_balance_boundary(&balances->of[FST_BALANCE_KINETIC]) < STATIONARY;
+}
+
 /* ------------------------------------------------------------------ how much remanence */
 
-fst_status fst_least_kappa(const fst_params *params, double low, double high, int halvings, double periods,
-                           double *kappa, fst_error *error)
+/* Does a bead counter-rotate from any of the starts, and still after four times as long? */
+static fst_status counter_rotates(const fst_params *params, const fst_kappa_scan *scan, double kappa, int *does,
+                                  fst_error *error)
 {
     fst_params tried = *params;
-    fst_fate fate;
-    double speed;
-    *kappa = NAN;
-    tried.model_kappa = high;
-    fst_status status = fst_fate_of(&tried, periods, &fate, &speed, error);
-    if (status != FST_OK || fate != FST_FATE_COUNTER)
-        return status;
-    for (int i = 0; i < halvings && status == FST_OK; i++) {
-        tried.model_kappa = sqrt(low * high);
-        status = fst_fate_of(&tried, periods, &fate, &speed, error);
-        *(fate == FST_FATE_COUNTER ? &high : &low) = tried.model_kappa;
+    fst_status status = FST_OK;
+    tried.model_kappa = kappa;
+    *does = 0;
+    for (int start = 0; start < scan->starts && status == FST_OK && !*does; start++) {
+        followed bead;
+        fst_fate fate = FST_FATE_AWAY;
+        double speed;
+        /* Half a turn further the start is the image under S2 of this one: the same motion. */
+        tried.start_phi = params->start_phi + 180.0 * start / scan->starts;
+        status = begin(&bead, &tried, error);
+        if (status == FST_OK)
+            status = fate_until(&bead, scan->periods * bead.period, &fate, &speed, error);
+        if (status == FST_OK && fate == FST_FATE_COUNTER)
+            status = fate_until(&bead, 4.0 * scan->periods * bead.period, &fate, &speed, error);
+        *does = status == FST_OK && fate == FST_FATE_COUNTER;
+        end(&bead);
     }
-    *kappa = sqrt(low * high);
+    return status;
+}
+
+fst_status fst_least_kappa(const fst_params *params, const fst_kappa_scan *scan, fst_least_found *least,
+                           fst_error *error)
+{
+    const double step = log(scan->high / scan->low) / (scan->points - 1);
+    double below = NAN;
+    int does = 0;
+    fst_status status = FST_OK;
+    *least = (fst_least_found){NAN, NAN};
+    for (int i = 0; i < scan->points && status == FST_OK && !does; i++) {
+        const double kappa = i + 1 < scan->points ? scan->low * exp(step * i) : scan->high;
+        status = counter_rotates(params, scan, kappa, &does, error);
+        *(does ? &least->kappa : &below) = kappa;
+    }
+    for (int i = 0; i < scan->halvings && status == FST_OK && does && below > 0.0; i++) {
+        const double middle = sqrt(below * least->kappa);
+        int here;
+        status = counter_rotates(params, scan, middle, &here, error);
+        *(here ? &least->kappa : &below) = middle;
+    }
+    least->below = does ? below : NAN;
     return status;
 }

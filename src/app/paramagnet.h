@@ -55,6 +55,7 @@ typedef struct fst_balance {
 typedef struct fst_balances {
     fst_balance of[FST_BALANCE_COUNT];
     double mean_alpha_dot;
+    double periods; /* of the drive, in the window */
 } fst_balances;
 fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
                                    fst_balances *balances, fst_error *error);
@@ -63,12 +64,33 @@ fst_status fst_paramagnet_balances(const fst_params *params, double discard, dou
 double fst_balance_residual(const fst_balance *balance);
 double fst_balance_boundary(const fst_balance *balance);
 
+/* Whether <r V_alpha> and <r' V_r + r alpha' V_alpha> are those of a stationary motion: what the state's change
+ * adds is under 2 %.  (The energy of a bead that the printed equations move may grow for ever: they spin it
+ * up.) */
+int fst_balances_settled(const fst_balances *balances);
+
 /* ------------------------------------------------------------------ how much remanence */
 
-/* Least kappa with which the bead of `params` (material mixed, bead.a given) still counter-rotates `periods`
- * drive periods after the rolling start, by bisection in log kappa between `low` and `high`; NAN where it does
- * not even at `high`. */
-fst_status fst_least_kappa(const fst_params *params, double low, double high, int halvings, double periods,
-                           double *kappa, fst_error *error);
+/* Whether a bead counter-rotates is no monotone function of kappa: below the least value that a bisection would
+ * find there may be others.  So kappa is scanned from below, at `points` values from `low` to `high` (by equal
+ * factors), and the first edge met is refined by `halvings` bisections.  At each value the bead begins at
+ * `starts` angles, half a turn divided evenly, and counter-rotates if it does so from one of them after
+ * `periods` drive periods and still after four times as many. */
+typedef struct fst_kappa_scan {
+    double low, high;
+    int points, halvings, starts;
+    double periods;
+} fst_kappa_scan;
+
+/* `kappa` is the least with which the bead was seen to counter-rotate, NAN: none of the scan; `below` the
+ * greatest tried value under it, with which it did not (NAN: the scan's first value does).  A range of kappa
+ * between two values of the scan can be missed. */
+typedef struct fst_least_found {
+    double kappa, below;
+} fst_least_found;
+
+/* Least kappa found for the bead of `params` (material mixed, bead.a given). */
+fst_status fst_least_kappa(const fst_params *params, const fst_kappa_scan *scan, fst_least_found *least,
+                           fst_error *error);
 
 #endif

@@ -198,6 +198,23 @@ static void print_branch(FILE *out, const fst_branch *b)
                       b->ends[i].reason);
 }
 
+/* At either end of the range; one word is enough. */
+static void warn_of_ends(const fst_params *params, const fst_branch_options *o)
+{
+    const double ends[2] = {o->from, o->to};
+    char sentence[512], text[32];
+    for (int i = 0; i < 2; i++) {
+        fst_params at = *params;
+        fst_error ignored;
+        (void)snprintf(text, sizeof text, "%.17g", ends[i]);
+        if (fst_params_set(&at, o->key, text, &ignored) == FST_OK &&
+            fst_bead_contradiction(&at, sentence, sizeof sentence)) {
+            warn_of_material(&at);
+            return;
+        }
+    }
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
@@ -212,6 +229,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = check_place(path, error);
     if (status != FST_OK)
         return status;
+    warn_of_ends(&params, &o);
     progress_line line;
     progress_begin(&line);
     o.user = &line;

@@ -30,6 +30,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = fst_model_new(&params, &model, error);
     if (status == FST_OK)
         status = fst_start_state(&params, model, state, error);
+    if (status == FST_OK)
+        warn_of_material(&params);
     if (status == FST_OK && option_value(given, "json")) {
         status = print_and_free(fst_scene_json(&params), out, error);
     } else if (status == FST_OK) {

@@ -45,6 +45,9 @@ fst_status fail(fst_error *error, fst_status code, const char *where, const char
 /* The parameters of the scene operand `path` (NULL: the defaults) and all --set. */
 fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error);
 
+/* A line on standard error where mass and radius of the bead contradict any material. */
+void warn_of_material(const fst_params *params);
+
 /* Print a text made by the library, and free it; NULL is FST_NO_MEMORY. */
 fst_status print_and_free(char *text, FILE *out, fst_error *error);
 

@@ -72,6 +72,13 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
     return check_material(params, path ? path : "", error);
 }
 
+void warn_of_material(const fst_params *params)
+{
+    char sentence[512];
+    if (fst_bead_contradiction(params, sentence, sizeof sentence))
+        (void)fprintf(stderr, "festoon: warning: %s\n", sentence);
+}
+
 fst_status print_and_free(char *text, FILE *out, fst_error *error)
 {
     if (!text)

@@ -28,6 +28,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status != FST_OK)
         return status;
+    warn_of_material(&params);
     progress_line line;
     const fst_progress progress = {&line, progress_tell};
     progress_begin(&line);
@@ -46,8 +47,8 @@ const command lyapunov_command = {
     .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json]",
     .summary = "The spectrum of Lyapunov exponents of the motion from the start",
     .details =
-        "run.discard drive periods are left out, the rest of run.periods is averaged over.  Errors come from\n"
-        "16 blocks; \"converged\" means that every sign is decided.\n",
+        "run.discard drive periods are left out, the rest of run.periods is averaged over.  Errors tell\n"
+        "what differs between parts of that time; \"converged\" means that every sign is decided.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -217,6 +217,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     run_outputs outputs = {.ramp = NULL};
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
+        warn_of_material(&params);
+    if (status == FST_OK)
         status = run_into(given, &params, &outputs, out, error);
     free(outputs.ramp);
     return status;

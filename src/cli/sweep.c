@@ -85,16 +85,47 @@ static fst_status read_sweep(const arguments *given, const char **axes, fst_swee
     return status;
 }
 
+/* What is shown while the sweep is at work. */
+typedef struct display {
+    progress_line line;
+    fst_params contradiction; /* a point whose bead no material makes */
+    int to_warn;
+} display;
+
+/* Of several ranks one warns. */
+static void warn_once(display *shown, int rank)
+{
+    if (shown->to_warn && rank == 0)
+        warn_of_material(&shown->contradiction);
+    shown->to_warn = 0;
+}
+
+/* Look at the ends of the grid: one word is enough. */
+static void look_for_contradiction(display *shown, const fst_params *params, const fst_sweep_options *sweep)
+{
+    char sentence[512];
+    fst_grid *grid = NULL;
+    fst_error ignored;
+    if (fst_grid_new(params, sweep->axes, sweep->axis_count, sweep->seed, &grid, &ignored) != FST_OK)
+        return; /* the sweep itself will say why */
+    const int64_t ends[2] = {0, fst_grid_points(grid) - 1};
+    for (int i = 0; i < 2 && !shown->to_warn; i++)
+        shown->to_warn = fst_grid_params(grid, ends[i], &shown->contradiction, &ignored) == FST_OK &&
+                         fst_bead_contradiction(&shown->contradiction, sentence, sizeof sentence) != 0;
+    fst_grid_free(grid);
+}
+
 static fst_status show(void *user, const fst_sweep_progress *p, fst_error *error)
 {
     char what[64];
+    warn_once(user, p->rank);
     if (p->rank != 0)
         return interrupted() ? fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
     /* A sweep that goes on counts what is there, but hopes for the speed of this call. */
     const double rate = p->seconds > 0 ? (double)p->added / p->seconds : 0.0;
     (void)snprintf(what, sizeof what, "%lld of %lld points, %.3g a second", (long long)p->there,
                    (long long)p->points, rate);
-    return progress_show_left(user, (double)p->there / (double)p->points,
+    return progress_show_left(&((display *)user)->line, (double)p->there / (double)p->points,
                               rate > 0 ? (double)(p->points - p->there) / rate : INFINITY, what, error);
 }
 
@@ -134,13 +165,16 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = read_sweep(given, axes, &sweep, error);
     if (status != FST_OK)
         return status;
-    progress_line line;
-    progress_begin(&line);
-    sweep.user = &line;
+    display shown = {.to_warn = 0};
+    look_for_contradiction(&shown, &params, &sweep);
+    progress_begin(&shown.line);
+    sweep.user = &shown;
     sweep.progress = show;
     sweep.with_ranks = 1;
     status = fst_sweep(&params, path, &sweep, &result, error);
-    progress_end(&line);
+    progress_end(&shown.line);
+    if (status == FST_OK)
+        warn_once(&shown, result.rank);
     /* Rank 0 tells what happened to all, in words and by its status: mpirun kills the others as soon as one
      * process has ended with a status of its own, be rank 0 still about to speak. */
     if (result.rank != 0)

@@ -174,6 +174,11 @@ char *fst_scene_json(const fst_params *params)
     json_t *document = json_object();
     json_object_set_new(document, "scene", fst_json_scene(params));
     json_object_set_new(document, "groups", groups_object(params));
+    json_t *warnings = json_array();
+    char sentence[512];
+    if (fst_bead_contradiction(params, sentence, sizeof sentence))
+        json_array_append_new(warnings, json_string(sentence));
+    json_object_set_new(document, "warnings", warnings);
     return fst_json_dump(document, JSON_INDENT(2));
 }
 

@@ -1,0 +1,49 @@
+/* material.c - whether a bead of these parameters can be made of anything. */
+#include <festoon/festoon.h>
+
+#include <stdio.h>
+
+static const double PI = 3.14159265358979323846;
+
+/* From light plastics filled with magnetic powder to tungsten and gold, kg/m^3. */
+static const double LIGHTEST = 1000.0, HEAVIEST = 23000.0;
+
+static double density_of(const fst_params *params)
+{
+    const double radius = params->bead_radius;
+    return params->bead_mass / (4.0 / 3.0 * PI * radius * radius * radius);
+}
+
+/* Mass and radius enter kappa = mu B0/(m R^2 gamma^2) too, and the unit of a and b: a strength that is the
+ * default's belongs to the default's bead. */
+static int strength_is_default(const fst_params *params, const fst_params *usual)
+{
+    if (params->bead_material == FST_MATERIAL_PARAMAGNETIC)
+        return 1;
+    return (isnan(params->bead_moment) || isnan(params->magnet_b0)) &&
+           params->model_kappa == usual->model_kappa;
+}
+
+int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size)
+{
+    const fst_params usual = fst_default_params();
+    const double density = density_of(params);
+    if (size > 0)
+        sentence[0] = '\0';
+    if (!isnan(params->model_eps)) /* a scaled bead, whose radius in metres plays no part */
+        return 0;
+    if (!(density >= LIGHTEST && density <= HEAVIEST))
+        return snprintf(sentence, size,
+                        "the bead's mass (%.4g kg) and radius (%.4g m) make a density of %.0f kg/m^3, which no "
+                        "material has (%g to %g): give bead.mass and bead.radius that belong together",
+                        params->bead_mass, params->bead_radius, density, LIGHTEST, HEAVIEST);
+    if (params->bead_radius != usual.bead_radius && params->bead_mass == usual.bead_mass &&
+        strength_is_default(params, &usual))
+        return snprintf(
+            sentence, size,
+            "bead.radius is %.4g m, but the bead's mass and magnetic strength are still those of the "
+            "default's %.4g m: its density is %.0f kg/m^3 instead of %.0f; give bead.mass and "
+            "model.kappa (or bead.moment and magnet.b0) as well",
+            params->bead_radius, usual.bead_radius, density, density_of(&usual));
+    return 0;
+}
