@@ -15,7 +15,7 @@
 /* The loosest tolerances that decide no regime otherwise and are lost in the exponents' errors:
  * docs/regimes.md. Without friction nothing damps the errors of the steps. */
 static const double LOOSEST = 1e-7, LOOSEST_WITHOUT_FRICTION = 1e-9;
-enum { WATCHED_STEPS = 64 };                     /* tries between two looks whether to stop */
+enum { STEPS_UNTOLD = 64 };
 enum { BLOCKS = 22, ALIGNING = 2, PIECES = 16 }; /* the first blocks turn the vector into place */
 
 /* One bead and its vector on their way. */
@@ -195,8 +195,18 @@ static int step(crew *c)
     return at_work;
 }
 
+/* How far the one is that has farthest to go. */
+static double fraction_done(const crew *c)
+{
+    double least = 1.0;
+    for (int l = 0; l < c->count; ++l)
+        if (!c->followers[l].over)
+            least = fmin(least, (double)c->followers[l].blocks / BLOCKS);
+    return least;
+}
+
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
-                                 const fst_exponent_watch *watch, fst_error *error)
+                                 const fst_progress *progress, fst_error *error)
 {
     crew c = {.engine = engine, .count = count};
     const size_t bytes = (engine->bytes + 63) / 64 * 64;
@@ -214,13 +224,13 @@ fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent 
         else
             (void)project_lane(&c, l);
     engine->evaluate(c.memory);
-    int stopped = 0;
-    for (unsigned tries = 1; !stopped && step(&c); ++tries)
-        if (watch && tries % WATCHED_STEPS == 0) {
+    fst_status status = FST_OK;
+    for (unsigned steps = 1; status == FST_OK && step(&c); ++steps)
+        if (progress && steps % STEPS_UNTOLD == 0) {
             for (int l = 0; l < count; ++l)
                 keep_way(&c, l);
-            stopped = watch->stopped(watch->user);
+            status = progress->tell(progress->user, fraction_done(&c), error);
         }
     free(c.memory);
-    return stopped ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+    return status;
 }

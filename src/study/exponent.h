@@ -22,16 +22,11 @@ typedef struct fst_exponent {
     unsigned char way[FST_EXPONENT_WAY];
 } fst_exponent;
 
-/* Asked now and then, when the ways are up to date: whether to stop. */
-typedef struct fst_exponent_watch {
-    void *user;
-    int (*stopped)(void *user);
-} fst_exponent_watch;
-
 /* The largest exponents of `count` beads, at most as many as the engine is wide.  Tangent vectors along the
- * flow and along |n| are projected out.  `watch` may be NULL.  FST_NO_MEMORY; FST_INTERRUPTED: `watch` said so.
+ * flow and along |n| are projected out.  `progress` (may be NULL) is told between steps, when the
+ * ways are up to date; what it returns other than FST_OK ends the work.  FST_NO_MEMORY.
  */
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
-                                 const fst_exponent_watch *watch, fst_error *error);
+                                 const fst_progress *progress, fst_error *error);
 
 #endif

@@ -232,9 +232,10 @@ static void finish(fst_crew *c, fst_squad *s, int l, fst_status status, fst_erro
         c->waiting[c->waiting_count++] = at->job;
 }
 
-static int stopped(void *user)
+static fst_status watch_exponents(void *user, double fraction, fst_error *error)
 {
-    return fst_crew_stopped(user);
+    (void)fraction;
+    return fst_crew_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 
 /* The exponents of runs that are parked, side by side too: the last ones, as many as there are lanes. */
@@ -245,8 +246,8 @@ static fst_status conclude_parked(fst_crew *c, fst_error *error)
     fst_lane *last = c->parked + (c->parked_count - count);
     for (int i = 0; i < count; ++i)
         asked[i] = &last[i].run->exponent;
-    const fst_exponent_watch watch = {c, stopped};
-    const fst_status status = fst_largest_exponents(&c->engine->tangents, asked, count, &watch, error);
+    const fst_progress progress = {c, watch_exponents};
+    const fst_status status = fst_largest_exponents(&c->engine->tangents, asked, count, &progress, error);
     for (int i = 0; status == FST_OK && i < count; ++i) {
         fst_lane *at = &last[i];
         fst_run_result result;

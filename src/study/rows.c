@@ -38,9 +38,8 @@ static double now(void)
 }
 
 /* Whether to stop; before that, the image that is due. */
-static int is_stopped(void *user)
+static int is_stopped(lone_run *l)
 {
-    lone_run *l = user;
     const int stop = l->work->stopped(l->work->user);
     const double time = l->images ? now() : 0.0;
     if (!l->images || (!stop && time - l->saved < l->images->seconds))
@@ -54,6 +53,12 @@ static int is_stopped(void *user)
     free(image);
     l->saved = time;
     return stop;
+}
+
+static fst_status watch_exponent(void *user, double fraction, fst_error *error)
+{
+    (void)fraction;
+    return is_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 
 static fst_status begin(lone_run *l, fst_error *error)
@@ -94,10 +99,10 @@ static fst_status go_on(lone_run *l, fst_run_result *result, fst_error *error)
     if (status == FST_OK && l->stage != FST_STAGE_PARKED)
         status = fst_run_conclude(l->run, result, error);
     if (status == FST_OK && l->run->exponent_is == FST_EXPONENT_WANTED) {
-        const fst_exponent_watch watch = {l, is_stopped};
+        const fst_progress progress = {l, watch_exponent};
         fst_exponent *asked = &l->run->exponent;
         l->stage = FST_STAGE_PARKED;
-        status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, &watch, error);
+        status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, &progress, error);
         l->run->exponent_is = FST_EXPONENT_KNOWN;
         fst_result_clear(result);
         if (status == FST_OK)
