@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PACKAGES = tools/install-packages.sh
 C_FILES = $(shell find src include tests bench docs examples tools -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp')
 
-.PHONY: build demo test test-long mutants bench install docs format check-format clean help
+.PHONY: build demo test test-long reliability mutants bench install docs format check-format clean help
 
 build: ## build build/festoon (optimised)
 	@$(PACKAGES) build
@@ -34,6 +34,24 @@ test-long: ## run the long tests
 mutants: ## put faults into the code, one at a time, and count which ones the tests notice (hours)
 	@$(PACKAGES) test
 	@python3 tests/mutants/run.py --write -j $(JOBS)
+
+CAMPAIGNS = kills rot power faults fuzz
+
+reliability: ## attack what must not be lost, at full length; write docs/reliability.md
+	@$(PACKAGES) test-long
+	@cmake --preset release --log-level=WARNING -DFESTOON_TESTS=ON
+	@cmake --build build -j $(JOBS)
+	@failed=; \
+	for name in $(CAMPAIGNS); do \
+	    script=tests/reliability/$$name.py; \
+	    if [ ! -e $$script ]; then echo "$$script: there is no such campaign yet"; continue; fi; \
+	    echo "$$script"; \
+	    FESTOON="$(CURDIR)/build/festoon" SOURCE_DIR="$(CURDIR)" BUILD_DIR="$(CURDIR)/build" \
+	        python3 -B $$script --write; \
+	    status=$$?; \
+	    if [ $$status -eq 77 ]; then echo "$$script: skipped"; elif [ $$status -ne 0 ]; then failed="$$failed $$name"; fi; \
+	done; \
+	if [ -n "$$failed" ]; then echo "promises were broken:$$failed"; exit 1; fi
 
 bench: ## time festoon against other integrators and AUTO-07p
 	@$(PACKAGES) bench

@@ -146,7 +146,7 @@ def run_auto(directory, **constants):
             os.remove(os.path.join(directory, name))
     began = time.monotonic()
     done = subprocess.run([os.path.join(directory, "bead.exe")], cwd=directory, input=CONSTANTS.format(**constants),
-                          capture_output=True, text=True, timeout=200,
+                          capture_output=True, text=True, timeout=1000,
                           env={**os.environ, "OMP_NUM_THREADS": "1"})
     took = time.monotonic() - began
     rows = []

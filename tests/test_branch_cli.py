@@ -2,50 +2,40 @@
 
 import json
 import os
-import pty
-import signal
 import subprocess
 import tempfile
 import unittest
+
+import events
 
 FESTOON = os.environ["FESTOON"]
 
 
 def branch(*words):
-    done = subprocess.run([FESTOON, "branch", *words], capture_output=True, text=True, timeout=300,
+    done = subprocess.run([FESTOON, "branch", *words], capture_output=True, text=True, timeout=events.HANG,
                           stdin=subprocess.DEVNULL)
     return done.returncode, done.stdout, done.stderr
 
 
-def interrupted(*words):
-    """Start a command with a terminal as standard error, and interrupt it once its progress line says something."""
-    leader, follower = pty.openpty()
-    with subprocess.Popen([FESTOON, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                          stderr=follower) as child:
-        os.close(follower)
-        seen = b""
-        while b" left" not in seen:
-            seen += os.read(leader, 1000)
-        child.send_signal(signal.SIGINT)
-        while True:
-            try:
-                more = os.read(leader, 1000)
-            except OSError:  # the other end is closed
-                break
-            if not more:
-                break
-            seen += more
-        out = child.stdout.read()
-        child.wait()
-    os.close(leader)
-    return child.returncode, out, seen.decode()
+def interrupted(words):
+    """Interrupt a command once its progress line says something: status, output, what the terminal showed.  Where the
+    command was over before, words(factor) has more for it to do."""
+    found = None
+
+    def blow(factor):
+        nonlocal found
+        found = events.on_a_terminal([FESTOON, *words(factor)], lambda text: " left" in text)
+        return found[0] != 0
+    events.struck(blow, 1)
+    return found
 
 
 class Interruption(unittest.TestCase):
-    def check(self, *words):
+    def check(self, step, *words):
         with tempfile.TemporaryDirectory() as directory:
             path = os.path.join(directory, "branch.json")
-            status, out, said = interrupted("branch", *words, "-o", path)
+            status, out, said = interrupted(
+                lambda factor: ("branch", *words, "--step", f"{step / factor:g}", "-o", path))
             self.assertEqual((status, out), (130, b""), said)
             self.assertRegex(said, r"\d\.\d %  \d+ s left")
             self.assertIn("marked incomplete", said)
@@ -56,26 +46,28 @@ class Interruption(unittest.TestCase):
             return kept
 
     def test_branch(self):
-        kept = self.check("--kind", "counter", "--over", "drive.omega=0.02:5", "--tolerance", "1e-14", "--step", "0.02")
+        kept = self.check(0.02, "--kind", "counter", "--over", "drive.omega=0.02:5", "--tolerance", "1e-14")
         self.assertGreater(len(kept["points"]), 0)
 
     def test_follow(self):
-        self.check("--kind", "counter", "--over", "drive.omega=0.25:0.3", "--follow", "pitchfork",
-                   "--with", "model.kappa=0.8:3", "--tolerance", "1e-14", "--step", "0.01")
+        self.check(0.01, "--kind", "counter", "--over", "drive.omega=0.25:0.3", "--follow", "pitchfork",
+                   "--with", "model.kappa=0.8:3", "--tolerance", "1e-14")
 
     def test_nothing_is_kept_without_a_file(self):
-        status, out, said = interrupted("branch", "--kind", "all", "--over", "drive.omega=0.02:5", "--step", "0.05")
+        status, out, said = interrupted(
+            lambda factor: ("branch", "--kind", "all", "--over", "drive.omega=0.02:5", "--step", f"{0.05 / factor:g}"))
         self.assertEqual((status, out), (130, b""))
         self.assertIn("-o FILE.json would have kept", said)
 
 
     def test_what_keeps_nothing(self):
         """They end at the first signal, within the long computation and not after it."""
-        for words in (("lyapunov", "--set", "run.periods=100000"),
-                      ("lyapunov", "--set", "run.periods=1e6", "--set", "run.discard=9e5"),
-                      ("orbit", "--festoons", "12")):
-            status, out, said = interrupted(*words)
-            self.assertEqual((status, out), (130, b""), (words, said))
+        for words in (lambda factor: ("lyapunov", "--set", f"run.periods={100000 * factor}"),
+                      lambda factor: ("lyapunov", "--set", f"run.periods={10**6 * factor}", "--set",
+                                      f"run.discard={9 * 10**5 * factor}"),
+                      lambda factor: ("orbit", "--festoons", f"{11 + factor}")):
+            status, out, said = interrupted(words)
+            self.assertEqual((status, out), (130, b""), (words(1), said))
             self.assertIn("interrupted after", said)
 
 
@@ -138,21 +130,21 @@ class BadInput(unittest.TestCase):
 class Orbit(unittest.TestCase):
     def test_where_newton_does_not_converge(self):
         """Beyond the fold the bead spirals outward: returns come close to each other, and no orbit is there."""
-        done = subprocess.run([FESTOON, "orbit", "--set", "drive.omega=4"], capture_output=True, text=True, timeout=300,
+        done = subprocess.run([FESTOON, "orbit", "--set", "drive.omega=4"], capture_output=True, text=True, timeout=events.HANG,
                               check=False)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertRegex(done.stderr, r"settled on no stable orbit .* last returns differ by [0-9.e-]+ .* was tried \d+")
 
     def test_what_did_not_turn_regularly_has_no_returns_to_compare(self):
         done = subprocess.run([FESTOON, "orbit", "--set", "run.periods=1", "--set", "run.discard=0"],
-                              capture_output=True, text=True, timeout=300, check=False)
+                              capture_output=True, text=True, timeout=events.HANG, check=False)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertNotIn("inf", done.stderr)
         self.assertRegex(done.stderr, r"did not turn regularly \(speed in the turning frame: [0-9.e-]+\)")
 
     def test_a_start_that_is_ejected(self):
         done = subprocess.run([FESTOON, "orbit", "--set", "drive.omega=5", "--set", "start.r=3"], capture_output=True,
-                              text=True, timeout=300, check=False)
+                              text=True, timeout=events.HANG, check=False)
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertRegex(done.stderr, r"flies away at omega = 5 \(after [0-9.]+ drive periods")
 

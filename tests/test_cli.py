@@ -12,6 +12,8 @@ import tempfile
 import time
 import unittest
 
+import events
+
 FESTOON = os.environ["FESTOON"]
 SOURCE_DIR = os.environ["SOURCE_DIR"]
 
@@ -26,7 +28,7 @@ REGIMES = """locked librating counter-rotating corotating chaotic ejected lifted
 def festoon(*words, **options):
     options.setdefault("stdin", subprocess.DEVNULL)
     options.setdefault("stdout", subprocess.PIPE)
-    options.setdefault("timeout", 120)
+    options.setdefault("timeout", events.HANG)
     done = subprocess.run([FESTOON, *words], stderr=subprocess.PIPE, **options)
     return done.returncode, (done.stdout or b"").decode(), done.stderr.decode(errors="replace")
 
@@ -325,20 +327,22 @@ class Run(Case):
         self.bad(["run", "-o", self.path("null.csv"), *SHORT], "no regular file")
         self.assertEqual(sorted(os.listdir(self.directory)), ["d.csv", "null.csv"])
 
-    def interrupt(self, number, *words):
-        process = subprocess.Popen([FESTOON, "run", "--set", "run.periods=1e7", *words], stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE)
-        time.sleep(1.0)
-        process.send_signal(number)
-        out, messages = process.communicate(timeout=60)
-        self.assertEqual((process.returncode, out), (130, b""), messages)
-        self.assertIn(b"interrupted", messages)
+    FOR_DAYS = [FESTOON, "run", "--set", "run.periods=1e9", "--set", "run.samples=16"]
+
+    def written(self, name):
+        """Bytes of a file that is being written, under whatever name beside its own."""
+        return sum(os.path.getsize(self.path(found)) for found in os.listdir(self.directory) if name in found)
 
     def test_interrupted(self):
-        self.interrupt(signal.SIGINT)
-        for number, ending in ((signal.SIGINT, "csv"), (signal.SIGTERM, "h5")):
-            self.interrupt(number, "-o", self.path("i." + ending))
-        self.assertEqual(sorted(os.listdir(self.directory)), ["i.csv", "i.h5"])
+        status, out, messages = events.on_a_terminal(self.FOR_DAYS, lambda text: " left" in text)
+        self.assertEqual((status, out), (130, b""), messages)
+        self.assertIn("interrupted", messages)
+        for number, words in ((signal.SIGINT, []), (signal.SIGTERM, ["-o", self.path("i.h5")])):
+            status, out, messages = events.signal_when([*self.FOR_DAYS, "--csv", self.path("i.csv"), *words],
+                                                       lambda: self.written(".i.csv.") > 100000, number)
+            self.assertEqual((status, out), (130, b""), messages)
+            self.assertIn(b"interrupted", messages)
+            self.assertEqual(sorted(os.listdir(self.directory)), ["i.csv", "i.h5"][:1 + bool(words)])
         lines, _, rows = self.read_csv(self.path("i.csv"))
         self.assertEqual(lines[-1], "# complete = false")
         self.assertGreater(len(rows), 100)

@@ -10,7 +10,7 @@ FESTOON = os.environ["FESTOON"]
 
 
 def festoon(*words):
-    done = subprocess.run([FESTOON, *words], capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
+    done = subprocess.run([FESTOON, *words], capture_output=True, text=True, timeout=1000, stdin=subprocess.DEVNULL)
     return done.returncode, done.stdout, done.stderr
 
 

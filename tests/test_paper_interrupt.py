@@ -2,9 +2,7 @@
 
 import json
 import os
-import pty
 import re
-import select
 import shutil
 import signal
 import subprocess
@@ -13,6 +11,8 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+
+import events
 
 FESTOON = os.environ["FESTOON"]
 
@@ -58,17 +58,24 @@ class Interrupted(unittest.TestCase):
         return paper
 
     def cut_short(self, name, moment, signals=1):
+        """Interrupt it when the folder satisfies `moment`; where it was over before that was seen, once more."""
         directory = self.folder / name
-        process = start(directory)
-        deadline = time.monotonic() + 600
-        while not moment(directory) and process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
-        for _ in range(signals):
-            process.send_signal(signal.SIGINT)
-            time.sleep(0.01)
-        out, messages = process.communicate()
-        self.assertEqual((process.returncode, out), (130, ""), messages)
-        self.assertIn("marked incomplete", messages)
+
+        def blow(_):
+            shutil.rmtree(directory, ignore_errors=True)
+            process = start(directory)
+            events.wait_for(process, lambda: moment(directory))
+            for _ in range(signals):
+                process.send_signal(signal.SIGINT)
+                time.sleep(0.01)
+            out, messages = process.communicate()
+            if process.returncode == 0:
+                return False
+            self.assertEqual((process.returncode, out), (130, ""), messages)
+            self.assertIn("marked incomplete", messages)
+            paper = json.loads((directory / "paper.json").read_text())
+            return len(paper["statements"]) < len(self.whole["statements"])
+        events.struck(blow, 1)
         return directory
 
     def test_at_once(self):
@@ -106,22 +113,16 @@ class Interrupted(unittest.TestCase):
         """A line with the share done and the time left; Ctrl-C reaches gnuplot as well, and is an interruption."""
         for name, until in (("runs", r"s left +runs"), ("drawing", r"s left +figures")):
             directory = self.folder / f"terminal-{name}"
-            pid, terminal = pty.fork()
-            if pid == 0:
-                os.execv(FESTOON, [FESTOON, "paper", "--reduced", "-o", str(directory)])
-            shown, sent, deadline = "", False, time.monotonic() + 600
-            while time.monotonic() < deadline:
-                if select.select([terminal], [], [], 1.0)[0]:
-                    try:
-                        shown += os.read(terminal, 4096).decode(errors="replace")
-                    except OSError:  # the other end is closed
-                        break
-                if not sent and re.search(until, shown):
-                    os.write(terminal, b"\x03")
-                    sent = True
-            os.close(terminal)
-            status = os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1])
-            self.assertTrue(sent, shown)
+            found = None
+
+            def blow(_):
+                nonlocal found
+                shutil.rmtree(directory, ignore_errors=True)
+                found = events.on_a_terminal([FESTOON, "paper", "--reduced", "-o", str(directory)],
+                                             lambda text: re.search(until, text), as_key=True)
+                return found[0] != 0
+            events.struck(blow, 1)
+            status, _, shown = found
             self.assertEqual(status, 130, shown)
             self.assertRegex(shown, r"\d+\.\d %  \d+ s left  runs")
             self.check_what_is_there(directory, 0)

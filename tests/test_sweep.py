@@ -90,6 +90,30 @@ class Rows(Case):
                   "--carry", "up", "--portable", "-o", self.path("up.db"))
         self.assertEqual(self.rows("up.db"), up)
 
+    def test_nothing_is_carried_from_a_bead_that_left_the_plate(self):
+        """After an ejection or a lift-off a chain begins anew, at the scene's own start; going on after a cut, too."""
+        brief = ["--set", "run.periods=15", "--set", "run.discard=3", "--set", "run.rtol=1e-8"]
+        for regime, carried, axis, *scene in (
+                ("ejected", [0, 0, 1], "plate.radius=45mm,80mm,90mm", "start.r=1.9", "drive.omega=2"),
+                ("lifted", [0, 0, 1], "bead.a=-1e-3,1e-3,2e-3", "bead.material=paramagnetic")):
+            settings = [word for value in scene for word in ("--set", value)]
+            words = ["sweep", *brief, *settings, "--over", axis, "--carry", "up", "--portable", "-o", self.path(regime)]
+            self.good(*words)
+            whole = self.rows(regime)
+            rows = json.loads(self.good("export", self.path(regime), "--json"))
+            self.assertEqual([row["carried"] for row in rows], carried)
+            self.assertEqual(rows[0]["regime"], regime)
+            self.assertNotIn(rows[1]["regime"], ("ejected", "lifted"))
+            key = axis.split("=")[0]
+            alone = json.loads(self.good("run", *brief, *settings, "--set", f"{key}={rows[1][key]!r}", "--json"))
+            self.assertEqual(alone["final_state"], rows[1]["final_state"])
+            base = sqlite3.connect(self.path(regime))
+            base.execute("DELETE FROM rows WHERE point >= 1")
+            base.commit()
+            base.close()
+            self.good(*words)
+            self.assertEqual(self.rows(regime), whole)
+
 
 class Bands(Case):
     def test_librating_bands_lie_between_bifurcations_of_locked_states(self):

@@ -13,18 +13,17 @@ import signal
 import sqlite3
 import subprocess
 import sys
-import time
 import unittest
 
 os.environ["FESTOON_KILLS"] = "34"  # databases, each killed three times
 os.environ["FESTOON_RANKS_ROUNDS"] = "10"
 
+import events  # noqa: E402
 import test_sweep_ranks  # noqa: E402
 from sweep_tools import FESTOON, SHORT, SMALL, Case, content_of, festoon  # noqa: E402
 from test_sweep_resume_threads import Resuming as Kills  # noqa: E402,F401
 
 HAVE_MPI = shutil.which("mpirun") and "mpi yes" in festoon("--version")[1]
-LONG = ["--set", "run.periods=100", "--set", "run.discard=50", "--over", "drive.frequency=9Hz:20Hz:2000"]
 
 
 @unittest.skipUnless(HAVE_MPI, "no mpirun, or festoon was built without MPI")
@@ -159,18 +158,19 @@ class Disks(Case):
 
     def test_an_interrupted_sweep_where_nothing_may_be_written(self):
         """A database whose log was left beside it by a kill can be read after the disk became read-only."""
-        place = self.mount("-t", "tmpfs", "-o", "size=8m", "none")
-        path = os.path.join(place, "a.db")
-        process = subprocess.Popen([FESTOON, "sweep", *LONG, "-o", path], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
-        while process.poll() is None and not (os.path.exists(path + "-wal") and os.path.getsize(path + "-wal") > 0):
-            time.sleep(0.05)
-        time.sleep(1)
-        process.kill()
-        process.wait()
+        place = self.mount("-t", "tmpfs", "-o", "size=64m", "none")
+
+        def sweep(count):
+            return ["sweep", *SHORT, "--over", f"drive.frequency=9Hz:20Hz:{count}", "-o",
+                    os.path.join(place, f"{count}.db")]
+
+        def blow(count):
+            path = os.path.join(place, f"{count}.db")
+            return events.kill_when([FESTOON, *sweep(count)], lambda: events.rows(path))
+        words = sweep(events.struck(blow, 300))
         subprocess.run(["mount", "-o", "remount,ro", place], check=True)
         before = {name: content_of(os.path.join(place, name)) for name in os.listdir(place)}
-        status, out, err = festoon("sweep", *LONG, "-o", path)
+        status, out, err = festoon(*words)
         self.assertEqual((status, out), (1, ""), err)
         self.assertIn("no permission", err)
         self.assertEqual({name: content_of(os.path.join(place, name)) for name in os.listdir(place)}, before)
@@ -194,19 +194,24 @@ class Disks(Case):
 
 class Signals(Case):
     def test_interruptions_add_up(self):
-        self.good("sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:2000", "-o", self.path("whole.db"))
-        words = ["sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:2000", "-o", self.path("a.db")]
         rng = random.Random(3)
-        for _ in range(5):
-            process = subprocess.Popen([FESTOON, *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-            time.sleep(rng.uniform(0.1, 0.6))
-            process.send_signal(rng.choice((signal.SIGINT, signal.SIGTERM)))
-            out, err = process.communicate(timeout=60)
-            self.assertIn(process.returncode, (130, 0), err)
-            if process.returncode == 130:
-                self.assertEqual(out, b"")
-        self.good(*words)
-        self.assertEqual(self.rows("a.db"), self.rows("whole.db"))
+
+        def blow(count):
+            words = ["sweep", *SHORT, "--over", f"drive.frequency=9Hz:20Hz:{count}", "-o"]
+            self.good(*words, self.path(f"whole{count}.db"))
+            path, struck = self.path(f"a{count}.db"), 0
+            for _ in range(5):
+                seen = events.rows(path) + rng.choice((0, count // 20))
+                status, out, err = events.signal_when([FESTOON, *words, path], lambda: events.rows(path) > seen,
+                                                      rng.choice((signal.SIGINT, signal.SIGTERM)))
+                self.assertIn(status, (130, 0), err)
+                if status == 130:
+                    self.assertEqual(out, b"")
+                    struck += 1
+            self.good(*words, path)
+            self.assertEqual(self.rows(f"a{count}.db"), self.rows(f"whole{count}.db"))
+            return struck >= 2
+        events.struck(blow, 1000)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ EXAMPLES = os.path.join(os.environ["SOURCE_DIR"], "examples")
 
 class Examples(Case):
     def run_example(self, name, count, **environment):
-        done = subprocess.run([os.path.join(EXAMPLES, name), str(count)], cwd=self.directory, timeout=600,
+        done = subprocess.run([os.path.join(EXAMPLES, name), str(count)], cwd=self.directory, timeout=1000,
                               env=dict(os.environ, FESTOON=FESTOON, **environment), stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -73,7 +73,7 @@ class Examples(Case):
         if shutil.which("festoon", path=environment["PATH"]):
             self.skipTest("a festoon is installed here")
         done = subprocess.run([self.path("examples/sweep-frequency.sh"), "2"], cwd=self.directory, env=environment,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=300)
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=1000)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn(b"all 2 points", done.stdout)
 

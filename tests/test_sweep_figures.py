@@ -9,11 +9,10 @@ import math
 import os
 import shutil
 import signal
-import subprocess
 import sys
-import time
 import unittest
 
+import events
 from sweep_tools import FESTOON, SHORT, Case, change, content_of
 
 GAMMA, HALF_LENGTH = 312.5, 23e-3
@@ -189,12 +188,9 @@ class ManyPoints(Figures):
     def fill(self, name, points, value, *over):
         """A sweep whose rows are made up: mean_r is this expression of the point i."""
         words = [word for axis in over for word in ("--over", axis)]
-        process = subprocess.Popen([FESTOON, "sweep", *SHORT, *words, "-o", self.path(name)], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.DEVNULL)
-        while process.poll() is None and not os.path.exists(self.path(name)):
-            time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
-        process.wait()
+        # Rows that are there, were it all of them, are replaced by made up ones.
+        events.signal_when([FESTOON, "sweep", *SHORT, *words, "-o", self.path(name)],
+                           lambda: events.rows(self.path(name)), signal.SIGINT)
         change(self.path(name), "DELETE FROM rows", (
             "WITH RECURSIVE c(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM c WHERE i < ?) "
             f"INSERT INTO rows(point, status, regime, mean_r) SELECT i, 'done', 'locked', {value} FROM c",

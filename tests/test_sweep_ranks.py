@@ -11,16 +11,19 @@ import signal
 import sqlite3
 import subprocess
 import sys
-import time
 import unittest
 
+import events
 from sweep_tools import FESTOON, SHORT, SMALL, Case, festoon
 
 MPIRUN = ["mpirun", "--oversubscribe", "--allow-run-as-root", "--bind-to", "none"]
 # What Open MPI itself keeps until its end is no concern of the address sanitizer.
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")
-MEDIUM = ["--set", "run.periods=90", "--set", "run.discard=45", "--set", "run.rtol=1e-8", "--over",
-          "drive.frequency=9Hz:20Hz:40", "--over", "model.kappa=1:2:20"]
+
+
+def medium(count):
+    return ["--set", "run.periods=40", "--set", "run.discard=20", "--set", "run.rtol=1e-8", "--checkpoint", "0.05",
+            "--over", f"drive.frequency=9Hz:20Hz:{count}", "--over", "model.kappa=1:2:4"]
 
 
 def start(ranks, *words):
@@ -29,13 +32,16 @@ def start(ranks, *words):
 
 
 def ranks_of(process):
-    """The process numbers of the ranks, once all run."""
-    with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
-        return [int(word) for word in file.read().split()]
+    """The process numbers of the ranks; none once they have ended."""
+    try:
+        with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
+            return [int(word) for word in file.read().split()]
+    except OSError:
+        return []
 
 
 class RankCase(Case):
-    def finish(self, process, timeout=300):
+    def finish(self, process, timeout=events.HANG):
         out, err = process.communicate(timeout=timeout)
         return process.returncode, out.decode(), err.decode(errors="replace")
 
@@ -43,19 +49,6 @@ class RankCase(Case):
         status, out, err = self.finish(start(ranks, "sweep", *words, "-o", self.path(name)))
         self.assertEqual(status, 0, err)
         return out
-
-    def committed(self, name):
-        if not os.path.exists(self.path(name)):
-            return 0
-        base = sqlite3.connect(self.path(name))
-        try:
-            return base.execute("SELECT count(*) FROM rows").fetchone()[0]
-        finally:
-            base.close()
-
-    def wait_for_rows(self, name, process):
-        while process.poll() is None and self.committed(name) == 0:
-            time.sleep(0.05)
 
 
 class SameRows(RankCase):
@@ -87,50 +80,108 @@ class SameRows(RankCase):
 
 
 class Deaths(RankCase):
+    def whole(self, count):
+        """The rows of so many points, computed by one process."""
+        if count not in self.known:
+            self.good("sweep", *medium(count), "-o", self.path("whole.db"))
+            self.known[count] = self.rows("whole.db")
+            os.remove(self.path("whole.db"))
+        return self.known[count]
+
+    def setUp(self):
+        super().setUp()
+        self.known = {}
+        self.size = events.sized(self.whole, 0.3, 40)
+
+    def wait_for_rows(self, process, path, more_than=0):
+        """Whether rows were committed while the ranks were at work."""
+        return events.wait_for(process, lambda: events.rows(path) > more_than) and ranks_of(process)
+
     def test_a_killed_rank_costs_no_committed_row(self):
         rng = random.Random(7)
-        self.good("sweep", *MEDIUM, "-o", self.path("whole.db"))
-        expected = self.rows("whole.db")
-        for i in range(int(os.environ.get("FESTOON_RANKS_ROUNDS", "2"))):
-            name = f"cut{i}.db"
-            process = start(2 + i % 2, "sweep", *MEDIUM, "-o", self.path(name))
-            self.wait_for_rows(name, process)
-            time.sleep(rng.uniform(0, 0.5))
-            before = self.committed(name)
-            victims = ranks_of(process) if process.poll() is None else []
-            if victims:  # else all have done their work
-                os.kill(victims[i % len(victims)], signal.SIGKILL)
-                self.assertNotEqual(self.finish(process)[0], 0)
-            else:
-                self.finish(process)
-            self.assertGreaterEqual(self.committed(name), before)
-            self.assertGreater(before, 0)
-            self.sweep(1 + (i + 1) % 3, name, *MEDIUM)
-            self.assertEqual(self.rows(name), expected)
+
+        def blow(count):
+            struck = 0
+            for i in range(int(os.environ.get("FESTOON_RANKS_ROUNDS", "2"))):
+                name, path = f"cut{count}-{i}.db", self.path(f"cut{count}-{i}.db")
+                process = start(2 + i % 2, "sweep", *medium(count), "-o", path)
+                self.wait_for_rows(process, path, rng.choice((0, rng.randrange(2 * count))))
+                before, victims = events.rows(path), ranks_of(process)
+                try:
+                    os.kill(victims[i % len(victims)], signal.SIGKILL)
+                except (IndexError, ProcessLookupError):  # all have done their work
+                    self.finish(process)
+                else:
+                    struck += self.finish(process)[0] != 0
+                self.assertGreaterEqual(events.rows(path), before)
+                self.sweep(1 + (i + 1) % 3, name, *medium(count))
+                self.assertEqual(self.rows(name), self.whole(count))
+            return struck > 0
+        events.struck(blow, self.size)
 
     def test_interruption(self):
-        long = ["--set", "run.periods=200", *MEDIUM[2:]]
-        process = start(2, "sweep", *long, "-o", self.path("a.db"))
-        self.wait_for_rows("a.db", process)
-        os.kill(ranks_of(process)[-1], signal.SIGINT)  # of a follower: all stop
-        status, out, err = self.finish(process)
-        self.assertEqual((status, out), (130, ""), err)
-        self.assertEqual(err.count("the same command goes on"), 1)
-        first = self.committed("a.db")
-        self.assertTrue(0 < first < 800, first)
-        process = start(3, "sweep", *long, "-o", self.path("a.db"))
-        while process.poll() is None and self.committed("a.db") == first:
-            time.sleep(0.05)
-        process.send_signal(signal.SIGINT)  # of mpirun, which has a status of its own
-        self.assertNotEqual(self.finish(process)[0], 0)
-        second = self.committed("a.db")
-        self.assertTrue(first < second < 800)
-        base = sqlite3.connect(self.path("a.db"))
-        self.assertEqual(base.execute("PRAGMA integrity_check").fetchall(), [("ok",)])
-        base.close()
-        out = self.sweep(2, "a.db", *long, "--json")  # the same command goes on
-        self.assertIn(f'"added": {800 - second},', out)
-        self.assertEqual(self.committed("a.db"), 800)
+        """Of a follower: all stop; then of mpirun, which has a status of its own and passes the signal on when it
+        likes; then the same command ends the work."""
+        def blow(count):
+            points, path = 4 * count, self.path(f"a{count}.db")
+            process = start(2, "sweep", *medium(count), "-o", path)
+            victims = self.wait_for_rows(process, path)
+            try:
+                os.kill((victims or [process.pid])[-1], signal.SIGINT)
+            except ProcessLookupError:
+                pass
+            status, out, err = self.finish(process)
+            first = events.rows(path)
+            if status == 0:
+                return False
+            self.assertEqual((status, out), (130, ""), err)
+            self.assertEqual(err.count("the same command goes on"), 1)
+            self.assertIn(f"interrupted with {first} of {points}", err)
+            process = start(3, "sweep", *medium(count), "-o", path)
+            self.wait_for_rows(process, path, first)
+            process.send_signal(signal.SIGINT)
+            status = self.finish(process)[0]
+            second = events.rows(path)
+            self.assertGreaterEqual(second, first)
+            if second == points:
+                return False
+            self.assertNotEqual(status, 0)
+            self.assertEqual(events.ask(path, "PRAGMA integrity_check"), "ok")
+            out = self.sweep(2, f"a{count}.db", *medium(count), "--json")  # the same command goes on
+            self.assertIn(f'"added": {points - second},', out)
+            self.assertEqual(self.rows(f"a{count}.db"), self.whole(count))
+            return True
+        events.struck(blow, self.size)
+
+    def test_runs_in_flight_go_on_on_other_ranks(self):
+        """Images are sent to the leader, and with the tasks to whoever goes on; without them this would never end."""
+        def words(periods):
+            return ["--set", f"run.periods={periods}", "--set", f"run.discard={periods // 2}", "--set", "run.rtol=1e-8",
+                    "--over", "drive.frequency=6Hz:20Hz:9", "--threads", "1", "--checkpoint", "0.05"]
+
+        def blow(periods):
+            path, lives, before = self.path(f"long{periods}.db"), 0, 0
+            while True:
+                spent = os.times().children_user
+                process = start(2, "sweep", *words(periods), "-o", path)
+                events.wait_for(process, lambda: events.images(path) not in (0, before))
+                victims = ranks_of(process)
+                for victim in victims:
+                    try:
+                        os.kill(victim, signal.SIGKILL)
+                    except ProcessLookupError:
+                        pass
+                if self.finish(process)[0] == 0:
+                    break
+                lives += 1
+                before = events.images(path)
+                self.assertLess(lives, 300, "it gets no further")
+            self.assertTrue(lives > 0 or os.times().children_user - spent < 10.0, "there were no images")
+            self.good("sweep", *words(periods), "-o", self.path(f"alone{periods}.db"))
+            self.assertEqual(self.rows(f"long{periods}.db"), self.rows(f"alone{periods}.db"))
+            return lives >= 2
+        events.struck(blow, events.sized(
+            lambda size: self.good("sweep", *words(size), "-o", self.path(f"try{size}.db")), 0.3, 500))
 
 
 class Refusals(RankCase):
@@ -145,7 +196,7 @@ class Refusals(RankCase):
     def test_ranks_that_would_compute_something_else(self):
         other = 'test "$OMPI_COMM_WORLD_RANK" = 0 || set -- "$@" --set run.rtol=1e-7; exec "$@"'
         words = [FESTOON, "sweep", *SMALL, "-o", self.path("a.db")]
-        done = subprocess.run([*MPIRUN, "-n", "2", "sh", "-c", other, "sh", *words], env=ENVIRONMENT, timeout=300,
+        done = subprocess.run([*MPIRUN, "-n", "2", "sh", "-c", other, "sh", *words], env=ENVIRONMENT, timeout=events.HANG,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.assertEqual((done.returncode, done.stdout), (2, b""), done.stderr)
         self.assertIn(b"rank 1", done.stderr)
@@ -169,7 +220,7 @@ class Refusals(RankCase):
 
     def run_with(self, program, **variables):
         done = subprocess.run([program, "sweep", *SMALL, "-o", self.path("a.db")], stdin=subprocess.DEVNULL,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=300,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=events.HANG,
                               env=dict(os.environ, **variables))
         return done.returncode, done.stdout.decode(), done.stderr.decode()
 

@@ -18,6 +18,7 @@ typedef struct command {
     const option *options;
     int most_operands; /* arguments that are no options */
     int much_output;   /* standard output may be larger than memory */
+    int has_helpers;   /* it starts other programs, which a signal from the terminal reaches too */
     /* Do it.  What is written to `out` reaches standard output only if FST_OK is returned. */
     fst_status (*perform)(const arguments *given, FILE *out, fst_error *error);
 } command;

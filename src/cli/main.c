@@ -109,7 +109,13 @@ static fst_status perform(int count, char **words, FILE *out, fst_error *error)
     arguments given;
     fst_status status =
         read_arguments(wanted->options, wanted->most_operands, count - 1, words + 1, &given, error);
-    return status == FST_OK ? wanted->perform(&given, out, error) : status;
+    if (status != FST_OK)
+        return status;
+    status = wanted->perform(&given, out, error);
+    /* The signal reached a helper process such as gnuplot first. */
+    if (wanted->has_helpers && status != FST_OK && status != FST_INTERRUPTED && interrupted())
+        status = fail(error, FST_INTERRUPTED, "", "interrupted");
+    return status;
 }
 
 static int exit_status(fst_status status)
@@ -178,9 +184,6 @@ int main(int argc, char **argv)
         status = perform(argc > 0 ? argc - 1 : 0, argv + 1, out.stream, &error);
         status = end_output(&out, status, &error);
     }
-    /* Also where the signal reached a helper process such as gnuplot first. */
-    if (status != FST_OK && interrupted() && status != FST_INTERRUPTED && error.sentence[0])
-        status = fail(&error, FST_INTERRUPTED, "", "interrupted");
     if (status != FST_OK)
         print_error(&error);
     return exit_status(status);

@@ -92,5 +92,6 @@ const command movie_command = {
     .details = "",
     .options = options,
     .most_operands = 1,
+    .has_helpers = 1,
     .perform = perform,
 };

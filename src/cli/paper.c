@@ -79,5 +79,6 @@ const command paper_command = {
     .summary = "Compute what the paper shows, and report it beside the published numbers",
     .details = "",
     .options = options,
+    .has_helpers = 1,
     .perform = perform,
 };

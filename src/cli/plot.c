@@ -193,5 +193,6 @@ const command plot_command = {
     .details = "",
     .options = options,
     .most_operands = 1,
+    .has_helpers = 1,
     .perform = perform,
 };

@@ -38,9 +38,8 @@ static double now(void)
 }
 
 /* Whether to stop; before that, the image that is due. */
-static int is_stopped(void *user)
+static int is_stopped(lone_run *l)
 {
-    lone_run *l = user;
     const int stop = l->work->stopped(l->work->user);
     const double time = l->images ? now() : 0.0;
     if (!l->images || (!stop && time - l->saved < l->images->seconds))

@@ -244,7 +244,7 @@ fst_status fst_run_go_on(fst_run_state *run, int steps, int *over, fst_error *er
     fst_status status = FST_OK;
     *over = 0;
     for (int i = 0; i < steps && status == FST_OK && !*over; ++i) {
-        status = one_step(run, run->t_end, error);
+        status = fst_run_one_step(run, run->t_end, error);
         *over = run->ended || fst_twofold_difference(end, run->flow->t) <= 0;
     }
     return status;
