@@ -135,9 +135,10 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_progress *p
         (void)fprintf(
             out,
             "{\n  \"points\": %lld,\n  \"rows\": %lld,\n  \"added\": %lld,\n  \"failed\": %lld,\n"
+            "  \"lost\": %lld,\n"
             "  \"seconds\": %.17g,\n  \"processor_seconds\": %.17g,\n  \"journal_seconds\": %.17g\n}\n",
-            (long long)p->points, (long long)p->there, (long long)p->added, (long long)p->failed, p->seconds,
-            p->processor_seconds, p->journal_seconds);
+            (long long)p->points, (long long)p->there, (long long)p->added, (long long)p->failed,
+            (long long)p->lost, p->seconds, p->processor_seconds, p->journal_seconds);
         return;
     }
     char name[SHOWN_SIZE];

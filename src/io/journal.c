@@ -23,8 +23,9 @@ struct fst_journal {
     char *path; /* as it was given */
     int in_transaction;
     int log_pages; /* in the log after the last commit */
-    int64_t rows, lost;
+    int64_t lost;
     int repaired;
+    int is_away; /* the file has lost its name, which has been told */
 };
 
 /* ------------------------------------------------------------------ opening */
@@ -140,7 +141,6 @@ static fst_status check_rows(fst_journal *journal, const fst_sweep_identity *ide
     while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more)
         continue;
     const int whole = fst_sweep_rows_are_whole(&rows);
-    journal->rows = rows.sound;
     journal->lost = rows.lost.count + rows.lost.outside;
     fst_sweep_rows_end(&rows);
     if (status != FST_OK || whole)
@@ -248,19 +248,32 @@ static void find_file(const fst_journal *journal, char *place, size_t size)
     place[length > 0 ? length : 0] = '\0';
 }
 
-/* The file has no name any more: write what it holds to FILE.rescued, if its folder is there. */
+/* The file has no name any more: write what it holds to FILE.rescued, or FILE.rescued-2, ..., if its folder is
+ * there. */
 static fst_status rescue(fst_journal *journal, fst_error *error)
 {
-    char *statement = sqlite3_mprintf("VACUUM INTO '%q.rescued'", journal->file.path);
-    const int saved =
-        statement && sqlite3_exec(journal->file.database, statement, NULL, NULL, NULL) == SQLITE_OK;
-    sqlite3_free(statement);
+    enum { MOST = 1000 };
+    char ending[24] = ".rescued", *to = NULL;
+    struct stat there;
+    int is_free = 0, saved = 0;
+    for (int i = 2; i < MOST && !is_free; ++i) {
+        sqlite3_free(to);
+        to = sqlite3_mprintf("%s%s", journal->file.path, ending);
+        is_free = to && lstat(to, &there) != 0;
+        if (!is_free)
+            (void)snprintf(ending, sizeof ending, ".rescued-%d", i);
+    }
+    char *statement = is_free ? sqlite3_mprintf("VACUUM INTO %Q", to) : NULL;
+    if (statement)
+        saved = sqlite3_exec(journal->file.database, statement, NULL, NULL, NULL) == SQLITE_OK;
     if (saved)
-        fst_sync_folder(journal->file.path);
+        fst_sync_folder(to);
+    sqlite3_free(statement);
+    sqlite3_free(to);
     return saved ? fst_fail(error, FST_IO, journal->path,
                             "this file was deleted or replaced while the sweep ran; its rows were saved as "
-                            "%s.rescued, which the same command goes on with under its old name",
-                            journal->path)
+                            "%s%s, which the same command goes on with under its old name",
+                            journal->path, ending)
                  : fst_fail(error, FST_IO, journal->path,
                             "this file was deleted or replaced while the sweep ran, and its rows could not be "
                             "saved beside it; they are lost");
@@ -270,8 +283,9 @@ static fst_status rescue(fst_journal *journal, fst_error *error)
 static fst_status check_place(fst_journal *journal, fst_error *error)
 {
     struct stat mine;
-    if (fst_sweep_file_is_there(journal->file.path, &journal->file.there))
+    if (journal->is_away || fst_sweep_file_is_there(journal->file.path, &journal->file.there))
         return FST_OK;
+    journal->is_away = 1;
     (void)sqlite3_wal_checkpoint_v2(journal->file.database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL);
     if (fstat(journal->descriptor, &mine) != 0 || mine.st_nlink == 0)
         return rescue(journal, error);

@@ -22,7 +22,6 @@ import section
 from sweeps import festoon, good, stopped_at_work, words_of
 
 ENDINGS = ("", "-wal", "-shm")
-POINTS = 120
 
 
 def content_of(path):
@@ -62,12 +61,12 @@ class Subject:
         raise AssertionError
 
 
-def subjects(folder):
+def subjects(folder, points):
     path = os.path.join(folder, "closed.db")
-    good(*words_of(POINTS), path)
-    closed = Subject("closed", path, POINTS)
+    good(*words_of(points), path)
+    closed = Subject("closed", path, points)
     path = os.path.join(folder, "killed.db")
-    process, points = stopped_at_work(POINTS, path, POINTS // 4)
+    process, points = stopped_at_work(points, path, points // 4)
     killed = Subject("with a log", path, points)
     process.kill()
     process.wait()
@@ -108,11 +107,11 @@ def strike(subject, work, ending, place, bit):
     return exported, "refused" if status == 2 else "went on", None
 
 
-def campaign(count, seed):
+def campaign(count, seed, points=120):
     rng = random.Random(seed)
     counts, wrong = {}, []
     with tempfile.TemporaryDirectory(prefix="festoon-rot-") as folder:
-        both = subjects(folder)
+        both = subjects(folder, points)
         for i in range(count):
             subject = both[i % 2]
             ending, place = subject.choose(rng)

@@ -83,7 +83,7 @@ static void set_checksums(sqlite3 *database, const fst_grid *grid, uint64_t seed
 
 int main(int argc, char **argv)
 {
-    sqlite3 *database;
+    sqlite3 *database = NULL;
     fst_identity_lines lines = {.count = 0};
     fst_grid *grid;
     fst_error error = {FST_OK, "", ""};
