@@ -20,14 +20,24 @@ static char *copy_of(const char *text, size_t size)
     return copy;
 }
 
+static int is_tame(const char *name)
+{
+    char *tame = copy_of(name, strlen(name));
+    if (tame)
+        fst_text_tame(tame);
+    const int same = tame && strcmp(tame, name) == 0;
+    free(tame);
+    return same;
+}
+
 /* Take OUT apart into directory, stem and ending. */
 static fst_status take_apart(fst_figure_file *figure, const char *out, fst_error *error)
 {
-    for (const char *c = out; *c; c++)
-        if ((unsigned char)*c < ' ')
-            return fst_fail(error, FST_BAD_INPUT, "figure", "a figure's name may not hold control characters");
     const char *slash = strrchr(out, '/');
     const char *name = slash ? slash + 1 : out;
+    if (!is_tame(name)) /* it stands in the script */
+        return fst_fail(error, FST_BAD_INPUT, out,
+                        "a figure's name may hold neither control characters nor bytes that are no UTF-8");
     const char *point = strrchr(name, '.');
     int known = point && (!strcmp(point, ".svg") || !strcmp(point, ".pdf") || !strcmp(point, ".png"));
     if (!known || point == name)

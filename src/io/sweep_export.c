@@ -21,13 +21,20 @@ typedef struct export_job {
 
 /* ------------------------------------------------------------------ CSV */
 
-/* Texts of a file go to terminals: they pass as one line without control characters. */
-static void write_quoted(FILE *out, const char *text)
+/* A text of the file as a new string, fit for terminals: one line without control characters; NULL: no memory.
+ */
+static char *tame_text(sqlite3_stmt *rows, int column)
 {
-    char *tame = strdup(text ? text : "");
-    (void)fputc('"', out);
+    const unsigned char *text = sqlite3_column_text(rows, column);
+    char *tame = strdup(text ? (const char *)text : "");
     if (tame)
         fst_text_tame(tame);
+    return tame;
+}
+
+static void write_quoted(FILE *out, char *tame)
+{
+    (void)fputc('"', out);
     for (const char *c = tame; c && *c; ++c) {
         if (*c == '"')
             (void)fputc('"', out);
@@ -64,7 +71,7 @@ static fst_status csv_row(export_job *job, fst_error *error)
             (void)fputs(number, job->stream);
             break;
         case SQLITE_TEXT:
-            write_quoted(job->stream, (const char *)sqlite3_column_text(job->rows, i));
+            write_quoted(job->stream, tame_text(job->rows, i));
             break;
         default: /* what is undefined stays empty */
             break;
@@ -83,8 +90,12 @@ static json_t *json_value(sqlite3_stmt *rows, int column)
         return json_integer((json_int_t)sqlite3_column_int64(rows, column));
     case SQLITE_FLOAT:
         return json_real(sqlite3_column_double(rows, column));
-    case SQLITE_TEXT:
-        return json_string((const char *)sqlite3_column_text(rows, column));
+    case SQLITE_TEXT: {
+        char *tame = tame_text(rows, column);
+        json_t *value = tame ? json_string(tame) : NULL;
+        free(tame);
+        return value;
+    }
     default:
         return json_null();
     }

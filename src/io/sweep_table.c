@@ -87,6 +87,9 @@ static fst_status read_column(sqlite3 *database, const char *path, const char *k
         return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     int code = sqlite3_prepare_v2(database, query, -1, &rows, NULL);
     sqlite3_free(query);
+    if (code == SQLITE_ERROR)
+        return fst_fail(error, FST_BAD_INPUT, path,
+                        "this is no database of a sweep: its rows have no column %s", key);
     for (int64_t i = 0; i < points; ++i)
         values[i] = NAN;
     while (code == SQLITE_OK || code == SQLITE_ROW) {
