@@ -32,6 +32,16 @@ static char *tame_text(sqlite3_stmt *rows, int column)
     return tame;
 }
 
+enum { COLUMN_SIZE = 128 };
+
+static const char *tame_name(sqlite3_stmt *rows, int column, char name[COLUMN_SIZE])
+{
+    const char *given = sqlite3_column_name(rows, column);
+    (void)snprintf(name, COLUMN_SIZE, "%s", given ? given : "");
+    fst_text_tame(name);
+    return name;
+}
+
 static void write_quoted(FILE *out, char *tame)
 {
     (void)fputc('"', out);
@@ -47,10 +57,8 @@ static void write_quoted(FILE *out, char *tame)
 static void csv_head(export_job *job)
 {
     for (int i = 0; i < job->columns; ++i) {
-        char name[128];
-        (void)snprintf(name, sizeof name, "%s", sqlite3_column_name(job->rows, i));
-        fst_text_tame(name);
-        (void)fprintf(job->stream, "%s%s", i ? "," : "", name);
+        char name[COLUMN_SIZE];
+        (void)fprintf(job->stream, "%s%s", i ? "," : "", tame_name(job->rows, i, name));
     }
     (void)fputc('\n', job->stream);
 }
@@ -106,7 +114,8 @@ static fst_status json_row(export_job *job, fst_error *error)
 {
     json_t *object = json_object(), *state = json_array();
     for (int i = 0; i < job->columns; ++i) {
-        const char *name = sqlite3_column_name(job->rows, i);
+        char column[COLUMN_SIZE];
+        const char *name = tame_name(job->rows, i, column);
         json_t *value = json_value(job->rows, i);
         if (strncmp(name, "final_", 6) == 0)
             (void)json_array_append_new(state, value);
