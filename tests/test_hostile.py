@@ -167,7 +167,7 @@ class Hostile(unittest.TestCase):
     def test_branches(self):
         """Every text of a branch; a parameter that is none is refused."""
         source, bad, out = self.path("branch.json"), self.path("bad.json"), "branch-figure"
-        self.good("branch", "--kind", "locked", "--over", "drive.omega=0.2:0.21", "--step", "0.005", "-o", source)
+        self.good("branch", "--kind", "locked", "--over", "drive.omega=0.2:0.201", "-o", source)
         document = json.loads(source.read_text())
         ways = {way[0] if way[0] != "ends" else way[-1]: way for way in self.texts_of(document)}
         self.assertIn("parameter", ways)

@@ -4,6 +4,7 @@
 #include "base/whole_file.h"
 #include "draw/gnuplot.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -177,7 +178,10 @@ static int is_complete(const fst_whole_file *file, const char *ending)
     char tail[64];
     const int descriptor = fst_whole_file_descriptor(file);
     const off_t size = lseek(descriptor, 0, SEEK_END), from = size > 64 ? size - 64 : 0;
-    const ssize_t got = size > 0 ? pread(descriptor, tail, sizeof tail, from) : 0;
+    ssize_t got;
+    do
+        got = size > 0 ? pread(descriptor, tail, sizeof tail, from) : 0;
+    while (got < 0 && errno == EINTR);
     const char *mark = !strcmp(ending, "svg") ? "</svg>" : !strcmp(ending, "pdf") ? "%%EOF" : "IEND";
     const size_t length = strlen(mark);
     for (size_t i = 0; got > 0 && i + length <= (size_t)got; i++)

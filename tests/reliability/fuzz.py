@@ -81,7 +81,7 @@ def make_seeds(corpus, name):
     if name == "csv":
         done(FESTOON, "run", *short, "-o", made + ".csv")
     elif name == "branch":
-        done(FESTOON, "branch", "--kind", "locked", "--over", "drive.omega=0.2:0.21", "--step", "0.005", "-o", made + ".json")
+        done(FESTOON, "branch", "--kind", "locked", "--over", "drive.omega=0.2:0.201", "-o", made + ".json")
     elif name == "sweep":
         done(FESTOON, "sweep", *short, "--over", "model.kappa=1:2:2", "-o", made + ".db")
         with sqlite3.connect(made + ".db") as file:  # small pages: more of what is spoilt is content
