@@ -7,7 +7,7 @@ import unittest
 
 SCRIPT = os.path.join(os.environ["SOURCE_DIR"], "tests", "reliability", "faults.py")
 COUNT = os.environ.get("FESTOON_FAULT_COUNT", "30")
-COMMANDS = ("run -o .csv", "run -o .h5", "export --json", "plot .csv -o .svg")
+COMMANDS = ("run -o .csv", "run -o .h5", "export --json", "plot .csv -o .svg", "movie -o .mp4")
 
 
 class Faults(unittest.TestCase):
