@@ -4,6 +4,7 @@
 #include "base/whole_file.h"
 #include "draw/gnuplot.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -20,14 +21,24 @@ static char *copy_of(const char *text, size_t size)
     return copy;
 }
 
+static int is_tame(const char *name)
+{
+    char *tame = copy_of(name, strlen(name));
+    if (tame)
+        fst_text_tame(tame);
+    const int same = tame && strcmp(tame, name) == 0;
+    free(tame);
+    return same;
+}
+
 /* Take OUT apart into directory, stem and ending. */
 static fst_status take_apart(fst_figure_file *figure, const char *out, fst_error *error)
 {
-    for (const char *c = out; *c; c++)
-        if ((unsigned char)*c < ' ')
-            return fst_fail(error, FST_BAD_INPUT, "figure", "a figure's name may not hold control characters");
     const char *slash = strrchr(out, '/');
     const char *name = slash ? slash + 1 : out;
+    if (!is_tame(name)) /* it stands in the script */
+        return fst_fail(error, FST_BAD_INPUT, out,
+                        "a figure's name may hold neither control characters nor bytes that are no UTF-8");
     const char *point = strrchr(name, '.');
     int known = point && (!strcmp(point, ".svg") || !strcmp(point, ".pdf") || !strcmp(point, ".png"));
     if (!known || point == name)
@@ -167,7 +178,10 @@ static int is_complete(const fst_whole_file *file, const char *ending)
     char tail[64];
     const int descriptor = fst_whole_file_descriptor(file);
     const off_t size = lseek(descriptor, 0, SEEK_END), from = size > 64 ? size - 64 : 0;
-    const ssize_t got = size > 0 ? pread(descriptor, tail, sizeof tail, from) : 0;
+    ssize_t got;
+    do
+        got = size > 0 ? pread(descriptor, tail, sizeof tail, from) : 0;
+    while (got < 0 && errno == EINTR);
     const char *mark = !strcmp(ending, "svg") ? "</svg>" : !strcmp(ending, "pdf") ? "%%EOF" : "IEND";
     const size_t length = strlen(mark);
     for (size_t i = 0; got > 0 && i + length <= (size_t)got; i++)

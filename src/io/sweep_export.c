@@ -24,13 +24,30 @@ typedef struct export_job {
 
 /* ------------------------------------------------------------------ CSV */
 
-/* Texts of a file go to terminals: they pass as one line without control characters. */
-static void write_quoted(FILE *out, const char *text)
+/* A text of the file as a new string, fit for terminals: one line without control characters; NULL: no memory.
+ */
+static char *tame_text(sqlite3_stmt *rows, int column)
 {
-    char *tame = strdup(text ? text : "");
-    (void)fputc('"', out);
+    const unsigned char *text = sqlite3_column_text(rows, column);
+    char *tame = strdup(text ? (const char *)text : "");
     if (tame)
         fst_text_tame(tame);
+    return tame;
+}
+
+enum { COLUMN_SIZE = 128 };
+
+static const char *tame_name(sqlite3_stmt *rows, int column, char name[COLUMN_SIZE])
+{
+    const char *given = sqlite3_column_name(rows, column);
+    (void)snprintf(name, COLUMN_SIZE, "%s", given ? given : "");
+    fst_text_tame(name);
+    return name;
+}
+
+static void write_quoted(FILE *out, char *tame)
+{
+    (void)fputc('"', out);
     for (const char *c = tame; c && *c; ++c) {
         if (*c == '"')
             (void)fputc('"', out);
@@ -43,10 +60,8 @@ static void write_quoted(FILE *out, const char *text)
 static void csv_head(export_job *job)
 {
     for (int i = 0; i < job->columns; ++i) {
-        char name[128];
-        (void)snprintf(name, sizeof name, "%s", sqlite3_column_name(job->row, i));
-        fst_text_tame(name);
-        (void)fprintf(job->stream, "%s%s", i ? "," : "", name);
+        char name[COLUMN_SIZE];
+        (void)fprintf(job->stream, "%s%s", i ? "," : "", tame_name(job->row, i, name));
     }
     (void)fputc('\n', job->stream);
 }
@@ -67,7 +82,7 @@ static fst_status csv_row(export_job *job, fst_error *error)
             (void)fputs(number, job->stream);
             break;
         case SQLITE_TEXT:
-            write_quoted(job->stream, (const char *)sqlite3_column_text(job->row, i));
+            write_quoted(job->stream, tame_text(job->row, i));
             break;
         default: /* what is undefined stays empty */
             break;
@@ -86,8 +101,12 @@ static json_t *json_value(sqlite3_stmt *rows, int column)
         return json_integer((json_int_t)sqlite3_column_int64(rows, column));
     case SQLITE_FLOAT:
         return json_real(sqlite3_column_double(rows, column));
-    case SQLITE_TEXT:
-        return json_string((const char *)sqlite3_column_text(rows, column));
+    case SQLITE_TEXT: {
+        char *tame = tame_text(rows, column);
+        json_t *value = tame ? json_string(tame) : NULL;
+        free(tame);
+        return value;
+    }
     default:
         return json_null();
     }
@@ -98,7 +117,8 @@ static fst_status json_row(export_job *job, fst_error *error)
 {
     json_t *object = json_object(), *state = json_array();
     for (int i = 0; i < job->columns; ++i) {
-        const char *name = sqlite3_column_name(job->row, i);
+        char column[COLUMN_SIZE];
+        const char *name = tame_name(job->row, i, column);
         json_t *value = json_value(job->row, i);
         if (strncmp(name, "final_", 6) == 0)
             (void)json_array_append_new(state, value);
@@ -125,7 +145,7 @@ static fst_status write_text(export_job *job, fst_export_format format, fst_erro
         csv_head(job);
     else
         (void)fputc('[', job->stream);
-    while (status == FST_OK && (status = fst_sweep_rows_next(&job->rows, &more, error)) == FST_OK && more) {
+    while (status == FST_OK && (status = fst_sweep_rows_next(&job->row, &more, error)) == FST_OK && more) {
         if (format == FST_EXPORT_JSON)
             (void)fputs(first ? "\n" : ",\n", job->stream);
         first = 0;
@@ -254,7 +274,7 @@ static fst_status fill_hdf5(export_job *job, const fst_hdf5_module_table *module
     fst_status status =
         module->create(file->temporary, file->path, c->pointers, c->count, scene ? scene : "", &writer, error);
     int more;
-    while (status == FST_OK && (status = fst_sweep_rows_next(&job->rows, &more, error)) == FST_OK && more) {
+    while (status == FST_OK && (status = fst_sweep_rows_next(&job->row, &more, error)) == FST_OK && more) {
         for (int i = 0; i < c->count; ++i)
             c->values[i] = hdf5_value(job->row, c->places[i]);
         status = module->row(writer, c->values, error);
@@ -299,7 +319,7 @@ static fst_status export_hdf5(export_job *job, const char *out, fst_error *error
 static fst_status export_rows(export_job *job, fst_export_format format, const char *out, FILE *stream,
                               fst_error *error)
 {
-    fst_status status = fst_sweep_rows_begin(&job->rows, &job->file, error);
+    fst_status status = fst_sweep_rows_begin(&job->row, &job->file, error);
     if (status == FST_OK) {
         job->row = job->rows.row;
         job->columns = fst_sweep_column_count(job->file.grid);
@@ -308,7 +328,7 @@ static fst_status export_rows(export_job *job, fst_export_format format, const c
     }
     /* The rows that are sound have been written; the status says that they are not all. */
     if (status == FST_OK && !fst_sweep_rows_are_whole(&job->rows))
-        status = fst_sweep_rows_fail(&job->rows,
+        status = fst_sweep_rows_fail(&job->row,
                                      out ? "The other rows were exported. "
                                          : "An export into a file (-o FILE) has the other rows. ",
                                      error);

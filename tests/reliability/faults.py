@@ -74,7 +74,7 @@ def commands(given, out):
         Command("export --json", ["export", sweep, "--json", "-o", to("e.json")], "e.json", ["init", to("e.json")]),
         Command("export --hdf5", ["export", sweep, "--hdf5", "-o", to("e.h5")], "e.h5", ["init", to("e.h5")]),
         Command("init", ["init", "--force", to("new.yaml")], "new.yaml", ["init", "--set", "bead.radius=3mm", to("new.yaml")]),
-        Command("branch -o", ["branch", "--kind", "locked", "--over", "drive.omega=0.2:0.21", "--step", "0.005", "-o",
+        Command("branch -o", ["branch", "--kind", "locked", "--over", "drive.omega=0.2:0.201", "-o",
                               to("b.json")], "b.json", ["init", to("b.json")]),
         Command("field -o .svg", ["field", "-o", to("f.svg")], "f.svg",
                 ["field", "--set", "magnet.lines=1", "-o", to("f.svg")], helper="gnuplot"),
@@ -114,7 +114,7 @@ class Campaign:
         done("init", os.path.join(self.given, "scene.yaml"))
         done("run", *SHORT, "-o", os.path.join(self.given, "t.csv"))
         done("run", *SHORT, "-o", os.path.join(self.given, "t.h5"))
-        done("branch", "--kind", "locked", "--over", "drive.omega=0.2:0.21", "--step", "0.005", "-o",
+        done("branch", "--kind", "locked", "--over", "drive.omega=0.2:0.201", "-o",
              os.path.join(self.given, "b.json"))
         done("sweep", *OTHER, "--over", "model.kappa=1:2:3", "-o", os.path.join(self.given, "s.db"))
         self.commands = commands(self.given, self.out)

@@ -28,8 +28,8 @@ BUILD = os.path.abspath(os.environ.get("BUILD_DIR", os.path.join(SOURCE, "build"
 FESTOON = os.environ.get("FESTOON", os.path.join(BUILD, "festoon"))
 
 # Shares of the executions: an execution of the first ones takes microseconds, one of the last ones opens files.
-SHARES = {"scene": 0.40, "csv": 0.30, "value": 0.20, "over": 0.07, "branch": 0.028, "sweep": 0.002}
-LENGTHS = {"scene": 2048, "csv": 4096, "value": 200, "over": 400, "branch": 4096, "sweep": 16384}
+SHARES = {"scene": 0.40, "csv": 0.30, "value": 0.22, "over": 0.05, "branch": 0.028, "sweep": 0.002}
+LENGTHS = {"scene": 2048, "csv": 4096, "value": 64, "over": 200, "branch": 4096, "sweep": 16384}
 WHAT = {"scene": "scenes (YAML)", "value": "settings: keys, numbers, units", "over": "axes of sweeps (--over)",
         "csv": "trajectories (CSV)", "branch": "branches (JSON)", "sweep": "databases of sweeps (SQLite)"}
 BATCHES = 20
@@ -81,7 +81,7 @@ def make_seeds(corpus, name):
     if name == "csv":
         done(FESTOON, "run", *short, "-o", made + ".csv")
     elif name == "branch":
-        done(FESTOON, "branch", "--kind", "locked", "--over", "drive.omega=0.2:0.21", "--step", "0.005", "-o", made + ".json")
+        done(FESTOON, "branch", "--kind", "locked", "--over", "drive.omega=0.2:0.201", "-o", made + ".json")
     elif name == "sweep":
         done(FESTOON, "sweep", *short, "--over", "model.kappa=1:2:2", "-o", made + ".db")
         with sqlite3.connect(made + ".db") as file:  # small pages: more of what is spoilt is content
