@@ -3,9 +3,12 @@
 import json
 import os
 import pty
+import re
+import resource
 import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 FESTOON = os.environ["FESTOON"]
@@ -17,15 +20,24 @@ def branch(*words):
     return done.returncode, done.stdout, done.stderr
 
 
-def interrupted(*words):
-    """Start a command with a terminal as standard error, and interrupt it once its progress line says something."""
+def children_time():
+    """The processor time of the processes that have ended."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def interrupted(*words, beyond=0.0, used=None):
+    """Start a command with a terminal as standard error, and interrupt it once its progress line says more than
+    `beyond` per cent.  The processor time that it took from then on goes into the list `used`."""
+    before = children_time()
     leader, follower = pty.openpty()
     with subprocess.Popen([FESTOON, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=follower) as child:
         os.close(follower)
         seen = b""
-        while b" left" not in seen:
+        while not any(float(part) > beyond for part in re.findall(rb"([0-9.]+) %  .*? left", seen)):
             seen += os.read(leader, 1000)
+        at_signal = time.clock_gettime((~child.pid << 3) | 2)  # the processor time of that process, Linux
         child.send_signal(signal.SIGINT)
         while True:
             try:
@@ -38,14 +50,16 @@ def interrupted(*words):
         out = child.stdout.read()
         child.wait()
     os.close(leader)
+    if used is not None:
+        used.append(children_time() - before - at_signal)
     return child.returncode, out, seen.decode()
 
 
 class Interruption(unittest.TestCase):
-    def check(self, *words):
+    def check(self, *words, beyond=0.0):
         with tempfile.TemporaryDirectory() as directory:
             path = os.path.join(directory, "branch.json")
-            status, out, said = interrupted("branch", *words, "-o", path)
+            status, out, said = interrupted("branch", *words, "-o", path, beyond=beyond)
             self.assertEqual((status, out), (130, b""), said)
             self.assertRegex(said, r"\d\.\d %  \d+ s left")
             self.assertIn("marked incomplete", said)
@@ -56,7 +70,8 @@ class Interruption(unittest.TestCase):
             return kept
 
     def test_branch(self):
-        kept = self.check("--kind", "counter", "--over", "drive.omega=0.02:5", "--tolerance", "1e-14", "--step", "0.02")
+        kept = self.check("--kind", "counter", "--over", "drive.omega=0.02:5", "--tolerance", "1e-14", "--step", "0.02",
+                          beyond=15.0)  # the first orbits are found by then
         self.assertGreater(len(kept["points"]), 0)
 
     def test_follow(self):
@@ -68,6 +83,23 @@ class Interruption(unittest.TestCase):
         self.assertEqual((status, out), (130, b""))
         self.assertIn("-o FILE.json would have kept", said)
 
+    def test_hard_scenes(self):
+        """Where a bead all but touches the magnet's lines, a single integration takes minutes: it is stopped within
+        the processor time of some 10^5 evaluations of the equations, 0.1 s on an idle processor."""
+        before = children_time()
+        done = subprocess.run([FESTOON, "run", "--json", "--set", "run.periods=2000"], capture_output=True, check=True)
+        unit = (children_time() - before) / json.loads(done.stdout)["rhs_calls"]
+        small = ("--set", "model.h=0.001")
+        for words in (("branch", *small, "--kind", "counter", "--over", "drive.omega=0.2:3"),
+                      ("branch", *small, "--kind", "all", "--over", "drive.omega=0.02:3"),
+                      ("branch", "--kind", "all", "--over", "drive.omega=0.02:5", "--tolerance", "1e-14"),
+                      ("orbit", *small), ("orbit", *small, "--festoons", "12")):
+            for beyond in (0.0, 0.1, 4.0) if words[0] == "branch" and small[1] not in words else (-1.0,):
+                used = []
+                status, out, said = interrupted(*words, beyond=beyond, used=used)
+                self.assertEqual((status, out), (130, b""), (words, said))
+                self.assertIn("interrupted after", said)
+                self.assertLess(used[0] / unit, 2e5, (words, beyond))
 
     def test_what_keeps_nothing(self):
         """They end at the first signal, within the long computation and not after it."""
