@@ -11,6 +11,7 @@ Environment: FESTOON_SHORTER (1) is what times of work are divided by; tests mus
 
 import os
 import pty
+import resource
 import select
 import signal
 import sqlite3
@@ -126,9 +127,17 @@ def seems_noted(process, number):
     return not any(mask >> (number - 1) & 1 for mask in pending)
 
 
-def on_a_terminal(words, until, number=signal.SIGINT, as_key=False):
+def children_time():
+    """The processor time of the processes that have ended."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def on_a_terminal(words, until, number=signal.SIGINT, as_key=False, used=None):
     """Run a program whose messages go to a terminal, and strike when the text there satisfies `until`; status, output
-    and text.  `as_key`: by Ctrl-C at the terminal, which the whole group gets."""
+    and text.  `as_key`: by Ctrl-C at the terminal, which the whole group gets.  The processor time from the strike on
+    is added to the list `used`."""
+    before, at_signal = children_time(), 0.0
     leader, follower = pty.openpty()
     process = subprocess.Popen(words, stdin=follower if as_key else subprocess.DEVNULL, stdout=subprocess.PIPE,
                                stderr=follower, start_new_session=as_key)
@@ -147,6 +156,7 @@ def on_a_terminal(words, until, number=signal.SIGINT, as_key=False):
             break
         if not sent and until(shown):
             sent = True
+            at_signal = time.clock_gettime((~process.pid << 3) | 2)  # the processor time of that process, Linux
             if as_key:
                 os.write(leader, b"\x03")
             else:
@@ -155,4 +165,6 @@ def on_a_terminal(words, until, number=signal.SIGINT, as_key=False):
     process.stdout.close()
     process.wait()
     os.close(leader)
+    if used is not None:
+        used.append(children_time() - before - at_signal)
     return process.returncode, out, shown

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -17,25 +18,29 @@ def branch(*words):
     return done.returncode, done.stdout, done.stderr
 
 
-def interrupted(words):
-    """Interrupt a command once its progress line says something: status, output, what the terminal showed.  Where the
-    command was over before, words(factor) has more for it to do."""
+def interrupted(words, beyond=-1.0, used=None):
+    """Interrupt a command once its progress line says more than `beyond` per cent: status, output, what the terminal
+    showed.  Where the command was over before, words(factor) has more for it to do.  The processor time that it took
+    from the signal on goes into the list `used`."""
     found = None
+
+    def far_enough(text):
+        return any(float(part) > beyond for part in re.findall(r"([0-9.]+) %  .*? left", text))
 
     def blow(factor):
         nonlocal found
-        found = events.on_a_terminal([FESTOON, *words(factor)], lambda text: " left" in text)
+        found = events.on_a_terminal([FESTOON, *words(factor)], far_enough, used=used)
         return found[0] != 0
     events.struck(blow, 1)
     return found
 
 
 class Interruption(unittest.TestCase):
-    def check(self, step, *words):
+    def check(self, step, *words, beyond=-1.0):
         with tempfile.TemporaryDirectory() as directory:
             path = os.path.join(directory, "branch.json")
             status, out, said = interrupted(
-                lambda factor: ("branch", *words, "--step", f"{step / factor:g}", "-o", path))
+                lambda factor: ("branch", *words, "--step", f"{step / factor:g}", "-o", path), beyond)
             self.assertEqual((status, out), (130, b""), said)
             self.assertRegex(said, r"\d\.\d %  \d+ s left")
             self.assertIn("marked incomplete", said)
@@ -46,7 +51,8 @@ class Interruption(unittest.TestCase):
             return kept
 
     def test_branch(self):
-        kept = self.check(0.02, "--kind", "counter", "--over", "drive.omega=0.02:5", "--tolerance", "1e-14")
+        kept = self.check(0.02, "--kind", "counter", "--over", "drive.omega=0.02:5", "--tolerance", "1e-14",
+                          beyond=15.0)  # the first orbits are found by then
         self.assertGreater(len(kept["points"]), 0)
 
     def test_follow(self):
@@ -59,6 +65,23 @@ class Interruption(unittest.TestCase):
         self.assertEqual((status, out), (130, b""))
         self.assertIn("-o FILE.json would have kept", said)
 
+    def test_hard_scenes(self):
+        """Where a bead all but touches the magnet's lines, a single integration takes minutes: it is stopped within
+        the processor time of some 10^5 evaluations of the equations, 0.1 s on an idle processor."""
+        before = events.children_time()
+        done = subprocess.run([FESTOON, "run", "--json", "--set", "run.periods=2000"], capture_output=True, check=True)
+        unit = (events.children_time() - before) / json.loads(done.stdout)["rhs_calls"]
+        small = ("--set", "model.h=0.001")
+        for words in (("branch", *small, "--kind", "counter", "--over", "drive.omega=0.2:3"),
+                      ("branch", *small, "--kind", "all", "--over", "drive.omega=0.02:3"),
+                      ("branch", "--kind", "all", "--over", "drive.omega=0.02:5", "--tolerance", "1e-14"),
+                      ("orbit", *small), ("orbit", *small, "--festoons", "12")):
+            for beyond in (0.0, 0.1, 4.0) if words[0] == "branch" and small[1] not in words else (-1.0,):
+                used = []
+                status, out, said = interrupted(lambda _, words=words: words, beyond, used)
+                self.assertEqual((status, out), (130, b""), (words, said))
+                self.assertIn("interrupted after", said)
+                self.assertLess(used[-1] / unit, 2e5, (words, beyond))
 
     def test_what_keeps_nothing(self):
         """They end at the first signal, within the long computation and not after it."""

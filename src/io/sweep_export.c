@@ -145,7 +145,7 @@ static fst_status write_text(export_job *job, fst_export_format format, fst_erro
         csv_head(job);
     else
         (void)fputc('[', job->stream);
-    while (status == FST_OK && (status = fst_sweep_rows_next(&job->row, &more, error)) == FST_OK && more) {
+    while (status == FST_OK && (status = fst_sweep_rows_next(&job->rows, &more, error)) == FST_OK && more) {
         if (format == FST_EXPORT_JSON)
             (void)fputs(first ? "\n" : ",\n", job->stream);
         first = 0;
@@ -274,7 +274,7 @@ static fst_status fill_hdf5(export_job *job, const fst_hdf5_module_table *module
     fst_status status =
         module->create(file->temporary, file->path, c->pointers, c->count, scene ? scene : "", &writer, error);
     int more;
-    while (status == FST_OK && (status = fst_sweep_rows_next(&job->row, &more, error)) == FST_OK && more) {
+    while (status == FST_OK && (status = fst_sweep_rows_next(&job->rows, &more, error)) == FST_OK && more) {
         for (int i = 0; i < c->count; ++i)
             c->values[i] = hdf5_value(job->row, c->places[i]);
         status = module->row(writer, c->values, error);
@@ -319,7 +319,7 @@ static fst_status export_hdf5(export_job *job, const char *out, fst_error *error
 static fst_status export_rows(export_job *job, fst_export_format format, const char *out, FILE *stream,
                               fst_error *error)
 {
-    fst_status status = fst_sweep_rows_begin(&job->row, &job->file, error);
+    fst_status status = fst_sweep_rows_begin(&job->rows, &job->file, error);
     if (status == FST_OK) {
         job->row = job->rows.row;
         job->columns = fst_sweep_column_count(job->file.grid);
@@ -328,7 +328,7 @@ static fst_status export_rows(export_job *job, fst_export_format format, const c
     }
     /* The rows that are sound have been written; the status says that they are not all. */
     if (status == FST_OK && !fst_sweep_rows_are_whole(&job->rows))
-        status = fst_sweep_rows_fail(&job->row,
+        status = fst_sweep_rows_fail(&job->rows,
                                      out ? "The other rows were exported. "
                                          : "An export into a file (-o FILE) has the other rows. ",
                                      error);

@@ -1,0 +1,75 @@
+/* However long the steps along a branch may become, it stays on its curve: the special points are the same, of
+ * the same types and criticalities, and no curve is left for another one beside it. */
+#include "branches.h"
+
+typedef struct expected {
+    fst_special_type type;
+    double value;
+    int criticality;
+} expected;
+
+static void check_specials(const fst_branch *b, const expected *wanted, size_t count, double step)
+{
+    for (size_t i = 0; i < count; ++i) {
+        size_t k = 0;
+        while (k < b->special_count &&
+               !(b->specials[k].type == wanted[i].type && fabs(b->specials[k].value - wanted[i].value) < 2e-6))
+            ++k;
+        if (k == b->special_count)
+            fail_msg("steps up to %g: no %s at %.9g", step, fst_special_name(wanted[i].type), wanted[i].value);
+        if (b->specials[k].criticality != wanted[i].criticality)
+            fail_msg("steps up to %g: the criticality of the %s at %.9g is %d", step,
+                     fst_special_name(wanted[i].type), wanted[i].value, b->specials[k].criticality);
+    }
+    if (b->special_count != count)
+        fail_msg("steps up to %g: %zu special points, expected %zu", step, b->special_count, count);
+}
+
+/* No two neighbours of a branch are further apart than a curve goes: the states change by no more than some
+ * times what the parameter and the period do. */
+static void check_branch(fst_branch_kind kind, double from, double to, const expected *wanted, size_t count)
+{
+    static const double steps[] = {0.5, 20.0};
+    const fst_params params = scene_of(0.3, "rigid");
+    int branches = 0;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
+        fst_branch_options o = over_omega(kind, from, to);
+        o.longest_step = steps[i];
+        fst_branch b = followed(&params, &o);
+        check_specials(&b, wanted, count, steps[i]);
+        branches = i == 0 ? b.branches : branches;
+        if (b.branches != branches)
+            fail_msg("steps up to %g: %d branches, with short ones %d", steps[i], b.branches, branches);
+        fst_branch_free(&b);
+    }
+}
+
+static void counter_rotation(void **state)
+{
+    static const expected wanted[] = {{FST_SPECIAL_PITCHFORK, 0.268853033991, 1},
+                                      {FST_SPECIAL_ORIGIN_CROSSING, 0.178891158927, 0},
+                                      {FST_SPECIAL_HOPF, 0.152636630556, 1}};
+    (void)state;
+    check_branch(FST_BRANCH_COUNTER, 0.1, 0.35, wanted, sizeof wanted / sizeof *wanted);
+}
+
+static void locked_families(void **state)
+{
+    static const expected wanted[] = {
+        {FST_SPECIAL_PITCHFORK, 0.251595368, 1}, {FST_SPECIAL_HOPF, 0.222590125856, 1},
+        {FST_SPECIAL_PITCHFORK, 0.197583961, 1}, {FST_SPECIAL_HOPF, 0.152636630556, 1},
+        {FST_SPECIAL_FOLD, 0.127746588032, 0},   {FST_SPECIAL_HOPF, 0.130322791346, -1},
+        {FST_SPECIAL_HOPF, 0.204219278781, -1},  {FST_SPECIAL_FOLD, 0.207299010348, 0},
+        {FST_SPECIAL_FOLD, 0.186164392083, 0}};
+    (void)state;
+    check_branch(FST_BRANCH_LOCKED, 0.1, 0.35, wanted, sizeof wanted / sizeof *wanted);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(counter_rotation),
+        cmocka_unit_test(locked_families),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
