@@ -65,11 +65,56 @@ static void locked_families(void **state)
     check_branch(FST_BRANCH_LOCKED, 0.1, 0.35, wanted, sizeof wanted / sizeof *wanted);
 }
 
+/* The way from a point of equilibria to the next, in the space of states and parameter; its length. */
+static double way_between(const fst_branch_point *a, const fst_branch_point *b, double way[FST_STATE_SIZE + 1])
+{
+    double sum = 0.0;
+    for (int k = 0; k < FST_STATE_SIZE; ++k)
+        way[k] = b->state[k] - a->state[k];
+    way[FST_STATE_SIZE] = b->value - a->value;
+    for (int k = 0; k <= FST_STATE_SIZE; ++k)
+        sum += way[k] * way[k];
+    return sqrt(sum);
+}
+
+/* Between families that pass close by each other, at low drives, no step turns sharply from the one before: the
+ * tangent may turn by 18 degrees in a step.  (Without that guard turns of 36 to 50 degrees are met here.) */
+static void steps_do_not_turn_sharply(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; ++i) {
+        const fst_params params = scene_of(0.2, i ? "farago2020" : "rigid");
+        fst_branch_options o = over_omega(FST_BRANCH_LOCKED, 0.02, 0.3);
+        o.longest_step = i ? 60.0 : 5.0;
+        o.follow = 0;
+        fst_branch b = followed(&params, &o);
+        size_t compared = 0;
+        for (size_t k = 0; k + 2 < b.point_count; ++k) {
+            const fst_branch_point *p = &b.points[k];
+            double first[FST_STATE_SIZE + 1], second[FST_STATE_SIZE + 1], along = 0.0;
+            if (p[0].branch != p[1].branch || p[1].branch != p[2].branch)
+                continue;
+            const double one = way_between(&p[0], &p[1], first), other = way_between(&p[1], &p[2], second);
+            if (!(one > 1e-6 && other > 1e-6))
+                continue;
+            for (int c = 0; c <= FST_STATE_SIZE; ++c)
+                along += first[c] * second[c];
+            if (along < 0.93 * one * other)
+                fail_msg("a turn of %.3g degrees on branch %d at %g", acos(along / (one * other)) * 57.29578,
+                         p[1].branch, p[1].value);
+            compared += 1;
+        }
+        assert_true(compared > 100);
+        fst_branch_free(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(counter_rotation),
         cmocka_unit_test(locked_families),
+        cmocka_unit_test(steps_do_not_turn_sharply),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
