@@ -153,8 +153,26 @@ class Deaths(RankCase):
             return True
         events.struck(blow, self.size)
 
+    def test_runs_in_flight_of_every_rank_are_saved(self):
+        """Each of two ranks has one run at a time, so two images come only if those of the follower do."""
+        def words(periods):
+            return ["--set", f"run.periods={periods}", "--set", f"run.discard={periods // 2}", "--portable", "--lanes",
+                    "1", "--threads", "1", "--checkpoint", "0.05", "--over", "drive.frequency=12Hz:13Hz:8"]
+
+        def blow(periods):
+            path = self.path(f"both{periods}.db")
+            process = start(2, "sweep", *words(periods), "-o", path)
+            both = events.wait_for(process, lambda: (events.ask(path, "SELECT count(*) FROM checkpoints") or 0) >= 2)
+            process.send_signal(signal.SIGINT)
+            self.finish(process)
+            self.good("sweep", *words(periods), "-o", path)
+            self.good("sweep", *words(periods), "-o", self.path(f"alone{periods}.db"))
+            self.assertEqual(self.rows(f"both{periods}.db"), self.rows(f"alone{periods}.db"))
+            return both
+        self.assertTrue(any(blow(periods) for periods in (200, 1000, 5000)), "never two images")
+
     def test_runs_in_flight_go_on_on_other_ranks(self):
-        """Images are sent to the leader, and with the tasks to whoever goes on; without them this would never end."""
+        """Ranks that are killed as soon as images have changed come to the end of their runs all the same."""
         def words(periods):
             return ["--set", f"run.periods={periods}", "--set", f"run.discard={periods // 2}", "--set", "run.rtol=1e-8",
                     "--over", "drive.frequency=6Hz:20Hz:9", "--threads", "1", "--checkpoint", "0.05"]
