@@ -102,7 +102,14 @@ class Broken(Exception):
 
 
 def finish(process):
-    """Wait for a program: status and seconds of processor time."""
+    """Wait for a program: status and seconds of processor time.  An mpirun whose ranks were killed is known to hang at
+    times when none of them is left; it is ended then."""
+    alone = 0
+    while "mpirun" in process.args and alive(process) and alone < 200:
+        time.sleep(0.05)
+        alone = alone + 1 if not children_of(process) and getattr(process, "had_ranks", False) else 0
+    if alone == 200:
+        os.kill(process.pid, signal.SIGKILL)
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     return process.returncode, usage.ru_utime + usage.ru_stime
@@ -149,9 +156,11 @@ def moment(kind, path, rng):
 def children_of(process):
     try:
         with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
-            return [int(word) for word in file.read().split()]
+            found = [int(word) for word in file.read().split()]
     except OSError:
         return []
+    process.had_ranks = getattr(process, "had_ranks", False) or bool(found)
+    return found
 
 
 def strike(kind, process, rng):
