@@ -19,7 +19,7 @@ import subprocess
 import time
 import unittest
 
-HANG = 1000  # seconds after which a program is taken to hang
+HANG = 3000  # seconds after which a program is taken to hang
 POLL = 0.002
 
 

@@ -128,18 +128,6 @@ fst_status fst_checkpoints_drop(fst_checkpoints *c, int64_t point, fst_error *er
     return status;
 }
 
-/* A number that the database tells of itself, or 0. */
-static sqlite3_int64 ask(sqlite3 *database, const char *question)
-{
-    sqlite3_stmt *query = NULL;
-    sqlite3_int64 answer = 0;
-    if (sqlite3_prepare_v2(database, question, -1, &query, NULL) == SQLITE_OK &&
-        sqlite3_step(query) == SQLITE_ROW)
-        answer = sqlite3_column_int64(query, 0);
-    (void)sqlite3_finalize(query);
-    return answer;
-}
-
 fst_status fst_checkpoints_drop_all(fst_checkpoints *c, fst_error *error)
 {
     if (!c->drop)
@@ -148,13 +136,7 @@ fst_status fst_checkpoints_drop_all(fst_checkpoints *c, fst_error *error)
     fst_status status = fst_journal_begin(c->journal, error);
     if (status == FST_OK)
         status = fst_database_do(c->database, c->path, "DROP TABLE checkpoints", error);
-    if (status == FST_OK)
-        status = fst_journal_commit(c->journal, error);
-    /* A small file would be mostly the room that images had; that it stays so costs nothing but room. */
-    if (status == FST_OK &&
-        2 * ask(c->database, "PRAGMA freelist_count") > ask(c->database, "PRAGMA page_count"))
-        (void)sqlite3_exec(c->database, "VACUUM", NULL, NULL, NULL);
-    return status;
+    return status == FST_OK ? fst_journal_commit(c->journal, error) : status;
 }
 
 void fst_checkpoints_close(fst_checkpoints *c)

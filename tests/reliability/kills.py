@@ -2,7 +2,7 @@
 """Kill sweeps, hundreds of times, and see that nothing is lost but what docs/performance.md says, and that the rows in
 the end are those of a sweep that was never killed.
 
-    tests/reliability/kills.py [--count N] [--seed N] [--write]
+    tests/reliability/kills.py [--count N] [--seed N] [--only TEXT] [--write]
 
 N kills (500) are shared between kinds of sweeps.  Each database is killed several times, each time at another moment:
 while it is made, when so many rows are in it, when runs in flight were saved, or anywhere; then the command is given
@@ -68,6 +68,7 @@ class Kind:
         self.kills = self.journals = self.refused = self.committed = self.young = 0
         self.lost_work = 0.0
         self.took = self.processor = 0.0
+        self.broken = ""
 
     def command(self, path):
         return [FESTOON, "sweep", *self.words(self.size), *self.more, "--threads", str(1 if self.ranks else THREADS),
@@ -101,7 +102,14 @@ class Broken(Exception):
 
 
 def finish(process):
-    """Wait for a program: status and seconds of processor time."""
+    """Wait for a program: status and seconds of processor time.  An mpirun whose ranks were killed is known to hang at
+    times when none of them is left; it is ended then."""
+    alone = 0
+    while "mpirun" in process.args and alive(process) and alone < 200:
+        time.sleep(0.05)
+        alone = alone + 1 if not children_of(process) and getattr(process, "had_ranks", False) else 0
+    if alone == 200:
+        os.kill(process.pid, signal.SIGKILL)
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
     return process.returncode, usage.ru_utime + usage.ru_stime
@@ -148,9 +156,11 @@ def moment(kind, path, rng):
 def children_of(process):
     try:
         with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
-            return [int(word) for word in file.read().split()]
+            found = [int(word) for word in file.read().split()]
     except OSError:
         return []
+    process.had_ranks = getattr(process, "had_ranks", False) or bool(found)
+    return found
 
 
 def strike(kind, process, rng):
@@ -180,7 +190,7 @@ def blow(kind, path, rng):
     status, processor = finish(process)
     if rival:
         if rng.randrange(2):
-            rival.kill()
+            os.kill(rival.pid, signal.SIGKILL)  # it was not waited for yet
         ended, _ = finish(rival)
         kind.refused += ended in (1, 2)
         if ended not in (0, 1, 2, -signal.SIGKILL):
@@ -247,9 +257,9 @@ def report(done, seed):
     body = []
     for kind in done:
         measured = not kind.ranks and not kind.raced
-        body.append([kind.name, kind.kills, kind.journals, kind.young, kind.committed, 0,
+        body.append([kind.name, kind.kills, kind.journals, kind.young, kind.committed, "?" if kind.broken else 0,
                      f"{max(0.0, kind.lost_work / max(1, kind.kills) / THREADS):.2f} s" if measured else "not measured",
-                     "the same bits"])
+                     f"BROKEN: {kind.broken}" if kind.broken else "the same bits"])
     total = sum(kind.kills for kind in done)
     return (f"`tests/reliability/kills.py --count {total}` (seed {seed}; SIGKILL but where another signal is named). Every "
             f"database was killed several times, while it was made, between rows, after images of runs in flight were "
@@ -262,9 +272,10 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="", help="the kinds whose names contain this")
     parser.add_argument("--write", action="store_true")
     given = parser.parse_args()
-    done = kinds()
+    done = [kind for kind in kinds() if given.only in kind.name]
     shares = sum(kind.share for kind in done)
     rng = random.Random(given.seed)
     broken = []
@@ -273,11 +284,12 @@ def main():
             try:
                 campaign(kind, -(-given.count * kind.share // shares), folder, rng)
             except Broken as why:
-                broken.append(str(why))
+                kind.broken = str(why)
+                broken.append(kind.broken)
                 print(f"BROKEN: {why}", flush=True)
     total = sum(kind.kills for kind in done)
     print(f"{total} kills, {len(broken)} promises broken")
-    if given.write and not broken:
+    if given.write:
         section.write("kills", report(done, given.seed))
     if total < given.count // 2:
         print("not killed: the programs were over before")
