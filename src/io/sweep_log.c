@@ -28,13 +28,15 @@ fst_status fst_mark_make(char mark[FST_MARK_SIZE], fst_error *error)
 
 int fst_mark_find(const void *bytes, size_t size, char mark[FST_MARK_SIZE])
 {
-    const size_t prefix = strlen(FST_MARK_PREFIX);
+    const size_t prefix = strlen(FST_MARK_PREFIX), whole = FST_MARK_SIZE - 1;
     const char *at = bytes, *end = at + size;
     while ((at = memmem(at, (size_t)(end - at), FST_MARK_PREFIX, prefix)) != NULL) {
-        if ((size_t)(end - at) >= FST_MARK_SIZE - 1 &&
-            strspn(at + prefix, "0123456789abcdef") >= FST_MARK_SIZE - 1 - prefix) {
-            memcpy(mark, at, FST_MARK_SIZE - 1);
-            mark[FST_MARK_SIZE - 1] = '\0';
+        size_t length = prefix;
+        while (length < whole && at + length < end && strchr("0123456789abcdef", at[length]) && at[length])
+            ++length;
+        if (length == whole) {
+            memcpy(mark, at, whole);
+            mark[whole] = '\0';
             return 1;
         }
         at += prefix;
