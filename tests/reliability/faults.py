@@ -253,10 +253,10 @@ class Campaign:
     def is_kept(self, command, content, old, words):
         if content == old:
             return True
-        if "is complete" in words:  # only the directory could not be synced
-            return content == self.wanted[command.name]
         if command.out == "frames":  # each frame is a file of its own
             return content is not None and all(frame in self.wanted[command.name] for frame in content)
+        if "is complete" in words:  # only the directory could not be synced
+            return content == self.wanted[command.name]
         if command.out.endswith(".db"):  # the same command goes on
             again = run(command.words)
             return again.returncode == 0 and self.content(command) == self.wanted[command.name]
