@@ -255,7 +255,7 @@ class Campaign:
             return True
         if command.out == "frames":  # each frame is a file of its own
             return content is not None and all(frame in self.wanted[command.name] for frame in content)
-        if "is complete" in words:  # only the directory could not be synced
+        if "is complete" in words and not command.out.endswith(".db"):  # only the directory could not be synced
             return content == self.wanted[command.name]
         if command.out.endswith(".db"):  # the same command goes on
             again = run(command.words)
