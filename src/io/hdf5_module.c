@@ -216,13 +216,16 @@ static int open_file(fst_hdf5_writer *writer, const char *path)
         writer->disk.reason = errno;
         return 1;
     }
-    const hid_t access = fst_hdf5_access(&writer->disk);
-    if (access >= 0) {
-        /* From this format on everything in a file has a checksum: what rots is found, and does not mislead HDF5. */
-        (void)H5Pset_libver_bounds(access, FORMAT, FORMAT);
-        writer->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    const hid_t access = fst_hdf5_access(&writer->disk), root = H5Pcreate(H5P_FILE_CREATE);
+    /* From this format on everything in a file has a checksum: what rots is found, and does not mislead HDF5.
+     */
+    if (access >= 0 && root >= 0 && H5Pset_libver_bounds(access, FORMAT, FORMAT) >= 0 &&
+        H5Pset_obj_track_times(root, 0) >= 0)
+        writer->file = H5Fcreate(path, H5F_ACC_TRUNC, root, access);
+    if (root >= 0)
+        (void)H5Pclose(root);
+    if (access >= 0)
         (void)H5Pclose(access);
-    }
     return writer->file < 0;
 }
 
