@@ -5,6 +5,7 @@ character reaches a terminal, no text of a stranger reaches a figure's script, a
 status 2 and one sentence.
 """
 
+import ctypes
 import json
 import os
 import re
@@ -15,6 +16,8 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 from pathlib import Path
+
+from hdf5_reader import Hdf5
 
 FESTOON = os.environ["FESTOON"]
 HAVE_GNUPLOT = shutil.which("gnuplot") is not None
@@ -127,24 +130,45 @@ class Hostile(unittest.TestCase):
         self.harmless("movie", bad, "-o", self.path("no.mp4"), statuses=(2,))
         self.assertFalse(self.path("no.mp4").exists())
 
+    def set_attribute(self, path, place, name, text):
+        """Another text for an attribute of a file of HDF5, by HDF5 itself: its checksums are right."""
+        reader = Hdf5(str(path))
+        h5, number = reader.library, ctypes.c_int64
+        reader.close()
+        for function in ("H5Oopen", "H5Tcopy", "H5Screate", "H5Acreate2", "H5Fopen"):
+            getattr(h5, function).restype = number
+        zero = number(0)
+        file = number(h5.H5Fopen(str(path).encode(), 1, zero))
+        where = number(h5.H5Oopen(file, place.encode(), zero))
+        kind, space = number(h5.H5Tcopy(number.in_dll(h5, "H5T_C_S1_g"))), number(h5.H5Screate(0))
+        h5.H5Tset_size(kind, ctypes.c_size_t(len(text) + 1))
+        self.assertGreaterEqual(h5.H5Adelete(where, name.encode()), 0)
+        attribute = number(h5.H5Acreate2(where, name.encode(), kind, space, zero, zero))
+        self.assertGreaterEqual(h5.H5Awrite(attribute, kind, text + b"\0"), 0)
+        for close, what in (("H5Aclose", attribute), ("H5Sclose", space), ("H5Tclose", kind), ("H5Oclose", where),
+                            ("H5Fclose", file)):
+            self.assertGreaterEqual(getattr(h5, close)(what), 0)
+
     @unittest.skipUnless(HAVE_GNUPLOT, "no gnuplot")
     def test_trajectories_in_hdf5(self):
-        """Texts of the same length over every part of the scene, of the result and of the columns' attributes."""
+        """Every attribute of the file and of a column, and hostile scenes in it."""
         source, bad, out = self.path("track.h5"), self.path("bad.h5"), "h5-figure"
         if "hdf5 yes" not in self.good("--version").decode():
             self.skipTest("no HDF5")
         self.good("run", *SHORT, "-o", source)
-        bytes_ = source.read_bytes()
-        for turn, word in enumerate([b"radius: 2.5", b"viscous", b"friction:", b"rigid", b"10.7 Hz", b"regime", b"\"omega\"",
-                                     b"time since the start", b"1/gamma", b"scaled: lengths", b"drive_turns", b"scene"]):
-            poisons = (b"\n`touch %s`\n", b"\x1b[2J\x1b]0;\x07'\"`<>%", b"\";system(\"touch %s\");#")
-            for poison in poisons[turn % 3:turn % 3 + 1]:
-                if b"%s" in poison:
-                    poison = poison % str(self.canary).encode()
-                self.assertIn(word, bytes_)
-                bad.write_bytes(bytes_.replace(word, (poison * 4)[:len(word)]))
-                self.harmless("plot", bad, "-o", self.path(out + ".svg"), statuses=(0, 2), note=(word, turn))
-                self.check_figure(out, poison.decode())
+        scene = self.good("init", "-").decode()
+        texts = [(place, name, poison) for turn, (place, name) in enumerate([
+            ("/", "program"), ("/", "version"), ("/", "units"), ("/", "result"), ("/", "scene"), ("/r", "unit"),
+            ("/n_z", "description")]) for poison in self.poisons_without_zero[turn::7]]
+        texts += [("/", "scene", scene.replace(word, json.dumps(poison))) for poison in self.poisons_without_zero[::5]
+                  for word in ("rigid", "2.5 mm", "viscous")]
+        for place, name, text in texts:
+            shutil.copy(source, bad)
+            self.set_attribute(bad, place, name, text.encode())
+            statuses = (2,) if name in ("program", "scene") else (0,)
+            self.harmless("plot", bad, "-o", self.path(out + ".svg"), statuses=statuses, note=(place, name, text[:200]))
+            self.check_figure(out, text)
+        self.harmless("movie", bad, "-o", self.path("no.mp4"))
 
     def texts_of(self, document, way=()):
         """The ways to every text of a document."""

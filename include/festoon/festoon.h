@@ -168,9 +168,9 @@ FST_API int fst_params_get(const fst_params *params, int index, char *text, size
 FST_API int fst_nearest_name(const char *word, const char *names, char *nearest, size_t size);
 
 /* Make a text from outside harmless in its place, for a terminal, a figure or a page: one '?' stands for each
- * control character (also those of U+0080 to U+009F, which terminals obey, line and paragraph separators, and marks
- * that turn the direction of writing) and for each byte that is no UTF-8.  What stays is one line of UTF-8, never
- * longer than before.  Every fst_error has been through it. */
+ * control character (also those of U+0080 to U+009F, which terminals obey, line and paragraph separators, and
+ * marks that turn the direction of writing) and for each byte that is no UTF-8.  What stays is one line of
+ * UTF-8, never longer than before.  Every fst_error has been through it. */
 FST_API void fst_text_tame(char *text);
 
 /* ------------------------------------------------------------------ model */

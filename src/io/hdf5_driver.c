@@ -66,11 +66,8 @@ static herr_t read_file(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_t b
     (void)type;
     (void)transfer;
     memset(bytes, 0, size); /* beyond the end there are zeros */
-    if (read_disk(disk, begin, size, bytes) < 0) {
+    if (disk->descriptor >= 0 && read_disk(disk, begin, size, bytes) < 0)
         note(disk, errno);
-        if (!disk->writing)
-            return -1;
-    }
     for (const fst_hdf5_block *block = disk->oldest; block; block = block->next)
         lay_over(block, begin, size, bytes);
     return 0;
@@ -112,6 +109,24 @@ static herr_t write_file(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_t 
     return f->disk->reason ? keep_block(f->disk, begin, size, bytes) : 0;
 }
 
+int fst_hdf5_load(fst_hdf5_disk *disk)
+{
+    struct stat there;
+    if (fstat(disk->descriptor, &there) != 0)
+        return errno;
+    fst_hdf5_block *block = malloc(sizeof *block + (size_t)there.st_size);
+    if (!block)
+        return ENOMEM;
+    *block = (fst_hdf5_block){NULL, 0, (size_t)there.st_size};
+    disk->oldest = disk->newest = block;
+    const ssize_t got = read_disk(disk, 0, block->size, block->bytes);
+    if (got < 0)
+        return errno;
+    block->size = (size_t)got; /* it may have been cut meanwhile */
+    disk->descriptor = -1;
+    return 0;
+}
+
 /* HDF5 gives the file the length that it has allocated. */
 static herr_t set_length(H5FD_t *file, hid_t transfer, hbool_t closing)
 {
@@ -135,7 +150,11 @@ static H5FD_t *open_disk(const char *name, unsigned flags, hid_t access, haddr_t
     (void)name;
     (void)flags;
     (void)most;
-    if (!disk || fstat((*disk)->descriptor, &there) != 0)
+    if (!disk)
+        return NULL;
+    if ((*disk)->descriptor < 0)
+        there.st_size = (off_t)(*disk)->oldest->size;
+    else if (fstat((*disk)->descriptor, &there) != 0)
         return NULL;
     open_file *file = calloc(1, sizeof *file);
     if (!file)

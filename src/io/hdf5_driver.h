@@ -1,4 +1,4 @@
-/* hdf5_driver.h - how HDF5 reaches the disk: by a driver that never tells it of a failed write.
+/* hdf5_driver.h - how HDF5 reaches the disk: by a driver that never tells it of a failure.
  *
  * HDF5 holds data back until a file is closed.  Where writing then fails, it cannot close the file, keeps it
  * open, and crashes over it when the program ends.  This driver notes the first failure and keeps everything
@@ -8,6 +8,9 @@
  *     HDF5 --> write --> disk                   until a write fails
  *                  \---> list of blocks         from then on (a few MiB: what HDF5 had held back)
  *     HDF5 <-- read  <-- disk, then the list    the newest block wins
+ *
+ * After a failed read HDF5 leaves objects open as well.  A file that is only read is loaded before HDF5 sees
+ * it, which takes less memory than the numbers that come out of it.
  */
 #ifndef FST_IO_HDF5_DRIVER_H
 #define FST_IO_HDF5_DRIVER_H
@@ -18,11 +21,13 @@
 typedef struct fst_hdf5_block fst_hdf5_block;
 
 typedef struct fst_hdf5_disk {
-    int descriptor; /* of the file; stays the caller's */
-    int writing;    /* failures are only noted; else a failed read is one for HDF5 too */
+    int descriptor; /* of the file, which stays the caller's; -1: the file is in the list */
     int reason;     /* errno of the first failure; 0: none */
     fst_hdf5_block *oldest, *newest;
 } fst_hdf5_disk;
+
+/* Load a file that is only read; 0, or an errno.  The descriptor is not used again. */
+int fst_hdf5_load(fst_hdf5_disk *disk);
 
 /* A list of access properties that leads to `disk`, which must outlive the file; negative: HDF5 has no memory.
  */

@@ -20,6 +20,12 @@
 #define CHUNK 4096
 
 #define PROGRAM "festoon"
+
+#if H5_VERSION_GE(1, 10, 2)
+#define FORMAT H5F_LIBVER_V110
+#else
+#define FORMAT H5F_LIBVER_LATEST
+#endif
 #define UNITS                                                                                                  \
     "scaled: lengths in l (magnet.half_length), times in 1/gamma (friction.gamma), fields in B0, masses in "   \
     "the "                                                                                                     \
@@ -37,7 +43,9 @@ struct fst_hdf5_writer {
     const char *name; /* of the file that it will become, for messages */
 };
 
-/* HDF5 prints its errors unless told not to; the caller's setting is put back. */
+/* HDF5 prints its errors unless told not to; the caller's setting is put back.  Where it is used for the first
+ * time, it is also told to do nothing at the end of the program: we close what we open, and objects that it
+ * failed to close in a damaged file would make it print and crash there. */
 typedef struct quiet {
     H5E_auto2_t function;
     void *data;
@@ -46,6 +54,7 @@ typedef struct quiet {
 static quiet be_quiet(void)
 {
     quiet before = {NULL, NULL};
+    (void)H5dont_atexit();
     (void)H5Eget_auto2(H5E_DEFAULT, &before.function, &before.data);
     (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     return before;
@@ -207,11 +216,16 @@ static int open_file(fst_hdf5_writer *writer, const char *path)
         writer->disk.reason = errno;
         return 1;
     }
-    const hid_t access = fst_hdf5_access(&writer->disk);
-    if (access >= 0) {
-        writer->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    const hid_t access = fst_hdf5_access(&writer->disk), root = H5Pcreate(H5P_FILE_CREATE);
+    /* From this format on everything in a file has a checksum: what rots is found, and does not mislead HDF5.
+     */
+    if (access >= 0 && root >= 0 && H5Pset_libver_bounds(access, FORMAT, FORMAT) >= 0 &&
+        H5Pset_obj_track_times(root, 0) >= 0)
+        writer->file = H5Fcreate(path, H5F_ACC_TRUNC, root, access);
+    if (root >= 0)
+        (void)H5Pclose(root);
+    if (access >= 0)
         (void)H5Pclose(access);
-    }
     return writer->file < 0;
 }
 
@@ -226,7 +240,7 @@ static fst_status create(const char *path, const char *name, const fst_column_in
     writer->count = count;
     writer->file = -1;
     writer->name = name;
-    writer->disk = (fst_hdf5_disk){.descriptor = -1, .writing = 1};
+    writer->disk = (fst_hdf5_disk){.descriptor = -1};
     writer->sets = calloc((size_t)count, sizeof *writer->sets);
     writer->buffer = malloc((size_t)count * CHUNK * sizeof *writer->buffer);
     if (!writer->sets || !writer->buffer) {
@@ -376,25 +390,39 @@ static fst_status read_file(hid_t file, const char *path, const fst_column_info 
     return status;
 }
 
+/* The whole file in memory. */
+static fst_status load(const char *path, fst_hdf5_disk *disk, fst_error *error)
+{
+    const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
+    *disk = (fst_hdf5_disk){.descriptor = descriptor};
+    const int reason = descriptor < 0 ? errno : fst_hdf5_load(disk);
+    if (descriptor >= 0)
+        (void)close(descriptor);
+    if (!reason)
+        return FST_OK;
+    fst_hdf5_forget(disk);
+    if (reason == ENOMEM)
+        return fst_fail(error, FST_NO_MEMORY, path, "no memory for this file");
+    return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason));
+}
+
 static fst_status read_all(const char *path, const fst_column_info *const *columns, int count, double **data,
                            size_t *rows, char **scene, int *complete, fst_error *error)
 {
-    fst_hdf5_disk disk = {.descriptor = open(path, O_RDONLY | O_CLOEXEC)};
-    if (disk.descriptor < 0)
-        return fst_fail(error, FST_IO, path, "cannot read this file: %s", strerror(errno));
+    fst_hdf5_disk disk;
+    fst_status status = load(path, &disk, error);
+    if (status != FST_OK)
+        return status;
     quiet before = be_quiet();
     const hid_t access = fst_hdf5_access(&disk);
     const hid_t file = access >= 0 ? H5Fopen(path, H5F_ACC_RDONLY, access) : -1;
-    fst_status status = read_file(file, path, columns, count, data, rows, scene, complete, error);
+    status = read_file(file, path, columns, count, data, rows, scene, complete, error);
     if (file >= 0)
         (void)H5Fclose(file);
     if (access >= 0)
         (void)H5Pclose(access);
     be_as_before(before);
-    (void)close(disk.descriptor);
-    /* A disk that cannot be read says nothing of the file. */
-    if (disk.reason)
-        status = fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(disk.reason));
+    fst_hdf5_forget(&disk);
     return status;
 }
 
