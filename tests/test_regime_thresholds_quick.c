@@ -264,6 +264,7 @@ static void test_growth(void **unused)
                 "exponent");
     made_up free_bead = LIBRATING;
     free_bead.without_friction = 1;
+    free_bead.phi_range = 0.1;
     EITHER_SIDE(free_bead, growth, 3.9, FST_REGIME_LIBRATING, "die out", 4.1, FST_REGIME_UNDECIDED,
                 "cannot be told");
 }
@@ -298,6 +299,31 @@ static void test_drift(void **unused)
     EITHER_SIDE(m, swing[1], 0.5e-7, FST_REGIME_LIBRATING, "die out", 0.9e-7, FST_REGIME_LIBRATING, "die out");
 }
 
+/* Without friction a wide libration must be seen for longer. */
+static void test_wide_without_friction(void **unused)
+{
+    (void)unused;
+    made_up m = LIBRATING;
+    EITHER_SIDE(m, phi_range, 0.29, FST_REGIME_LIBRATING, "die out", 0.31, FST_REGIME_LIBRATING, "die out");
+    m.without_friction = 1;
+    EITHER_SIDE(m, phi_range, 0.29, FST_REGIME_LIBRATING, "die out", 0.31, FST_REGIME_UNDECIDED,
+                "nothing damps");
+    m.phi_range = 0.31;
+    EITHER_SIDE(m, periods, 100, FST_REGIME_UNDECIDED, "nothing damps", 101, FST_REGIME_LIBRATING, "die out");
+}
+
+/* A single close return is no closing orbit. */
+static void test_chance_return(void **unused)
+{
+    (void)unused;
+    made_up m = TURNING;
+    m.half[0] = 1.1;
+    m.full[1] = 0.9e-2;
+    expect(&m, FST_REGIME_COUNTER_ROTATING, "still closing");
+    m.full_before_last = 0.2;
+    expect(&m, FST_REGIME_COUNTER_ROTATING, "does not close");
+}
+
 /* s sin over two cycles: a line takes 6/(4 pi^2) of its variance away, what is left changes its sign 5 times,
  * and hides a drift of 12 sqrt(2)/pi * 0.92 s/sqrt(2)/6: more than a tenth of <r> from s = 0.17 on. */
 static void test_hidden_drift(void **unused)
@@ -310,12 +336,13 @@ static void test_hidden_drift(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_beginnings),   cmocka_unit_test(test_at_rest),
-        cmocka_unit_test(test_noise),        cmocka_unit_test(test_dies_out),
-        cmocka_unit_test(test_closed),       cmocka_unit_test(test_relaxing),
-        cmocka_unit_test(test_one_way),      cmocka_unit_test(test_least_numbers),
-        cmocka_unit_test(test_growth),       cmocka_unit_test(test_drift),
-        cmocka_unit_test(test_hidden_drift),
+        cmocka_unit_test(test_beginnings),    cmocka_unit_test(test_at_rest),
+        cmocka_unit_test(test_noise),         cmocka_unit_test(test_dies_out),
+        cmocka_unit_test(test_closed),        cmocka_unit_test(test_relaxing),
+        cmocka_unit_test(test_one_way),       cmocka_unit_test(test_least_numbers),
+        cmocka_unit_test(test_growth),        cmocka_unit_test(test_drift),
+        cmocka_unit_test(test_hidden_drift),  cmocka_unit_test(test_wide_without_friction),
+        cmocka_unit_test(test_chance_return),
     };
     return cmocka_run_group_tests_name("thresholds of regimes", tests, NULL, NULL);
 }
