@@ -76,7 +76,7 @@ static fst_params strong_magnet(double kappa, fst_dynamics dynamics)
         p.magnet_b0 = 1e3;
         p.bead_moment = kappa * p.bead_mass * pow(p.bead_radius * p.friction_gamma, 2) / p.magnet_b0;
     }
-    p.run_periods = kappa > 3e7 ? 16 : kappa > 3e6 ? 40 : kappa > 3e3 ? 120 : 16;
+    p.run_periods = kappa > 3e7 ? 28 : kappa > 3e6 ? 40 : kappa > 3e3 ? 120 : 16;
     p.run_discard = 0.5 * p.run_periods;
     return p;
 }
