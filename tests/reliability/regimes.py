@@ -8,7 +8,7 @@ the runs that are left undecided would have kept what they seemed to be: the pri
 Scenes are drawn in batches of 250.  A batch has one dynamics, friction law, material, start of the spin, number of lines and
 length; and in it frequency, kappa, gamma, start.r, start.phi, height, and the magnetisabilities a and b are random, each
 uniform within a band that is drawn for the batch.  `bands()` below is the whole of the sampling; everything follows from the
-seed.  `--seed 1` was used to find the criteria, `--seed 2` to measure them.
+seed.  The criteria were found on the seeds 1 and 2; the published table is of the seed 3.
 
 Environment: FESTOON is the program (default: build/festoon).  The databases are kept in --keep DIR, and the same command
 again goes on with them: an interrupted study loses at most the sweep at work.
@@ -108,6 +108,9 @@ def wilson(hits, total, z=1.959963984540054):
     """Interval of 95 % of a share; see E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927)."""
     if total == 0:
         return 0.0, 1.0
+    if hits in (0, total):
+        edge = z * z / (total + z * z)
+        return (0.0, edge) if hits == 0 else (1.0 - edge, 1.0)
     share, add = hits / total, z * z / total
     middle, half = share + add / 2, z * math.sqrt(share * (1 - share) / total + add / total / 4)
     return max(0.0, (middle - half) / (1 + add)), min(1.0, (middle + half) / (1 + add))
@@ -159,9 +162,9 @@ def report(pairs, out):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--count", type=int, default=1000, help="scenes (1000; the published table: 50000)")
+    parser.add_argument("--count", type=int, default=1000, help="scenes (1000)")
     parser.add_argument("--quick-count", type=int, default=0, help="further scenes, of the quick sampling (0)")
-    parser.add_argument("--seed", type=int, default=2, help="of the sampling (2, the published table's)")
+    parser.add_argument("--seed", type=int, default=3, help="of the sampling (3, the published table's)")
     parser.add_argument("--default-length", action="store_true", help="runs of 400 drive periods against 4000")
     parser.add_argument("--keep", metavar="DIR", help="folder of the databases; without: thrown away")
     parser.add_argument("--threads", type=int, default=1)
