@@ -323,8 +323,15 @@ fst_status fst_decide_regime(fst_run_state *run, fst_run_result *result, fst_err
     }
     const double speed = speed_at_end(run), at_rest = fmax(AT_REST, run->params->run_rtol);
     if (speed < at_rest) {
+        const fst_drift approach = fst_drift_of(run);
         result->regime = FST_REGIME_LOCKED;
-        REASON("at rest in the turning frame: |d(state)/dt| = %.2g", speed);
+        if (approach.what)
+            REASON("at rest in the turning frame: |d(state)/dt| = %.2g; the means still take in the approach: "
+                   "raise "
+                   "run.discard",
+                   speed);
+        else
+            REASON("at rest in the turning frame: |d(state)/dt| = %.2g", speed);
         return FST_OK;
     }
     if (turns_regularly(run))
