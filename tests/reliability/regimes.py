@@ -146,18 +146,47 @@ def lines_of(table):
                f"{share} ({percent(low)} to {percent(high)}) |")
 
 
-def report(pairs, out):
+def report(pairs, given, out):
     table = outcomes(pairs)
+    lengths = "400" if given.default_length else "40 to 100"
+    kinds = f"{given.count} of the whole sampling, {given.quick_count} of the quick one, seed {given.seed}"
+    print(f"{len(pairs)} scenes ({kinds}), runs of {lengths} drive periods against runs ten times as long:", file=out)
+    print(file=out)
     for line in lines_of(table):
         print(line, file=out)
     print(file=out)
+    chaos = collections.Counter()
+    for fixed, short, long in pairs:
+        if short["regime"] == "chaotic" and "done" == short["status"] == long["status"]:
+            chaos[fixed["friction.law"], long["regime"] == "chaotic"] += 1
+    with_friction = chaos["viscous", True] + chaos["viscous", False]
+    without = chaos["none", True] + chaos["none", False]
+    print(f"Chaos with friction: {chaos['viscous', True]} of {with_friction} were chaotic in the longer run too; without "
+          f"friction, where nothing holds the bead: {chaos['none', True]} of {without}.", file=out)
+    print(file=out)
     row = table["undecided"]
     words = ", ".join(f"{count} {regime}" for regime, count in row.most_common())
-    print(f"Undecided: {sum(row.values())} of {len(pairs)} runs; in the longer run: {words or 'none'}.", file=out)
-    for regime in ("ejected", "lifted"):
-        print(f"{regime}: {sum(table[regime].values())} runs, which end where they do.", file=out)
+    regular = row["locked"] + row["librating"] + row["counter-rotating"] + row["corotating"]
+    print(f"Left undecided: {sum(row.values())} of {len(pairs)} runs; in the longer run: {words or 'none'}. The caution costs at "
+          f"most the {regular} that turn out regular, {percent(regular / max(1, len(pairs)))} of all.", file=out)
+    ends = ", ".join(f"{sum(table[regime].values())} {regime}" for regime in ("ejected", "lifted"))
     failed = len(pairs) - sum(sum(row.values()) for row in table.values())
-    print(f"Failed in one of the two lengths: {failed} scenes.", file=out)
+    print(f"Ended early: {ends}. Failed in one of the two lengths: {failed}.", file=out)
+
+
+def write_page(text, name):
+    """Replace the section `name` of docs/regimes.md, which stands between two comments."""
+    path = os.path.join(SOURCE_DIR, "docs", "regimes.md")
+    with open(path, encoding="utf-8") as file:
+        page = file.read()
+    begin, end = f"<!-- begin {name} -->\n", f"<!-- end {name} -->"
+    before, _, rest = page.partition(begin)
+    _, _, after = rest.partition(end)
+    if not rest or end not in rest:
+        raise SystemExit(f"{path} has no section {name}")
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        file.write(before + begin + text.strip() + "\n" + end + after)
+    os.replace(path + ".part", path)
 
 
 def main():
@@ -168,6 +197,7 @@ def main():
     parser.add_argument("--default-length", action="store_true", help="runs of 400 drive periods against 4000")
     parser.add_argument("--keep", metavar="DIR", help="folder of the databases; without: thrown away")
     parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--write", action="store_true", help="write the table into docs/regimes.md")
     parser.add_argument("--json", metavar="FILE", help="write the counts there too")
     given = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="festoon-regimes-") as scratch:
@@ -177,7 +207,11 @@ def main():
         for quick, count in ((False, given.count), (True, given.quick_count)):
             pairs += study(count, given.seed, given.default_length, quick, directory, given.threads,
                            lambda text: print(text, file=sys.stderr, flush=True))
-    report(pairs, sys.stdout)
+    text = io.StringIO()
+    report(pairs, given, text)
+    print(text.getvalue(), end="")
+    if given.write:
+        write_page(text.getvalue(), "default-length" if given.default_length else "verdicts")
     if given.json:
         with open(given.json, "w") as file:
             json.dump(outcomes(pairs), file, indent=1)
