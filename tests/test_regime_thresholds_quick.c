@@ -316,6 +316,10 @@ static void test_wide_without_friction(void **unused)
     m.without_friction = 1;
     EITHER_SIDE(m, phi_range, 0.29, FST_REGIME_LIBRATING, "die out", 0.31, FST_REGIME_UNDECIDED,
                 "nothing damps");
+    made_up chaotic = m;
+    chaotic.growth = 50.0;
+    EITHER_SIDE(chaotic, periods, 100, FST_REGIME_UNDECIDED, "nothing holds", 101, FST_REGIME_CHAOTIC,
+                "positive");
     m.phi_range = 0.31;
     EITHER_SIDE(m, periods, 100, FST_REGIME_UNDECIDED, "nothing damps", 101, FST_REGIME_LIBRATING, "die out");
 }

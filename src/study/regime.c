@@ -32,7 +32,7 @@ enum {
     LEAST_CROSSINGS = 6,                    /* of the section: for regular turning */
     LEAST_OPEN_CROSSINGS = 64,              /* the same, where the orbit does not close */
     LEAST_CROSSINGS_WITHOUT_FRICTION = 256, /* and nothing draws the bead to it */
-    LEAST_PERIODS_WITHOUT_FRICTION = 100    /* the same for a wide libration */
+    LEAST_PERIODS_WITHOUT_FRICTION = 100    /* the same for a wide libration, and for chaos */
 };
 
 static int turns_regularly(const fst_run_state *run)
@@ -92,12 +92,17 @@ static fst_status test_chaos(fst_run_state *run, fst_run_result *result, chaos *
     result->rhs_calls += run->exponent.rhs_calls;
     result->largest_exponent = exponent;
     result->largest_exponent_error = standard_error;
+    const int friction = run->flow->step.context.coefficients.friction > 0;
     const double growth = exponent * run->exponent.duration;
-    const double quiet = run->flow->step.context.coefficients.friction > 0 ? QUIET : QUIET_WITHOUT_FRICTION;
+    const double quiet = friction ? QUIET : QUIET_WITHOUT_FRICTION;
     *found = exponent > SIGNIFICANT * standard_error && growth > GROWTH ? CHAOTIC
              : growth > quiet                                           ? UNCLEAR
                                                                         : REGULAR;
-    if (*found == CHAOTIC) {
+    if (*found == CHAOTIC && !friction && run->period_marks.offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
+        REASON("chaotic over the window (exponent %.4g +- %.2g), but without friction nothing holds the bead: "
+               "run longer",
+               exponent, standard_error);
+    } else if (*found == CHAOTIC) {
         result->regime = FST_REGIME_CHAOTIC;
         REASON("the largest Lyapunov exponent is positive over the window: %.4g +- %.2g", exponent,
                standard_error);

@@ -161,8 +161,9 @@ def report(pairs, given, out):
             chaos[fixed["friction.law"], long["regime"] == "chaotic"] += 1
     with_friction = chaos["viscous", True] + chaos["viscous", False]
     without = chaos["none", True] + chaos["none", False]
-    print(f"Chaos with friction: {chaos['viscous', True]} of {with_friction} were chaotic in the longer run too; without "
-          f"friction, where nothing holds the bead: {chaos['none', True]} of {without}.", file=out)
+    for words, kept, of in (("with", chaos["viscous", True], with_friction), ("without", chaos["none", True], without)):
+        if of:
+            print(f"Chaos {words} friction: {kept} of {of} were chaotic in the longer run too.", file=out)
     print(file=out)
     row = table["undecided"]
     words = ", ".join(f"{count} {regime}" for regime, count in row.most_common())
