@@ -295,6 +295,28 @@ class Run(Case):
         in_rpm = self.json("run", *words)["ramp"]
         self.assertAlmostEqual(in_rpm[0]["mean_r"], points[0]["mean_r"], places=9)
 
+    def test_ramp_waits(self):
+        words = ["run", "--ramp", "omega=0.3:0.31", "--ramp-points", "2", "--set", "run.periods=30", "--set", "run.discard=10"]
+        result = self.json(*words)
+        self.assertEqual([point["settled"] for point in result["ramp"]], [True, True])
+        self.assertIn("2 of its 2 pieces settled", result["reason"])
+        self.assertGreater(result["periods"], 30)
+        self.assertNotIn(" *\n", self.good(*words))
+        steady = self.json(*words, "--ramp-wait", "0")
+        self.assertEqual([point["settled"] for point in steady["ramp"]], [False, False])
+        self.assertIn("leaves it late", steady["reason"])
+        self.assertAlmostEqual(steady["periods"], 30, places=6)
+        for wrong in (["--ramp-wait", "-1"], ["--ramp-wait", "x"], ["--ramp-disturbance", "0.1"], ["--ramp-disturbance", "nan"]):
+            self.bad([*words, *wrong], wrong[0])
+            self.bad(["run", *wrong], wrong[0])
+
+    def test_a_drift_is_no_regime(self):
+        result = self.json("run", "--set", "drive.frequency=200")
+        self.assertEqual((result["regime"], result["symmetry"], result["festoons"], result["period"]),
+                         ("undecided", None, None, None))
+        self.assertIn("may still drift", result["reason"])
+        self.assertIn("raise run.periods", self.good("run", "--set", "drive.frequency=200"))
+
     def read_csv(self, path):
         with open(path) as file:
             lines = file.read().splitlines()

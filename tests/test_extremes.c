@@ -172,12 +172,44 @@ static void test_none_is_left_out(void **state)
     assert_int_equal(stayed, 5 * 41); /* one bead leaves the plate at once */
 }
 
+/* The end of a step lies on the trajectory, whatever is found between: no extreme falls short of it, not by a
+ * bit. */
+static void test_the_end_of_a_step_counts(void **state)
+{
+    (void)state;
+    for (int which = 0; which < 14; ++which) {
+        const fst_params p = bead_of(which);
+        fst_model *model = model_of(&p);
+        double start[FST_STATE_SIZE];
+        start_of(&p, model, start);
+        fst_flow *flow = flow_of(model, 1e-8, start);
+        fst_quadrature q;
+        fst_quadrature_begin(&q, flow);
+        for (int step = 0; step < 50; ++step) {
+            assert_int_equal(fst_flow_step(flow, INFINITY, NULL), FST_OK);
+            fst_quadrature_step(&q, flow);
+            for (int i = 0; i < FST_TRACK_COUNT; ++i)
+                q.extreme[i] = (fst_extreme){INFINITY, -INFINITY};
+            fst_quadrature_track(&q, flow, 0.0);
+            for (int i = 0; i < FST_TRACK_COUNT; ++i) {
+                const double end = q.tracked[FST_PATH_STAGES - 1][i];
+                assert_true(q.extreme[i].greatest >= end);
+                if (i != FST_TRACK_GAP && i != FST_TRACK_SLIP)
+                    assert_true(q.extreme[i].least <= end);
+            }
+        }
+        fst_flow_free(flow);
+        fst_model_free(model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nodes),
         cmocka_unit_test(test_parabolas),
         cmocka_unit_test(test_constants),
+        cmocka_unit_test(test_the_end_of_a_step_counts),
         cmocka_unit_test(test_none_is_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -38,15 +38,18 @@ static void test_random_axes_are_drawn_together(void **state)
     const char *const axes[] = {"start.r=0.5:1.5:random:100", "model.kappa=1,2", "start.phi=0:180:100:random"};
     fst_grid *grid = grid_of(axes, 3, 7), *other = grid_of(axes, 3, 8);
     assert_int_equal(fst_grid_points(grid), 200);
-    double sum = 0, changed = 0;
+    double sum = 0, changed = 0, product = 0;
     for (int i = 0; i < 200; ++i) {
         const double r = fst_grid_value(grid, 0, i);
         assert_true(r >= 0.5 && r < 1.5);
         sum += r / 200;
         changed += r != fst_grid_value(other, 0, i);
+        product += (r - 1.0) * (fst_grid_value(grid, 2, i) - 90.0) / 200;
     }
     assert_true(fabs(sum - 1.0) < 0.1);
     assert_true(changed > 190);
+    assert_true(fabs(product) <
+                0.25 * 90.0 * 0.5); /* of equal draws it were 1/3 of that product of half widths */
     assert_true(fst_grid_value(grid, 2, 5) == fst_grid_value(grid, 2, 105)); /* the same draw for both kappas */
     fst_grid_free(grid);
     fst_grid_free(other);

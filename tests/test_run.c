@@ -359,101 +359,49 @@ static void test_no_discard(void **unused)
     CHECK_CLOSE(turned.mean_alpha_dot, all.mean_alpha_dot, 1e-4);
 }
 
-/* ------------------------------------------------------------------ ramps */
-
-enum { PIECES = 12 };
-
-typedef struct ramp {
-    int count;
-    fst_ramp_point points[PIECES];
-} ramp;
-
-static fst_status keep_point(void *user, const fst_ramp_point *point, fst_error *error)
+/* Stop after so many calls. */
+static fst_status stop_soon(void *user, double fraction, fst_error *error)
 {
+    int *left = user;
+    assert_true(fraction >= 0 && fraction <= 1);
     (void)error;
-    ramp *r = user;
-    assert_true(r->count < PIECES);
-    r->points[r->count++] = *point;
-    return FST_OK;
+    return --*left > 0 ? FST_OK : FST_INTERRUPTED;
 }
 
-static fst_run_result run_ramp(double from, double to, double periods, ramp *r)
-{
-    fst_params p = bead_at(from, FST_DYNAMICS_RIGID);
-    p.run_periods = periods;
-    p.run_discard = 100;
-    fst_run_options options = fst_default_run_options();
-    options.ramp_from = from;
-    options.ramp_to = to;
-    options.ramp_points = PIECES;
-    options.sink.user = r;
-    options.sink.ramp_point = keep_point;
-    r->count = 0;
-    fst_run_result result;
-    assert_int_equal(fst_run(&p, &options, &result, NULL), FST_OK);
-    return result;
-}
-
-/* A slow ramp through counter-rotation, where there is one attractor up to its conjugate: each piece shows what
- * a run at its drive shows, up and down alike. */
-static void test_ramp_up_and_down(void **unused)
+/* However long the run, it tells how far it is, ends when told to, and no count overflows. */
+static void test_huge_runs_can_be_stopped(void **unused)
 {
     (void)unused;
-    ramp up, down;
-    const fst_run_result end = run_ramp(0.32, 0.44, 1000, &up);
-    CHECK_CLOSE(end.omega, 0.44, 1e-12);
-    CHECK_CLOSE(end.periods, 1000, 1e-6);
-    CHECK_CLOSE(run_ramp(0.44, 0.32, 1000, &down).omega, 0.32, 1e-12);
-    assert_int_equal(up.count, PIECES);
-    assert_int_equal(down.count, PIECES);
-    for (int i = 0; i < PIECES; ++i) {
-        const fst_ramp_point *a = &up.points[i], *b = &down.points[PIECES - 1 - i];
-        CHECK_CLOSE(a->omega, 0.32 + 0.12 * (i + 0.5) / PIECES, 2e-4);
-        CHECK_CLOSE(a->frequency_hz, a->omega * 312.5 / TWO_PI, 1e-12);
-        CHECK_CLOSE(a->mean_r, b->mean_r, 3e-4);
-        CHECK_CLOSE(a->mean_alpha_dot, b->mean_alpha_dot, 1e-4);
-        CHECK_CLOSE(a->mean_phi_dot + a->mean_alpha_dot, a->omega, 1e-4);
-        if (i == 4) {
-            const fst_params p = bead_at(a->omega, FST_DYNAMICS_RIGID);
-            const fst_run_result still = run_of(&p);
-            CHECK_CLOSE(a->mean_r, still.mean_r, 3e-4);
-            CHECK_CLOSE(a->std_r, still.std_r, 3e-4);
-            CHECK_CLOSE(a->mean_alpha_dot, still.mean_alpha_dot, 3e-5);
+    for (int i = 0; i < 4; ++i) {
+        fst_params p = bead_at(0.35, FST_DYNAMICS_RIGID);
+        p.run_periods = 1e9;
+        p.run_discard = i % 2 ? 0 : 999999999;
+        p.run_samples = 100000;
+        fst_run_options options = fst_default_run_options();
+        int left = 40;
+        options.sink.user = &left;
+        options.sink.progress = stop_soon;
+        if (i >= 2) {
+            options.ramp_from = 0.35;
+            options.ramp_to = 0.20;
+            options.ramp_points = 1000000;
+            options.ramp_wait = i == 2 ? 0 : 1e6;
         }
+        fst_run_result result;
+        assert_int_equal(fst_run(&p, &options, &result, NULL), FST_INTERRUPTED);
+        assert_int_equal(left, 0);
+        assert_non_null(strstr(result.reason, "interrupted"));
     }
 }
 
-/* A ramp that goes nowhere is a run at its drive: the bits of the motion, and its means in the pieces. */
-static void test_ramp_at_constant_drive(void **unused)
+/* Returns are half turns of Phi: two for each mean period of the window. */
+static void test_returns_are_counted(void **unused)
 {
     (void)unused;
-    ramp r;
-    const fst_run_result ramped = run_ramp(0.405, 0.405, 250, &r);
     fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
-    p.run_periods = 250;
-    p.run_discard = 100;
-    const fst_run_result still = run_of(&p);
-    assert_memory_equal(ramped.final_state, still.final_state, sizeof still.final_state);
-    const fst_run_result almost = run_ramp(0.405, 0.405 * (1 + 1e-12), 250, &r);
-    CHECK_CLOSE(greatest_difference(almost.final_state, still.final_state, FST_STATE_SIZE), 0, 1e-7);
-    assert_int_equal(r.count, PIECES);
-    CHECK_CLOSE(r.points[PIECES - 1].mean_r, still.mean_r, 1e-8);
-}
-
-/* Up and down across the loss of counter-rotation the bead remembers where it came from: between 0.095 and
- * 0.165 it is bound to the magnet, above 0.19 it counter-rotates, whichever way it came. */
-static void test_ramp_through_the_transition(void **unused)
-{
-    (void)unused;
-    ramp up, down;
-    (void)run_ramp(0.10, 0.30, 800, &up);
-    (void)run_ramp(0.30, 0.10, 800, &down);
-    assert_int_equal(up.count, PIECES);
-    assert_int_equal(down.count, PIECES);
-    CHECK_CLOSE(up.points[0].mean_alpha_dot, up.points[0].omega, 1e-3);
-    CHECK_CLOSE(down.points[PIECES - 1].mean_alpha_dot, down.points[PIECES - 1].omega, 1e-3);
-    CHECK_WITHIN(up.points[PIECES - 1].mean_alpha_dot, -0.07, -0.05);
-    CHECK_WITHIN(down.points[0].mean_alpha_dot, -0.07, -0.05);
+    const fst_run_result r = run_of(&p);
+    const double half_turns = 2 * r.window_periods * TWO_PI / r.omega / r.period;
+    CHECK_WITHIN((double)r.returns, half_turns, half_turns + 3);
 }
 
 /* ------------------------------------------------------------------ bad input */
@@ -495,9 +443,8 @@ int main(void)
         cmocka_unit_test(test_means_and_extremes_by_brute_force),
         cmocka_unit_test(test_interruption),
         cmocka_unit_test(test_no_discard),
-        cmocka_unit_test(test_ramp_up_and_down),
-        cmocka_unit_test(test_ramp_at_constant_drive),
-        cmocka_unit_test(test_ramp_through_the_transition),
+        cmocka_unit_test(test_huge_runs_can_be_stopped),
+        cmocka_unit_test(test_returns_are_counted),
         cmocka_unit_test(test_bad_options),
     };
     return cmocka_run_group_tests_name("run", tests, run_all, NULL);

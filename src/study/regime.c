@@ -32,7 +32,7 @@ enum {
     LEAST_CROSSINGS = 6,                    /* of the section: for regular turning */
     LEAST_OPEN_CROSSINGS = 64,              /* the same, where the orbit does not close */
     LEAST_CROSSINGS_WITHOUT_FRICTION = 256, /* and nothing draws the bead to it */
-    LEAST_PERIODS_WITHOUT_FRICTION = 100    /* the same for a wide libration */
+    LEAST_PERIODS_WITHOUT_FRICTION = 100    /* the same for a wide libration, and for chaos */
 };
 
 static int turns_regularly(const fst_run_state *run)
@@ -101,12 +101,17 @@ static fst_status test_chaos(fst_run_state *run, fst_run_result *result, chaos *
     result->rhs_calls += run->exponent.rhs_calls;
     result->largest_exponent = exponent;
     result->largest_exponent_error = standard_error;
+    const int friction = run->flow->step.context.coefficients.friction > 0;
     const double growth = exponent * run->exponent.duration;
-    const double quiet = run->flow->step.context.coefficients.friction > 0 ? QUIET : QUIET_WITHOUT_FRICTION;
+    const double quiet = friction ? QUIET : QUIET_WITHOUT_FRICTION;
     *found = exponent > SIGNIFICANT * run->exponent.chance && growth > GROWTH ? CHAOTIC
              : growth > quiet                                                 ? UNCLEAR
                                                                               : REGULAR;
-    if (*found == CHAOTIC) {
+    if (*found == CHAOTIC && !friction && run->period_marks.offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
+        REASON("chaotic over the window (exponent %.4g +- %.2g), but without friction nothing holds the bead: "
+               "run longer",
+               exponent, standard_error);
+    } else if (*found == CHAOTIC) {
         result->regime = FST_REGIME_CHAOTIC;
         REASON("the largest Lyapunov exponent is positive over the window: %.4g +- %.2g", exponent,
                standard_error);
@@ -332,8 +337,15 @@ fst_status fst_decide_regime(fst_run_state *run, fst_run_result *result, fst_err
     }
     const double speed = speed_at_end(run), at_rest = fmax(AT_REST, run->params->run_rtol);
     if (speed < at_rest) {
+        const fst_drift approach = fst_drift_of(run);
         result->regime = FST_REGIME_LOCKED;
-        REASON("at rest in the turning frame: |d(state)/dt| = %.2g", speed);
+        if (approach.what)
+            REASON("at rest in the turning frame: |d(state)/dt| = %.2g; the means still take in the approach: "
+                   "raise "
+                   "run.discard",
+                   speed);
+        else
+            REASON("at rest in the turning frame: |d(state)/dt| = %.2g", speed);
         return FST_OK;
     }
     if (turns_regularly(run))
