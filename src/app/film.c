@@ -179,7 +179,14 @@ static fst_status make_frames(film *f, fst_error *error)
     fst_film_motion *m = &f->motion;
     const fst_film_options *o = f->options;
     double begin = m->drive_turns[m->first], turns = m->drive_turns[m->last] - begin;
-    f->frames = 1 + (int)floor(turns * o->seconds_per_turn * o->fps + 1e-9);
+    double frames = 1.0 + floor(turns * o->seconds_per_turn * o->fps + 1e-9);
+    if (!(frames < 1e8))
+        return fst_fail(
+            error, FST_BAD_INPUT, "movie",
+            "a film of %.3g turns of the magnet would have %.3g frames: choose a shorter stretch or "
+            "fewer frames a second",
+            turns, frames);
+    f->frames = (int)frames;
     for (int i = 0; i < f->frames; i++) {
         fst_film_frame frame = {.clock = NULL};
         char clock[64];

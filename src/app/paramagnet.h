@@ -60,6 +60,10 @@ typedef struct fst_balances {
 fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
                                    fst_balances *balances, fst_error *error);
 
+/* The same ten times more coarsely, for long windows in which means are wanted to a few digits. */
+fst_status fst_paramagnet_means(const fst_params *params, double discard, double periods,
+                                fst_balances *balances, fst_error *error);
+
 /* |friction + boundary - field| and |boundary|, over the larger of friction and field. */
 double fst_balance_residual(const fst_balance *balance);
 double fst_balance_boundary(const fst_balance *balance);
