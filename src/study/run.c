@@ -201,7 +201,8 @@ static fst_status report_progress(fst_run_state *run, fst_error *error)
     const fst_run_sink *sink = &run->options->sink;
     if (!sink->progress || run->flow->accepted % 64 != 0)
         return FST_OK;
-    return sink->progress(sink->user, FST_RUN_SHARE * run->flow->t.high / run->t_end, error);
+    const double share = run->ramp_rate != 0.0 ? 1.0 : FST_RUN_SHARE; /* a ramp needs no exponent */
+    return sink->progress(sink->user, share * run->flow->t.high / run->t_end, error);
 }
 
 static fst_status one_step(fst_run_state *run, double t_limit, fst_error *error)
