@@ -66,13 +66,16 @@ double fst_paper_halving_line(const fst_paper_state *paper, fst_dynamics dynamic
     /* Without the orbits the threshold is only bracketed, and the two nearest drives may lie beyond it. */
     enum { NEAREST = 5, LEFT_OUT = 2 };
     double omega[NEAREST], square[NEAREST];
+    int count = 0;
     for (int i = 0; i < NEAREST; i++) {
         const fst_halving_point *point =
             &paper->halving[dynamics].points[FST_HALVING_BELOW - LEFT_OUT - NEAREST + i];
-        omega[i] = point->omega;
-        square[i] = point->mean_nz * point->mean_nz;
+        if (isnan(point->mean_nz)) /* it has not settled */
+            continue;
+        omega[count] = point->omega;
+        square[count++] = point->mean_nz * point->mean_nz;
     }
-    return fst_line_zero(omega, square, NEAREST);
+    return count < 3 ? NAN : fst_line_zero(omega, square, count);
 }
 
 /* ------------------------------------------------------------------ rapid corotation */

@@ -261,7 +261,7 @@ double fst_balance_boundary(const fst_balance *balance)
 
 int fst_balances_settled(const fst_balances *balances)
 {
-    static const double STATIONARY = 0.02;
+    static const double STATIONARY = 0.05;
     return fst_balance_boundary(&balances->of[FST_BALANCE_MOMENT]) < STATIONARY &&
            fst_balance_boundary(&balances->of[FST_BALANCE_KINETIC]) < STATIONARY;
 }

@@ -69,7 +69,7 @@ double fst_balance_residual(const fst_balance *balance);
 double fst_balance_boundary(const fst_balance *balance);
 
 /* Whether <r V_alpha> and <r' V_r + r alpha' V_alpha> are those of a stationary motion: what the state's change
- * adds is under 2 %.  (The energy of a bead that the printed equations move may grow for ever: they spin it
+ * adds is under 5 %.  (The energy of a bead that the printed equations move may grow for ever: they spin it
  * up.) */
 int fst_balances_settled(const fst_balances *balances);
 
