@@ -28,6 +28,8 @@ static void errors_cover(void **state)
             continue;
         ++states;
         assert_int_equal(fst_lyapunov_find(&params, NULL, &l, NULL), FST_OK);
+        for (int c = 1; c < FST_EIGENVALUE_COUNT; ++c)
+            assert_true(l.exponents[c] <= l.exponents[c - 1]); /* they fall */
         for (int c = 0; c < known.count; ++c) {
             cover(&spectrum, l.exponents[c], l.errors[c], known.exponents[c]);
             CHECK_CLOSE(l.exponents[c], known.exponents[c], 0.01 * fabs(known.exponents[c]) + 1e-4);

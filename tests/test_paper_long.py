@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -30,6 +31,24 @@ class Commands(unittest.TestCase):
                 else:
                     self.assertLessEqual(abs(value - expected), 1e-12 * abs(expected), command)
         self.assertGreater(len(printed), 70)
+
+
+class Documentation(unittest.TestCase):
+    def test_the_table_of_remanence_is_what_the_program_finds(self):
+        """docs/paper.md prints what the figure is drawn from, which no reduced paper has."""
+        text = (Path(os.environ["SOURCE_DIR"]) / "docs" / "paper.md").read_text()
+        rows = re.findall(r"^\| ([\d.]+)e-3 \| ([\d.]+) \| ([\d.]+) \|$", text, re.MULTILINE)
+        with tempfile.TemporaryDirectory() as scratch:
+            subprocess.run([FESTOON, "paper", "-o", scratch], check=True, capture_output=True)
+            data = (Path(scratch) / "remanence.dat").read_text()
+        curves = [[tuple(map(float, line.split()[:2])) for line in block.splitlines() if line and line[0] != "#"]
+                  for block in data.split("\n\n\n")]
+        curves = [curve for curve in curves if curve]
+        self.assertEqual((len(curves), len(rows)), (2, len(curves[0])))
+        for column, curve in enumerate(curves):
+            for row, (strength, percent) in zip(rows, curve):
+                self.assertAlmostEqual(float(row[0]), strength)
+                self.assertEqual(row[1 + column], f"{1.5 * percent / 100:.4f}", (row, column))
 
 
 if __name__ == "__main__":

@@ -209,7 +209,7 @@ static void the_least_kappa_is_below_what_a_bisection_finds(void **unused)
         assert_true(least.kappa <= cases[i].bisected * 1.03);
         assert_true(least.kappa / least.below < 1.03); /* as finely as the scan promises */
         char row[64];
-        (void)snprintf(row, sizeof row, "| %.1e | %.4f |", cases[i].a, least.kappa);
+        (void)snprintf(row, sizeof row, "| %.1fe-3 | %.4f |", 1e3 * cases[i].a, least.kappa);
         if (!strstr(text, row))
             fail_msg("docs/paper.md lacks \"%s\"", row);
     }

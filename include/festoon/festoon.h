@@ -150,10 +150,10 @@ FST_API fst_status fst_params_set(fst_params *params, const char *key, const cha
  * and a run that is no longer, the first half. */
 FST_API double fst_run_discard(const fst_params *params);
 
-/* Whether the bead's mass and radius contradict any material: a density outside 1000 to 23000 kg/m^3; or a changed
- * radius with the mass and the magnetic strength (kappa) of the default bead.  Returns 0 where they do not, else a
- * sentence that says so is left in `sentence`.  A run is possible all the same.  A scene with model.eps is scaled:
- * its radius plays no part, and nothing is said. */
+/* Whether the bead's mass and radius contradict any material: a density outside 1000 to 23000 kg/m^3; or a
+ * changed radius with the mass and the magnetic strength (kappa) of the default bead.  Returns 0 where they do
+ * not, else a sentence that says so is left in `sentence`.  A run is possible all the same.  A scene with
+ * model.eps is scaled: its radius plays no part, and nothing is said. */
 FST_API int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size);
 
 /* The other forms of a quantity that fst_params_set() clears: the key that says the same, or NULL. */

@@ -314,14 +314,19 @@ MEASURE(rolling_identity)
 MEASURE(remanence)
 {
     const fst_least_found *least = &paper->remanence[dynamics][0][0];
+    const fst_kappa_scan *scan = &fst_remanence_scan;
+    char edge[96];
+    if (isnan(least->below))
+        (void)snprintf(edge, sizeof edge, "it does with the scan's least value: less may be enough");
+    else
+        (void)snprintf(edge, sizeof edge, "an edge between %.4g and %.4g; smaller ranges can be missed",
+                       least->below, least->kappa);
     (void)snprintf(
         note, size,
-        "least κ found of a magnetisable bead, a = %g, at the drive %g, from one of %d starts, in a "
-        "scan from %g by factors of %.2f and then between %.3g and %.3g; smaller ranges can be missed. A "
-        "neodymium bead has 1.5",
-        fst_remanence_strengths[0], fst_remanence_drives[0], fst_remanence_scan.starts, fst_remanence_scan.low,
-        pow(fst_remanence_scan.high / fst_remanence_scan.low, 1.0 / (fst_remanence_scan.points - 1)),
-        least->below, least->kappa);
+        "least κ found of a magnetisable bead, a = %g, at the drive %g, from one of %d starts, in a scan "
+        "from %g by factors of %.2f: %s. A neodymium bead has 1.5",
+        fst_remanence_strengths[0], fst_remanence_drives[0], scan->starts, scan->low,
+        pow(scan->high / scan->low, 1.0 / (scan->points - 1)), edge);
     return 100.0 * least->kappa / 1.5;
 }
 

@@ -172,6 +172,8 @@ fst_status fst_paper_run_settled(fst_params *params, fst_run_result *result, fst
                                  fst_error *error);
 /* Its regime is decided, and the errors of its means are small.  (Neither chaotic nor off the plate.) */
 int fst_paper_is_settled(const fst_run_result *result);
+/* It has not settled, and more time may settle it: chaos stays chaos, and what left the plate is gone. */
+int fst_paper_may_settle(const fst_run_result *result);
 /* Runs of a scan that did not settle in all this time. */
 int fst_paper_unsettled(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics);
 

@@ -190,7 +190,7 @@ static fst_status probe(const fst_paper_state *paper, fst_change change, fst_dyn
     if (status == FST_OK)
         status = fst_paper_run_settled(&params, &result, NULL, error);
     if (status == FST_OK)
-        *below = result.regime == FST_REGIME_UNDECIDED ? -1 : is_below(change, &result);
+        *below = isnan(result.mean_r) && fst_paper_may_settle(&result) ? -1 : is_below(change, &result);
     return status;
 }
 

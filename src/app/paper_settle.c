@@ -13,7 +13,7 @@ static const double KNOWN = 1e-3;
 
 static int is_known(double mean, double error, double scale)
 {
-    return !(error > KNOWN * fmax(fabs(mean), scale));
+    return error <= KNOWN * fmax(fabs(mean), scale); /* and not where it is undefined */
 }
 
 int fst_paper_is_settled(const fst_run_result *result)
@@ -26,8 +26,7 @@ int fst_paper_is_settled(const fst_run_result *result)
            is_known(result->mean_alpha_dot, result->mean_alpha_dot_error, 1e-3 * result->omega);
 }
 
-/* Whether more time may settle it: chaos stays chaos, and what left the plate is gone. */
-static int may_settle(const fst_run_result *result)
+int fst_paper_may_settle(const fst_run_result *result)
 {
     return !fst_paper_is_settled(result) && result->regime != FST_REGIME_CHAOTIC &&
            result->regime != FST_REGIME_EJECTED && result->regime != FST_REGIME_LIFTED;
@@ -57,7 +56,7 @@ fst_status fst_paper_run_settled(fst_params *params, fst_run_result *result, fst
     for (int doublings = 0;; doublings++) {
         const fst_status status = trajectory ? fst_collect_run(params, result, trajectory, error)
                                              : fst_run(params, &options, result, error);
-        if (status != FST_OK || !may_settle(result))
+        if (status != FST_OK || !fst_paper_may_settle(result))
             return status;
         if (doublings == MOST_DOUBLINGS) {
             forget_means(result);
@@ -75,7 +74,7 @@ int fst_paper_unsettled(const fst_paper_state *paper, fst_scan scan, fst_dynamic
     int count = 0;
     for (int i = 0; scan < FST_SCAN_NONE && i < paper->counts[scan]; i++) {
         const fst_paper_run *run = &paper->scans[scan][dynamics][i];
-        count += run->done && may_settle(&run->result);
+        count += run->done && fst_paper_may_settle(&run->result);
     }
     return count;
 }

@@ -202,15 +202,14 @@ static fst_status average(followed *bead, double t0, int panels, double panel, m
     return status;
 }
 
-fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
-                                   fst_balances *balances, fst_error *error)
+static fst_status balances_over(const fst_params *params, double discard, double periods, int panels_per_period,
+                                fst_balances *balances, fst_error *error)
 {
-    enum { PANELS = 240 }; /* per drive period: the printed equations have the moment turn over in bursts */
     followed bead;
     moment_in_time first = {0}, mean = {0}, last = {0};
-    int panels = (int)ceil(periods * PANELS);
+    int panels = (int)ceil(periods * panels_per_period);
     fst_status status = begin(&bead, params, error);
-    double t0 = discard * bead.period, panel = bead.period / PANELS, time = panels * panel;
+    double t0 = discard * bead.period, panel = bead.period / panels_per_period, time = panels * panel;
     if (status == FST_OK)
         status = look_at(&bead, t0, &first, error);
     if (status == FST_OK)
@@ -231,6 +230,20 @@ fst_status fst_paramagnet_balances(const fst_params *params, double discard, dou
     return status;
 }
 
+fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
+                                   fst_balances *balances, fst_error *error)
+{
+    enum { PANELS = 240 }; /* per drive period: the printed equations have the moment turn over in bursts */
+    return balances_over(params, discard, periods, PANELS, balances, error);
+}
+
+fst_status fst_paramagnet_means(const fst_params *params, double discard, double periods,
+                                fst_balances *balances, fst_error *error)
+{
+    enum { PANELS = 24 };
+    return balances_over(params, discard, periods, PANELS, balances, error);
+}
+
 static double scale_of(const fst_balance *balance)
 {
     return fmax(fabs(balance->friction), fabs(balance->field));
@@ -248,7 +261,7 @@ double fst_balance_boundary(const fst_balance *balance)
 
 int fst_balances_settled(const fst_balances *balances)
 {
-    static const double STATIONARY = 0.02;
+    static const double STATIONARY = 0.05;
     return fst_balance_boundary(&balances->of[FST_BALANCE_MOMENT]) < STATIONARY &&
            fst_balance_boundary(&balances->of[FST_BALANCE_KINETIC]) < STATIONARY;
 }

@@ -60,12 +60,16 @@ typedef struct fst_balances {
 fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
                                    fst_balances *balances, fst_error *error);
 
+/* The same ten times more coarsely, for long windows in which means are wanted to a few digits. */
+fst_status fst_paramagnet_means(const fst_params *params, double discard, double periods,
+                                fst_balances *balances, fst_error *error);
+
 /* |friction + boundary - field| and |boundary|, over the larger of friction and field. */
 double fst_balance_residual(const fst_balance *balance);
 double fst_balance_boundary(const fst_balance *balance);
 
 /* Whether <r V_alpha> and <r' V_r + r alpha' V_alpha> are those of a stationary motion: what the state's change
- * adds is under 2 %.  (The energy of a bead that the printed equations move may grow for ever: they spin it
+ * adds is under 5 %.  (The energy of a bead that the printed equations move may grow for ever: they spin it
  * up.) */
 int fst_balances_settled(const fst_balances *balances);
 

@@ -209,7 +209,8 @@ static fst_status report_progress(fst_run_state *run, fst_error *error)
     if (!sink->progress || run->flow->accepted % 64 != 0)
         return FST_OK;
     const double done = run->ramp_waits ? fst_ramp_progress(run) : run->flow->t.high / run->t_end;
-    return sink->progress(sink->user, FST_RUN_SHARE * done, error);
+    const double share = run->ramp_rate != 0.0 ? 1.0 : FST_RUN_SHARE; /* a ramp needs no exponent */
+    return sink->progress(sink->user, share * done, error);
 }
 
 fst_status fst_run_one_step(fst_run_state *run, double t_limit, fst_error *error)
