@@ -9,7 +9,7 @@ static fst_flow *begun(const fst_params *p, fst_model **model)
 {
     double start[FST_STATE_SIZE];
     fst_error error = {FST_OK, "", ""};
-    fst_flow *flow;
+    fst_flow *flow = NULL;
     const fst_flow_options options = fst_default_flow_options();
     *model = model_of(p);
     if (fst_start_state(p, *model, start, &error) != FST_OK ||
