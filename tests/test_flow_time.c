@@ -9,7 +9,7 @@ static fst_flow *begun(const fst_params *p, fst_model **model)
 {
     double start[FST_STATE_SIZE];
     fst_error error = {FST_OK, "", ""};
-    fst_flow *flow;
+    fst_flow *flow = NULL;
     const fst_flow_options options = fst_default_flow_options();
     *model = model_of(p);
     if (fst_start_state(p, *model, start, &error) != FST_OK ||
@@ -28,12 +28,13 @@ static void test_landing_leaves_nothing(void **unused)
     for (int i = 1; i <= 40; ++i) {
         const double t = 7.1 * i + (i > 20 ? 100.0 / 3.0 : 0.0); /* several steps on */
         fst_stop stop;
+        while (flow->t.high < t)
+            assert_int_equal(fst_flow_step(flow, t, NULL), FST_OK);
+        assert_true(flow->t.high == t);
+        assert_true(flow->t.low == 0.0);
+        const uint64_t accepted = fst_flow_get(flow).accepted;
         assert_int_equal(fst_flow_advance(flow, t, 0, &stop, NULL), FST_OK);
-        const fst_flow_info info = fst_flow_get(flow);
-        assert_true(info.t == t);
-        assert_true(info.t_low == 0.0);
-        assert_int_equal(fst_flow_advance(flow, t, 0, &stop, NULL), FST_OK);
-        assert_true(fst_flow_get(flow).accepted == info.accepted);
+        assert_true(fst_flow_get(flow).accepted == accepted);
     }
     fst_flow_free(flow);
     fst_model_free(model);

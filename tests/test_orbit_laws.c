@@ -232,6 +232,34 @@ static void the_pitchfork_on_the_axis(void **unused)
     fst_branch_free(&branch);
 }
 
+/* Two crossings in one long step do not hide each other: with steps ten times as long as usual the same Hopf
+ * point is found, beside which its pair meets on the real axis. */
+static void crossings_in_a_long_step(void **unused)
+{
+    (void)unused;
+    const fst_params params = scene_of(0.21513626, "rigid");
+    fst_branch_options options = fst_default_branch_options();
+    options.kind = FST_BRANCH_LOCKED;
+    options.key = "model.h";
+    options.from = 0.5;
+    options.to = 0.85;
+    options.longest_step = 5.0;
+    fst_branch branch = followed(&params, &options);
+    CHECK_CLOSE(special_near(&branch, FST_SPECIAL_HOPF, 0.79098553)->value, 0.79098553139, 1e-7);
+    CHECK_CLOSE(special_near(&branch, FST_SPECIAL_FOLD, 0.79602187)->value, 0.79602186607, 1e-7);
+    CHECK_CLOSE(special_near(&branch, FST_SPECIAL_HOPF, 0.83383715)->value, 0.83383714925, 1e-7);
+    fst_branch_free(&branch);
+}
+
+/* Progress that has patience for so many points. */
+static fst_status lose_patience(void *user, double fraction, fst_error *error)
+{
+    int *left = user;
+    (void)fraction, (void)error;
+    *left -= 1;
+    return *left > 0 ? FST_OK : FST_INTERRUPTED;
+}
+
 /* A branch that comes back to where it began is followed once round. */
 static void a_closed_branch_is_followed_once(void **unused)
 {
@@ -242,8 +270,10 @@ static void a_closed_branch_is_followed_once(void **unused)
     options.key = "model.h";
     options.from = 0.51;
     options.to = 0.56;
+    int left = 1000, closed = 0;
+    options.user = &left;
+    options.progress = lose_patience;
     fst_branch branch = followed(&params, &options);
-    int closed = 0;
     for (size_t i = 0; i < branch.end_count; ++i)
         closed += strstr(branch.ends[i].reason, "closes on itself") != NULL;
     assert_true(closed > 0);
@@ -254,10 +284,10 @@ static void a_closed_branch_is_followed_once(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(derivatives_by_parameters),        cmocka_unit_test(swings_are_those_of_the_path),
-        cmocka_unit_test(branches_end_at_their_borders),    cmocka_unit_test(the_axis_is_passed),
-        cmocka_unit_test(the_pitchfork_on_the_axis),        cmocka_unit_test(a_pair_leaves_the_circle),
-        cmocka_unit_test(a_closed_branch_is_followed_once),
+        cmocka_unit_test(derivatives_by_parameters),     cmocka_unit_test(swings_are_those_of_the_path),
+        cmocka_unit_test(branches_end_at_their_borders), cmocka_unit_test(the_axis_is_passed),
+        cmocka_unit_test(the_pitchfork_on_the_axis),     cmocka_unit_test(a_pair_leaves_the_circle),
+        cmocka_unit_test(crossings_in_a_long_step),      cmocka_unit_test(a_closed_branch_is_followed_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

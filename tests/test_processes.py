@@ -80,6 +80,18 @@ class Processes(Case):
         self.assertEqual(content_of(self.path("f.svg"), "r"), "old")
         self.assertEqual(self.leftovers(), [])
 
+    def test_a_caller_without_streams(self):
+        """The pipes to gnuplot take no place of a stream that the caller closed: the figure is drawn."""
+        for closed in (">&-", "<&- >&- 2>&-"):
+            with self.subTest(closed=closed):
+                figure = self.path("f.svg")
+                if os.path.exists(figure):
+                    os.unlink(figure)
+                command = f'"$0" plot "$1" -o "$2" {closed}'
+                done = subprocess.run(["sh", "-c", command, FESTOON, self.path("t.csv"), figure], timeout=300, check=False)
+                self.assertEqual(done.returncode, 0)
+                self.assertIn("</svg>", content_of(figure, "r"))
+
 
 if __name__ == "__main__":
     unittest.main()

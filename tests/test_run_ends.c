@@ -125,12 +125,28 @@ static void test_a_bead_that_was_caught(void **unused)
     }
 }
 
+/* A bead that turns to and fro has no whole returns: its means are over whole drive periods. */
+static void test_turning_to_and_fro(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.5, FST_DYNAMICS_RIGID);
+    p.friction_law = FST_FRICTION_NONE;
+    p.start_r = 1.5;
+    p.start_spin = FST_SPIN_REST;
+    p.run_periods = 80;
+    p.run_discard = 20;
+    const fst_run_result r = run_of(&p);
+    assert_true(r.returns > 20);
+    CHECK_CLOSE(r.window_periods, 60, 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_earlier_of_two_bounds),
         cmocka_unit_test(test_progress_that_says_stop),
         cmocka_unit_test(test_a_bead_that_was_caught),
+        cmocka_unit_test(test_turning_to_and_fro),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

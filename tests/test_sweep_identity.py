@@ -33,6 +33,11 @@ class Identity(Case):
         self.assertEqual((told["points"], told["rows"], told["added"], told["failed"]), (3, 3, 3, 1))
         self.assertIn("1 runs failed", self.good(*words, self.path("b.db")))
 
+    def test_what_changes_the_units_carries_no_state(self):
+        """A state in units of l and 1/gamma means another motion where these change."""
+        for axis in ("friction.gamma=300,312.5", "magnet.half_length=22mm,23mm"):
+            self.assertIn("units", self.refused("sweep", *SHORT, "--over", axis, "--carry", "up", "-o", self.path("a.db")))
+
     def test_random_axes_are_not_one(self):
         """Two axes drawn together draw different numbers."""
         self.good("sweep", *DRAWN, "--seed", "7", "-o", self.path("a.db"))

@@ -1,0 +1,45 @@
+"""Values on the command line: what stands behind the first "=" is the value, all of it, lists have as many numbers as
+they are asked for, and what fails leaves nothing.
+
+Environment: FESTOON is the program.
+"""
+
+import os
+import unittest
+
+from sweep_tools import Case
+
+
+class Options(Case):
+    def test_all_behind_the_first_equals_sign_is_the_value(self):
+        """Nothing of it is dropped: then the rest could be a good value by accident."""
+        for setting in ("run.periods=abc=50", "run.periods=50=60", "bead.material==hard", "start.r=0.9=0.8"):
+            with self.subTest(setting=setting):
+                key, value = setting.split("=", 1)
+                err = self.refused("check", "--set", setting)
+                self.assertIn(key, err)
+                self.assertIn(value, err)
+
+    def test_lists_have_their_length(self):
+        """Neither fewer numbers nor more, and nothing behind them."""
+        self.good("run", "--set", "run.periods=2", "--set", "run.discard=1", "-o", self.path("t.csv"))
+        for zoom in ("1,2,3", "1,2,3,4,5", "1,2,3,4,", "1,2,3,4 mm", "1;2;3;4", ""):
+            with self.subTest(zoom=zoom):
+                self.assertIn("zoom", self.refused("plot", self.path("t.csv"), "-o", self.path("f.svg"), "--zoom", zoom))
+                self.assertFalse(os.path.exists(self.path("f.svg")))
+        for number in ("1,2", "one", "1 period", ""):
+            with self.subTest(number=number):
+                self.assertIn("from", self.refused("plot", self.path("t.csv"), "-o", self.path("f.svg"), "--from", number))
+
+    def test_a_failed_run_leaves_no_file(self):
+        """A start that does not exist: no trajectory, and the one of an earlier run stays as it was."""
+        impossible = ["--set", "model.eps=0.2", "--set", "start.r=0.2", "--set", "start.spin=rolling"]
+        self.refused("run", *impossible, "-o", self.path("new.csv"))
+        self.assertEqual(os.listdir(self.directory), [])
+        self.good("run", "--set", "run.periods=2", "--set", "run.discard=1", "-o", self.path("t.csv"))
+        self.refused("run", *impossible, "-o", self.path("t.csv"))
+        self.assertEqual(os.listdir(self.directory), ["t.csv"])
+
+
+if __name__ == "__main__":
+    unittest.main()
