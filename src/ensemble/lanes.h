@@ -55,8 +55,8 @@ typedef struct fst_lane_engine {
     void (*load)(void *batch, int lane, const fst_flow *flow, double t_limit);
     void (*release)(void *batch, int lane);
 
-    /* All that a lane knows between two steps, as so many numbers; and back into a lane, after load() of the same
-     * trajectory, which then goes on to the same bits. */
+    /* All that a lane knows between two steps, as so many numbers; and back into a lane, after load() of the
+     * same trajectory, which then goes on to the same bits. */
     int numbers;
     void (*save)(const void *batch, int lane, double *numbers);
     void (*restore)(void *batch, int lane, const double *numbers);
