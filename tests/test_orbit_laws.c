@@ -270,7 +270,7 @@ static void a_closed_branch_is_followed_once(void **unused)
     options.key = "model.h";
     options.from = 0.51;
     options.to = 0.56;
-    int left = 1000, closed = 0;
+    int left = 20000, closed = 0; /* questions, one every 4000 evaluations */
     options.user = &left;
     options.progress = lose_patience;
     fst_branch branch = followed(&params, &options);
