@@ -1,4 +1,5 @@
-/* Folds over two parameters: all along the curve an eigenvalue is zero, and its ends are folds over one parameter. */
+/* Folds over two parameters: all along the curve an eigenvalue is zero, and its ends are folds over one
+ * parameter. */
 #include "special_curves.h"
 
 static void folds_of_locked_states(void **state)

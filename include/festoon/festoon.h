@@ -364,11 +364,11 @@ typedef struct fst_run_options {
     fst_run_sink sink;
     double ramp_from, ramp_to; /* drive omega at the start and end of a ramp; NAN: no ramp */
     int ramp_points;           /* pieces of the ramp over which means are taken */
-    double ramp_wait;          /* most turns of the magnet for which each piece waits, half way, until the motion
-                                * has settled; 0: the drive changes steadily */
-    double ramp_disturbance;   /* size of the disturbance with which the motion starts there, scaled */
-    double sample_from;        /* drive periods before which no sample is taken */
-    const double *start;       /* FST_STATE_SIZE numbers: the state at the start; NULL: what start.* says */
+    double ramp_wait;        /* most turns of the magnet for which each piece waits, half way, until the motion
+                              * has settled; 0: the drive changes steadily */
+    double ramp_disturbance; /* size of the disturbance with which the motion starts there, scaled */
+    double sample_from;      /* drive periods before which no sample is taken */
+    const double *start;     /* FST_STATE_SIZE numbers: the state at the start; NULL: what start.* says */
 } fst_run_options;
 FST_API fst_run_options fst_default_run_options(void);
 

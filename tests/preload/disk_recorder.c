@@ -1,8 +1,8 @@
 /* disk_recorder.c - preloaded into the program by tests: what it asks of the file system below one folder is
  * written down, in order, so that a test can build the states in which a loss of power may leave the disk.
  *
- * $DISK_FOLDER is the folder (its real path), $DISK_LOG the file to write to.  Each entry is a line, for W with bytes
- * behind it:
+ * $DISK_FOLDER is the folder (its real path), $DISK_LOG the file to write to.  Each entry is a line, for W with
+ * bytes behind it:
  *
  *     C inode path            a new, empty file            U path            unlinked
  *     W inode offset size     written                      R from, to        renamed (two lines)
@@ -143,7 +143,8 @@ VISIBLE ssize_t pwrite64(int descriptor, const void *bytes, size_t size, off_t p
     return pwrite_recorded(descriptor, bytes, size, place);
 }
 
-/* Streams write by write(2) inside the C library, which nothing preloaded sees: none of the watched files is one. */
+/* Streams write by write(2) inside the C library, which nothing preloaded sees: none of the watched files is
+ * one. */
 VISIBLE ssize_t write(int descriptor, const void *bytes, size_t size)
 {
     char path[4096];
