@@ -1,11 +1,19 @@
 /* drift.c - is a motion settled?  A straight line is laid through the means of the window's blocks.
  *
- *     <r> |                        x x      The line's change over the window is a drift if it stands out of
- * the |                 x  x x          scatter about the line, and is large enough to matter.  A motion that
- *         |           x  x                  goes back and forth scatters about a level line; one that relaxes,
- * or |      x  x                       creeps away, does not. |  x x
+ * The line's change over the window is a drift if it stands out of the scatter about the line, and is large
+ * enough to matter.  A motion that goes back and forth scatters about a level line; one that relaxes, or creeps
+ * away, does not:
+ */
+/* clang-format off */
+/*
+ *     <r> |                       x  x
+ *         |              x  x  x
+ *         |        x  x
+ *         |  x  x
  *         +--------------------------- t
- *
+ */
+/* clang-format on */
+/*
  * Where the blocks follow a slow swing of few cycles, a drift can hide in it: a swing of k cycles tilts the
  * line by up to 6 sqrt(2)/(pi k) standard deviations.  The changes of sign of what is left of the line count
  * the cycles.
