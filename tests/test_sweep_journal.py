@@ -57,6 +57,19 @@ class Logs(Journal):
         self.assertEqual(self.made(), expected)
         self.assertEqual([name for name in os.listdir(self.directory) if name.startswith("a.db-")], [])
 
+    def test_what_a_killed_command_left_is_removed(self):
+        """The next command removes it, also where the database is there already; not what another host is writing."""
+        expected = self.made()
+        host = 2166136261
+        for byte in socket.gethostname().encode():
+            host = (host ^ byte) * 16777619 % 2**32
+        left = [".a.db.lock", f".a.db.{host:08x}-1-0.part"]
+        others = [f".a.db.{host ^ 1:08x}-1-0.part", ".b.db.lock"]
+        for name in left + others:
+            self.put(name, b"")
+        self.assertEqual(self.made(), expected)
+        self.assertEqual(sorted(os.listdir(self.directory)), sorted(others + ["a.db"]))
+
     def test_a_killed_sweep_whose_file_alone_was_deleted(self):
         process, _ = begin(self, "a.db")
         process.kill()

@@ -7,12 +7,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmocka.h>
 
+#include "base/file_lock.h"
 #include "base/text.h"
 #include "base/whole_file.h"
 
@@ -97,7 +97,7 @@ static void files_in_work_stay(void **state)
     (void)state;
     char *living = other_writers("b.csv");
     const int descriptor = leave_file(living);
-    assert_int_equal(flock(descriptor, LOCK_EX), 0);
+    assert_int_equal(fst_lock_byte(descriptor, FST_LOCK_WRITING, 0), 0);
     write_whole(inside("b.csv"));
     assert_true(exists(living));
     fst_whole_file_tidy(folder, ".b");

@@ -7,11 +7,11 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/file_lock.h"
 
 enum {
     DECORATION = 64,    /* room in a temporary name beside the directory and the file's own name */
@@ -85,7 +85,8 @@ static void remove_if_abandoned(int directory, const char *entry)
     const int descriptor = openat(directory, entry, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0)
         return;
-    if (fstat(descriptor, &there) == 0 && S_ISREG(there.st_mode) && flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+    if (fstat(descriptor, &there) == 0 && S_ISREG(there.st_mode) &&
+        fst_lock_byte(descriptor, FST_LOCK_WRITING, 0) == 0)
         (void)unlinkat(directory, entry, 0);
     (void)close(descriptor);
 }
@@ -117,6 +118,23 @@ static char *directory_of(const char *path)
     return length ? strndup(path, length) : strdup(".");
 }
 
+enum { PREFIX_SIZE = LONGEST_NAME + 3 };
+
+/* How the names of temporary files of `path` begin: ".NAME.". */
+static void begin_name(const char *path, char prefix[PREFIX_SIZE])
+{
+    (void)snprintf(prefix, PREFIX_SIZE, ".%.*s.", LONGEST_NAME, path + directory_length(path));
+}
+
+void fst_whole_file_tidy_beside(const char *path)
+{
+    char prefix[PREFIX_SIZE], *place = directory_of(path);
+    begin_name(path, prefix);
+    if (place)
+        remove_leftovers(place, prefix, 1);
+    free(place);
+}
+
 /* A new locked file at file->temporary; -1: errno tells why.  Between making and locking it another command may
  * have taken it for a leftover: then it has no name any more, and the next one is tried. */
 static int create_locked(const fst_whole_file *file)
@@ -125,8 +143,8 @@ static int create_locked(const fst_whole_file *file)
     const int descriptor = open(file->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0)
         return -1;
-    while (flock(descriptor, LOCK_EX) != 0 && errno == EINTR)
-        continue; /* a file system without locks: then nobody takes it for a leftover either */
+    /* On a file system without locks this fails: then nobody takes the file for a leftover either. */
+    (void)fst_lock_byte(descriptor, FST_LOCK_WRITING, 1);
     if (fstat(descriptor, &here) == 0 && here.st_nlink > 0)
         return descriptor;
     (void)close(descriptor);
@@ -138,12 +156,10 @@ static int create_locked(const fst_whole_file *file)
 static int create_temporary(fst_whole_file *file, int tidy)
 {
     const size_t start = directory_length(file->path), size = strlen(file->path) + DECORATION;
-    char prefix[LONGEST_NAME + DECORATION];
-    (void)snprintf(prefix, sizeof prefix, ".%.*s.", LONGEST_NAME, file->path + start);
-    char *place = tidy ? directory_of(file->path) : NULL;
-    if (place)
-        remove_leftovers(place, prefix, 1);
-    free(place);
+    char prefix[PREFIX_SIZE];
+    begin_name(file->path, prefix);
+    if (tidy)
+        fst_whole_file_tidy_beside(file->path);
     file->temporary = malloc(size);
     if (!file->temporary) {
         errno = ENOMEM;

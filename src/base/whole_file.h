@@ -29,6 +29,9 @@ fst_status fst_whole_file_open(fst_whole_file *file, const char *path, fst_error
 fst_status fst_whole_file_open_next(fst_whole_file *file, const char *path, fst_error *error);
 void fst_whole_file_tidy(const char *directory, const char *prefix);
 
+/* Remove the leftovers of `path` without writing it. */
+void fst_whole_file_tidy_beside(const char *path);
+
 /* The temporary file's descriptor, for writers other than the stream; it stays the file's. */
 int fst_whole_file_descriptor(const fst_whole_file *file);
 

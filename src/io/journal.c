@@ -106,8 +106,10 @@ static fst_status lock_existing(const char *name, const char *path, int last, in
                      strerror(errno));
     else if (state == FST_LOCK_TAKEN && last)
         status = fst_lock_fail(*descriptor, name, error);
-    if (status == FST_OK && state == FST_LOCK_MINE && fst_sweep_file_is_there(path, &opened))
+    if (status == FST_OK && state == FST_LOCK_MINE && fst_sweep_file_is_there(path, &opened)) {
+        fst_sweep_tidy(path);
         return FST_OK;
+    }
     (void)close(*descriptor);
     *descriptor = -1;
     return status;

@@ -1,11 +1,12 @@
 /* sweep_make.c - the life of a database until it has its name.
  *
- *     .NAME.PROCESS-0.part    is filled, synced and locked,
+ *     .NAME.HOST-PROCESS-0.part   is filled, synced and locked,
  *     .NAME.lock              is locked, so that one command at a time goes through what follows,
  *     NAME-wal, -shm, -journal    of an earlier database are removed: SQLite would take them for the new one's,
  *     NAME                    is what the first is renamed to, if still nothing has that name.
  *
- * Killed anywhere, this leaves a database of its name, locked by nobody, or none.
+ * Killed anywhere, this leaves a database of its name, locked by nobody, or none; the next command to that name
+ * removes the first two.
  */
 #define _GNU_SOURCE /* renameat2() */
 #include "io/sweep_make.h"
@@ -189,6 +190,21 @@ static fst_status lock_making(const char *lock, const char *name, int *descripto
             wait_a_little();
     }
     return fst_fail(error, FST_IO, name, "other commands make this file and remove it all the time");
+}
+
+void fst_sweep_tidy(const char *path)
+{
+    struct stat opened;
+    char *lock = lock_name(path);
+    const int descriptor = lock ? open(lock, O_RDWR | O_CLOEXEC | O_NOFOLLOW) : -1;
+    if (descriptor >= 0) {
+        if (fst_lock_take(descriptor) == FST_LOCK_MINE && fstat(descriptor, &opened) == 0 &&
+            fst_sweep_file_is_there(lock, &opened))
+            (void)unlink(lock);
+        (void)close(descriptor);
+    }
+    free(lock);
+    fst_whole_file_tidy_beside(path);
 }
 
 /* Give a name to a file unless something has it, other than an empty file. */

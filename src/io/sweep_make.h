@@ -15,6 +15,9 @@ fst_status fst_sweep_make(const char *name, const char *path, const fst_sweep_id
 fst_status fst_sweep_repair(fst_sweep_file *damaged, const fst_sweep_identity *identity, int *descriptor,
                             fst_error *error);
 
+/* Remove what commands that were killed while they made the database left beside it. */
+void fst_sweep_tidy(const char *path);
+
 /* Whether a file is there that is not empty. */
 int fst_sweep_is_made(const char *path);
 
