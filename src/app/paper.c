@@ -2,6 +2,7 @@
 #include "app/paper.h"
 
 #include "app/parallel.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/number.h"
 #include "base/whole_file.h"
@@ -13,7 +14,6 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/utsname.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { OPTIONS_COOKIE = 0x50415052 };
@@ -56,13 +56,6 @@ static fst_status progress_of_stage(void *user, int done, fst_error *error)
     return options->progress(options->user, fraction, stage->what, error);
 }
 
-double fst_paper_clock(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Of all threads, and of the processes that drew. */
 static double processor_seconds(void)
 {
@@ -86,7 +79,7 @@ void fst_paper_note_time(fst_paper_state *paper, const char *what, double began)
         return;
     if (part == paper->part_count)
         paper->parts[paper->part_count++] = (fst_paper_part){what, 0.0};
-    paper->parts[part].seconds += fst_paper_clock() - began;
+    paper->parts[part].seconds += fst_clock_seconds() - began;
 }
 
 void fst_paper_machine(char *text, size_t size)
@@ -107,7 +100,7 @@ void fst_paper_machine(char *text, size_t size)
 
 fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_stage *stage, fst_error *error)
 {
-    double began = fst_paper_clock();
+    double began = fst_clock_seconds();
     stage_in_work in_work = {paper, stage};
     fst_work work = {
         .user = &in_work, .count = stage->count, .piece = piece_of_stage, .progress = progress_of_stage};
@@ -226,7 +219,7 @@ static fst_status answer_all(fst_paper_state *paper, double began, fst_error *er
     double processors_began = processor_seconds();
     const fst_paper_options *options = paper->options;
     fst_status status = make_everything(paper, error);
-    paper->seconds = fst_paper_clock() - began;
+    paper->seconds = fst_clock_seconds() - began;
     paper->processor_seconds = processor_seconds() - processors_began;
     if (status == FST_OK && options->films)
         status = fst_paper_make_films(paper, error);
@@ -250,7 +243,7 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
     fst_status status = options->only ? FST_OK : make_directory(&paper, error);
     if (status != FST_OK)
         return status;
-    double began = fst_paper_clock();
+    double began = fst_clock_seconds();
     fst_c_locale locale = fst_c_locale_enter();
     status = fst_paper_begin(&paper, error);
     if (status == FST_OK)

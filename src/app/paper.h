@@ -158,9 +158,8 @@ typedef struct fst_paper_stage {
     fst_status (*piece)(fst_paper_state *paper, int index, fst_error *error);
 } fst_paper_stage;
 fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_stage *stage, fst_error *error);
-/* Seconds of a clock that only goes forward; and note that `what` took the time since `began` (again: added).
- */
-double fst_paper_clock(void);
+
+/* Note that `what` took the time since `began` of fst_clock_seconds() (again: added). */
 void fst_paper_note_time(fst_paper_state *paper, const char *what, double began);
 
 /* Is the step done, and are the runs of `scan` and of the scans that are made before it? */

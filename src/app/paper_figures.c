@@ -2,6 +2,7 @@
 #include "app/paper.h"
 
 #include "app/parallel.h"
+#include "base/clock.h"
 #include "base/error.h"
 
 #include <stdio.h>
@@ -330,7 +331,7 @@ fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to
             all.list[all.count++] = i;
     }
     fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = progress_of_gallery};
-    double began = fst_paper_clock();
+    double began = fst_clock_seconds();
     fst_status status = fst_parallel(&work, error);
     fst_paper_note_time(paper, "figures", began);
     return status;

@@ -1,6 +1,7 @@
 /* paper_films.c - the two films of the paper's supplement. */
 #include "app/paper.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 
 #include <stdlib.h>
@@ -29,7 +30,7 @@ static fst_status progress(void *user, double fraction, fst_error *error)
 /* As the paper has them: by the printed equations. */
 fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error)
 {
-    double began = fst_paper_clock();
+    double began = fst_clock_seconds();
     fst_status status = FST_OK;
     for (int i = 0; i < FST_FILM_COUNT && status == FST_OK; i++) {
         const fst_paper_run *run = fst_paper_single(paper, films[i].scan, FST_DYNAMICS_FARAGO2020);

@@ -14,6 +14,7 @@
 
 #include "app/ranks.h"
 #include "app/sweep_crew.h"
+#include "base/clock.h"
 #include "base/error.h"
 #include "io/checkpoints.h"
 #include "model/params.h"
@@ -57,15 +58,10 @@ static double read_clock(clockid_t clock)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-static double now(void)
-{
-    return read_clock(CLOCK_MONOTONIC);
-}
-
 /* What the job has taken so far. */
 static void read_clocks(job *j)
 {
-    j->progress.seconds = now() - j->started;
+    j->progress.seconds = fst_clock_seconds() - j->started;
     j->progress.processor_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - j->processor_started;
     j->progress.journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - j->journal_started;
 }
@@ -154,7 +150,7 @@ static fst_status refill(job *j, fst_error *error)
 static fst_status commit(job *j, fst_error *error)
 {
     const fst_status status = fst_journal_commit(j->journal, error);
-    j->committed = now();
+    j->committed = fst_clock_seconds();
     j->uncommitted = 0;
     return status;
 }
@@ -172,7 +168,7 @@ static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fs
         j->progress.failed += rows[i].status != FST_OK;
     j->uncommitted += count;
     if (status == FST_OK && j->uncommitted > 0 &&
-        (j->stopping || j->uncommitted >= COMMIT_ROWS || now() - j->committed > COMMIT_SECONDS))
+        (j->stopping || j->uncommitted >= COMMIT_ROWS || fst_clock_seconds() - j->committed > COMMIT_SECONDS))
         status = commit(j, error);
     if (status == FST_OK) {
         j->progress.added += count;
@@ -280,9 +276,9 @@ static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
             outcome = j->options->progress(j->options->user, &j->progress, error);
         if (stopped == 0.0 && (status != FST_OK || outcome != FST_OK)) {
             status = stop(j, rows, status, error);
-            stopped = now();
+            stopped = fst_clock_seconds();
         }
-        j->no_answer = stopped > 0.0 && followers(j) > 0 && now() - stopped > FAREWELL_SECONDS;
+        j->no_answer = stopped > 0.0 && followers(j) > 0 && fst_clock_seconds() - stopped > FAREWELL_SECONDS;
         if (j->no_answer && !busy)
             break;
         wait_for_messages(j, busy);
@@ -448,7 +444,7 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
                  .options = options,
                  .ranks = {.count = 1, .neighbours = 1}};
         j.progress.points = fst_grid_points(grid);
-        j.started = now();
+        j.started = fst_clock_seconds();
         j.committed = j.started - COMMIT_SECONDS; /* the first row does not wait */
         j.processor_started = read_clock(CLOCK_PROCESS_CPUTIME_ID);
         j.journal_started = read_clock(CLOCK_THREAD_CPUTIME_ID);

@@ -2,6 +2,7 @@
 
 #include "draw/gnuplot.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "draw/process.h"
@@ -17,14 +18,7 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { PATIENCE_MS = 60000, WORDS_SIZE = 512 };
-
-static long long milliseconds(void)
-{
-    struct timespec now;
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (long long)now.tv_sec * 1000 + now.tv_nsec / 1000000;
-}
+enum { PATIENCE = 60 /* seconds */, WORDS_SIZE = 512 };
 
 /* What gnuplot says: its beginning, on one line. */
 typedef struct last_words {
@@ -44,14 +38,14 @@ static void keep_words(last_words *words, const char *piece, size_t size)
 }
 
 /* Take the figure from ends[0] and the words from ends[1] until both are closed or the deadline passes. */
-static void listen_to(const int ends[2], long long deadline, FILE *figure, last_words *words)
+static void listen_to(const int ends[2], double deadline, FILE *figure, last_words *words)
 {
     struct pollfd waiting[2] = {{.fd = ends[0], .events = POLLIN}, {.fd = ends[1], .events = POLLIN}};
     while (waiting[0].fd >= 0 || waiting[1].fd >= 0) {
-        const long long left = deadline - milliseconds();
+        const double left = deadline - fst_clock_seconds();
         if (left <= 0)
             return;
-        const int ready = poll(waiting, 2, (int)left);
+        const int ready = poll(waiting, 2, 1 + (int)(1e3 * left));
         if (ready < 0 && errno != EINTR)
             return;
         for (int i = 0; i < 2 && ready > 0; i++) {
@@ -70,7 +64,7 @@ static void listen_to(const int ends[2], long long deadline, FILE *figure, last_
 }
 
 /* Wait for the child, and end it at the deadline; 1 if it had to be ended. */
-static int wait_for(pid_t child, long long deadline, int *outcome)
+static int wait_for(pid_t child, double deadline, int *outcome)
 {
     int ended = 0;
     for (;;) {
@@ -81,7 +75,7 @@ static int wait_for(pid_t child, long long deadline, int *outcome)
             *outcome = 0;
             return ended;
         }
-        if (!ended && milliseconds() >= deadline) {
+        if (!ended && fst_clock_seconds() >= deadline) {
             (void)kill(child, SIGKILL);
             ended = 1;
         } else if (!ended) {
@@ -162,7 +156,7 @@ static fst_status run_on(const char *directory, char *setting, char *path, const
         (void)close(pipes[0][1]);
         return fst_fail(error, FST_IO, script, "no pipe to gnuplot: %s", strerror(errno));
     }
-    const long long deadline = milliseconds() + PATIENCE_MS;
+    const double deadline = fst_clock_seconds() + PATIENCE;
     const int ends[2] = {pipes[0][0], pipes[1][0]};
     last_words words = {"", 0};
     pid_t child = 0;
@@ -179,7 +173,7 @@ static fst_status run_on(const char *directory, char *setting, char *path, const
         return fst_fail(error, FST_IO, script, "cannot start gnuplot: %s", strerror(failed));
     ended = wait_for(child, deadline, &outcome);
     if (ended)
-        return fst_fail(error, FST_IO, script, "gnuplot did not end within %d s", PATIENCE_MS / 1000);
+        return fst_fail(error, FST_IO, script, "gnuplot did not end within %d s", PATIENCE);
     return judge(outcome, script, words.text, error);
 }
 

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "io/checksum.h"
 #include "io/database.h"
 
 struct fst_checkpoints {
@@ -14,20 +15,10 @@ struct fst_checkpoints {
     sqlite3_stmt *put, *get, *drop; /* NULL until the table is there */
 };
 
-/* FNV-1a, of all that must fit together. */
+/* Of all that must fit together. */
 static sqlite3_int64 checksum(uint64_t identity, int64_t point, const void *image, size_t size)
 {
-    const uint64_t numbers[] = {identity, (uint64_t)point, (uint64_t)size};
-    uint64_t hash = 0xcbf29ce484222325u;
-    const unsigned char *b = (const unsigned char *)numbers;
-    for (size_t i = 0; i < sizeof numbers; ++i)
-        hash = (hash ^ b[i]) * 0x100000001b3u;
-    b = image;
-    for (size_t i = 0; i < size; ++i)
-        hash = (hash ^ b[i]) * 0x100000001b3u;
-    sqlite3_int64 stored;
-    memcpy(&stored, &hash, sizeof stored);
-    return stored;
+    return (sqlite3_int64)fst_checksum_bytes(fst_checksum_word(identity, (uint64_t)point), image, size);
 }
 
 static fst_status prepare(fst_checkpoints *c, fst_error *error)
@@ -78,10 +69,7 @@ fst_status fst_checkpoints_put(fst_checkpoints *c, int64_t point, const void *im
 {
     fst_status status = fst_journal_begin(c->journal, error);
     if (status == FST_OK && !c->put) {
-        status = fst_database_do(c->database, c->path,
-                                 "CREATE TABLE IF NOT EXISTS checkpoints(point INTEGER PRIMARY KEY, "
-                                 "size INTEGER NOT NULL, checksum INTEGER NOT NULL, image BLOB NOT NULL)",
-                                 error);
+        status = fst_database_do(c->database, c->path, FST_CHECKPOINTS_TABLE, error);
         if (status == FST_OK)
             status = prepare(c, error);
     }

@@ -9,6 +9,11 @@
 
 #include "io/journal.h"
 
+/* The text by which the table is made, and known when a database is opened. */
+#define FST_CHECKPOINTS_TABLE                                                                                  \
+    "CREATE TABLE checkpoints(point INTEGER PRIMARY KEY, size INTEGER NOT NULL, checksum INTEGER NOT NULL, "   \
+    "image BLOB NOT NULL)"
+
 typedef struct fst_checkpoints fst_checkpoints;
 
 /* The images of a journal, which must stay open longer; `identity` is its fst_journal_identity_hash(). */

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "io/checkpoints.h"
 #include "io/regular_file.h"
 #include "io/sweep_columns.h"
 #include "io/sweep_lock.h"
@@ -16,10 +17,6 @@
 #define SEAL_TABLE "CREATE TABLE seal(one INTEGER PRIMARY KEY, mark TEXT, commits INTEGER /* %s */)"
 #define IDENTITY_TABLE "CREATE TABLE festoon(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID"
 #define ROWS_TABLE "CREATE TABLE rows(%s)"
-/* Images of runs that are not over; the table is there only while there are some. */
-#define IMAGES_TABLE                                                                                           \
-    "CREATE TABLE checkpoints(point INTEGER PRIMARY KEY, size INTEGER NOT NULL, checksum INTEGER NOT NULL, "   \
-    "image BLOB NOT NULL)"
 
 char *fst_sweep_file_tables(const fst_grid *grid, const char *mark)
 {
@@ -68,7 +65,8 @@ static fst_status check_tables(const fst_sweep_file *file, fst_error *error)
 {
     char *columns = file->grid ? fst_sweep_columns_sql(file->grid) : NULL;
     char *wanted[4] = {sqlite3_mprintf(SEAL_TABLE, file->mark), sqlite3_mprintf(IDENTITY_TABLE),
-                       sqlite3_mprintf(ROWS_TABLE, columns ? columns : ""), sqlite3_mprintf(IMAGES_TABLE)};
+                       sqlite3_mprintf(ROWS_TABLE, columns ? columns : ""),
+                       sqlite3_mprintf(FST_CHECKPOINTS_TABLE)};
     const fst_status status = columns && wanted[0] && wanted[1] && wanted[2] && wanted[3]
                                   ? compare_tables(file, wanted, 4, error)
                                   : fst_fail(error, FST_NO_MEMORY, file->name, "out of memory");

@@ -50,18 +50,6 @@ void fst_identity_free(fst_identity_lines *lines)
     lines->count = 0;
 }
 
-uint64_t fst_journal_identity_hash(const fst_sweep_identity *identity)
-{
-    fst_identity_lines lines;
-    wanted_lines(identity, &lines);
-    uint64_t sum = 0;
-    for (int i = 0; i < lines.count; ++i)
-        if (lines.values[i])
-            sum = fst_checksum_bytes(sum, lines.values[i], strlen(lines.values[i]));
-    fst_identity_free(&lines);
-    return sum;
-}
-
 const char *fst_identity_text(const fst_identity_lines *lines, const char *key)
 {
     for (int i = 0; i < lines->count; ++i)
@@ -142,11 +130,20 @@ uint64_t fst_identity_checksum(const fst_identity_lines *lines)
 {
     uint64_t sum = 0;
     for (int i = 0; i < lines->count; ++i) {
-        if (strcmp(lines->keys[i], "checksum") == 0)
+        if (!lines->values[i] || strcmp(lines->keys[i], "checksum") == 0)
             continue;
         sum = fst_checksum_bytes(sum, lines->keys[i], strlen(lines->keys[i]));
         sum = fst_checksum_bytes(sum, lines->values[i], strlen(lines->values[i]));
     }
+    return sum;
+}
+
+uint64_t fst_journal_identity_hash(const fst_sweep_identity *identity)
+{
+    fst_identity_lines lines;
+    wanted_lines(identity, &lines);
+    const uint64_t sum = fst_identity_checksum(&lines);
+    fst_identity_free(&lines);
     return sum;
 }
 

@@ -2,23 +2,16 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "study/lane_crew.h"
-
-static double now(void)
-{
-    struct timespec time = {0, 0};
-    (void)clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 void fst_crew_take_up(const fst_crew *c, fst_lane *at)
 {
     at->image = NULL;
     if (!c->images)
         return;
-    at->saved = now();
+    at->saved = fst_clock_seconds();
     at->image = c->images->find(c->images->user, &at->job, &at->image_size);
     if (at->image &&
         fst_run_image_take(at->image, at->image_size, c->engine->numbers, at->run, &at->place, &at->numbers))
@@ -78,7 +71,7 @@ int fst_crew_stopped(fst_crew *c)
     const int stop = c->work->stopped(c->work->user);
     if (!c->images)
         return stop;
-    const double time = stop ? INFINITY : now();
+    const double time = stop ? INFINITY : fst_clock_seconds();
     for (int l = 0; l < c->engine->width; ++l) {
         save(c, &c->run_up.lanes[l], &c->run_up, l, FST_STAGE_RUN_UP, time);
         save(c, &c->observed.lanes[l], &c->observed, l, FST_STAGE_OBSERVED, time);

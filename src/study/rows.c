@@ -1,7 +1,7 @@
 /* rows.c - many runs, one after another or side by side. */
 #include <stdlib.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "study/lane_rows.h"
 #include "study/run_image.h"
@@ -30,18 +30,11 @@ typedef struct lone_run {
     double saved;
 } lone_run;
 
-static double now(void)
-{
-    struct timespec time = {0, 0};
-    (void)clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 /* Whether to stop; before that, the image that is due. */
 static int is_stopped(lone_run *l)
 {
     const int stop = l->work->stopped(l->work->user);
-    const double time = l->images ? now() : 0.0;
+    const double time = l->images ? fst_clock_seconds() : 0.0;
     if (!l->images || (!stop && time - l->saved < l->images->seconds))
         return stop;
     const fst_run_place place = {.stage = l->stage};
@@ -82,7 +75,7 @@ static fst_status begin(lone_run *l, fst_error *error)
     if (fst_run_image_take(image, size, 0, l->run, &place, &none))
         l->stage = place.stage;
     free(image);
-    l->saved = now();
+    l->saved = fst_clock_seconds();
     return FST_OK;
 }
 
