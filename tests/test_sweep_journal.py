@@ -4,6 +4,7 @@ Environment: FESTOON is the program, SOURCE_DIR the source tree, BUILD_DIR the b
 """
 
 import csv
+import errno
 import io
 import os
 import shutil
@@ -107,6 +108,38 @@ class Logs(Journal):
         self.assertIn("was damaged", festoon("sweep", *SMALL, "-o", self.path("a.db"))[2])
         self.assertEqual(self.rows("a.db"), expected)
         self.assertEqual(content_of(self.path("a.db.damaged-wal")), log)
+
+
+    def test_a_read_that_fails_is_no_damage(self):
+        """Once: whichever read it is, the file is not called damaged, and is not replaced."""
+        faults = os.path.join(os.environ["BUILD_DIR"], "tests", "faults.so")
+        if not os.path.exists(faults):
+            self.skipTest("nothing can be preloaded into a program with sanitizers")
+        self.made()
+        files = {"a.db": content_of(self.path("a.db")), "a.db-wal": self.log_of("a.db", self.CHANGES[1])}
+        environment = dict(os.environ, LD_PRELOAD=faults, FESTOON_FAULT_UNDER=self.directory,
+                           FESTOON_FAULT_FIRED=self.path("fired"))
+
+        def fate(words, fault):
+            for name in os.listdir(self.directory):
+                os.remove(self.path(name))
+            for name, content in files.items():
+                self.put(name, content)
+            found = festoon(*words, env=dict(environment, FESTOON_FAULT=f"festoon:{fault}"))
+            self.assertEqual([name for name in os.listdir(self.directory) if "damaged" in name], [], found)
+            return found
+
+        for words, step in (("export", self.path("a.db"), "--csv"), 1), (("sweep", *SMALL, "-o", self.path("a.db")), 3):
+            number, statuses = 1, []
+            while number < 1000:
+                status, _, err = fate(words, f"read:{errno.EIO}:{number}")
+                if not os.path.exists(self.path("fired")):
+                    break
+                self.assertIn(status, (0, 1), (words[0], number, err))
+                statuses.append(status)
+                number += step
+            self.assertIn(1, statuses)
+        self.assertEqual(fate(("export", self.path("a.db"), "--csv"), "interrupted:0:0")[0], 0)
 
 
 def long_sweep(points):

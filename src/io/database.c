@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "io/file_system.h"
+#include "io/regular_file.h"
 
 fst_status fst_database_fail(sqlite3 *database, const char *path, fst_error *error)
 {
@@ -90,12 +91,9 @@ fst_status fst_database_head(int descriptor, const char *path, char mark[FST_MAR
 {
     enum { USER_VERSION = 60, APPLICATION = 68, HEAD = 100 };
     unsigned char page[4096] = {0};
-    size_t have = 0;
-    for (ssize_t got = 1; got > 0 && have < sizeof page; have += (size_t)got) {
-        got = pread(descriptor, page + have, sizeof page - have, (off_t)have);
-        if (got < 0)
-            return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(errno));
-    }
+    const ssize_t have = fst_read_at(descriptor, page, sizeof page, 0);
+    if (have < 0)
+        return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(errno));
     mark[0] = '\0';
     if (have < HEAD || memcmp(page, "SQLite format 3", 16) != 0 ||
         number_at(page + APPLICATION) != FST_SWEEP_APPLICATION_ID)
@@ -112,7 +110,7 @@ fst_status fst_database_head(int descriptor, const char *path, char mark[FST_MAR
             "this sweep database is of format %lu, and this festoon knows format %d: it was made by "
             "a newer festoon, or is damaged; it was left untouched",
             (unsigned long)format, FST_SWEEP_FORMAT);
-    (void)fst_mark_find(page, have, mark);
+    (void)fst_mark_find(page, (size_t)have, mark);
     return FST_OK;
 }
 

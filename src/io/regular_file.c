@@ -55,6 +55,18 @@ static ssize_t read_on(int descriptor, char *bytes, size_t size)
     return got;
 }
 
+ssize_t fst_read_at(int descriptor, void *bytes, size_t size, off_t place)
+{
+    size_t have = 0;
+    for (ssize_t got = 1; got != 0 && have < size;) {
+        got = pread(descriptor, (char *)bytes + have, size - have, place + (off_t)have);
+        if (got < 0 && errno != EINTR)
+            return -1;
+        have += got > 0 ? (size_t)got : 0;
+    }
+    return (ssize_t)have;
+}
+
 /* Everything, or as much as is needed to see that it is more than `most`; 0, or an errno. */
 static int read_all(int descriptor, size_t most, char **text, size_t *size)
 {

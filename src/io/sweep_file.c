@@ -82,13 +82,16 @@ static fst_status check_tables(const fst_sweep_file *file, fst_error *error)
 static fst_status look_beside(fst_sweep_file *file, int descriptor, int locked, fst_error *error)
 {
     char log[FST_LOG_NAME_SIZE];
+    int reason;
     if (!locked && fst_lock_look(descriptor) == FST_LOCK_TAKEN) {
         file->log = FST_LOG_OWN;
         return FST_OK;
     }
-    file->log = fst_log_look(file->path, file->mark, log);
+    file->log = fst_log_look(file->path, file->mark, log, &reason);
     if (!locked && fst_lock_look(descriptor) == FST_LOCK_TAKEN)
         file->log = FST_LOG_OWN;
+    else if (reason)
+        return fst_fail(error, FST_IO, log, "reading this file failed: %s", strerror(reason));
     if (file->log != FST_LOG_FOREIGN)
         return FST_OK;
     return fst_fail(
@@ -137,7 +140,7 @@ static fst_status check_structure(fst_sweep_file *file, fst_error *error)
     return status;
 }
 
-fst_status fst_sweep_file_open(const char *name, int locked, fst_sweep_file *file, fst_error *error)
+static fst_status open_once(const char *name, int locked, fst_sweep_file *file, fst_error *error)
 {
     memset(file, 0, sizeof *file);
     file->name = name;
@@ -158,6 +161,16 @@ fst_status fst_sweep_file_open(const char *name, int locked, fst_sweep_file *fil
         status = check_structure(file, error);
     file->opened = status == FST_OK;
     return status;
+}
+
+fst_status fst_sweep_file_open(const char *name, int locked, fst_sweep_file *file, fst_error *error)
+{
+    fst_status status = open_once(name, locked, file, error);
+    if (status != FST_BAD_INPUT && !(status == FST_OK && file->finding[0]))
+        return status;
+    /* SQLite takes some reads that failed for damage: real damage is found again. */
+    fst_sweep_file_close(file);
+    return open_once(name, locked, file, error);
 }
 
 int fst_sweep_file_is_there(const char *path, const struct stat *opened)

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "io/regular_file.h"
 
 static const char *const ENDINGS[] = {"-wal", "-journal", "-shm"};
 
@@ -71,6 +72,7 @@ typedef struct log_walk {
     int own, foreign; /* marks were found */
     int commits;      /* transactions that SQLite would use */
     int damaged;
+    int reason; /* errno of a read that failed; 0: none did */
 } log_walk;
 
 static void add_up(const log_walk *w, const unsigned char *bytes, size_t size, uint32_t sum[2])
@@ -86,21 +88,19 @@ static void add_up(const log_walk *w, const unsigned char *bytes, size_t size, u
     }
 }
 
-static int read_all(int descriptor, void *bytes, size_t size, off_t place)
+/* All of some bytes; 0 where the file ends before, or where reading failed: *reason is its errno then. */
+static int read_all(int descriptor, void *bytes, size_t size, off_t place, int *reason)
 {
-    for (size_t have = 0; have < size;) {
-        const ssize_t got = pread(descriptor, (char *)bytes + have, size - have, place + (off_t)have);
-        if (got <= 0)
-            return 0;
-        have += (size_t)got;
-    }
-    return 1;
+    const ssize_t got = fst_read_at(descriptor, bytes, size, place);
+    if (got < 0)
+        *reason = errno;
+    return got == (ssize_t)size;
 }
 
 static int read_head(log_walk *w)
 {
     unsigned char head[HEAD_SIZE];
-    if (!read_all(w->descriptor, head, sizeof head, 0))
+    if (!read_all(w->descriptor, head, sizeof head, 0, &w->reason))
         return 0;
     w->swapped = number_at(head) == 0x377f0682u;
     w->page_size = number_at(head + 8);
@@ -137,7 +137,7 @@ static int has_salts(const log_walk *w, const unsigned char *frame)
 static void walk_frames(log_walk *w, unsigned char *frame, const char *mark)
 {
     off_t place = HEAD_SIZE;
-    for (; read_all(w->descriptor, frame, FRAME_SIZE + w->page_size, place);
+    for (; read_all(w->descriptor, frame, FRAME_SIZE + w->page_size, place, &w->reason);
          place += FRAME_SIZE + w->page_size) {
         uint32_t sum[2] = {w->sum[0], w->sum[1]};
         add_up(w, frame, 8, sum);
@@ -153,19 +153,24 @@ static void walk_frames(log_walk *w, unsigned char *frame, const char *mark)
     }
 }
 
-static fst_log_state look_at_wal(int descriptor, const char *mark)
+static fst_log_state look_at_wal(int descriptor, const char *mark, int *reason)
 {
     struct stat there;
     log_walk w = {.descriptor = descriptor};
     if (fstat(descriptor, &there) != 0 || there.st_size <= HEAD_SIZE)
         return FST_LOG_NONE;
-    if (!read_head(&w))
+    const int good = read_head(&w);
+    *reason = w.reason;
+    if (!good)
         return there.st_size > HEAD_SIZE + FRAME_SIZE + 4096 ? FST_LOG_DAMAGED : FST_LOG_NONE;
     unsigned char *frame = malloc(FRAME_SIZE + w.page_size);
-    if (!frame)
-        return FST_LOG_DAMAGED;
+    if (!frame) {
+        *reason = ENOMEM;
+        return FST_LOG_NONE;
+    }
     walk_frames(&w, frame, mark);
     free(frame);
+    *reason = w.reason;
     if (w.commits > 0 && !w.own)
         return FST_LOG_FOREIGN;
     if (w.foreign)
@@ -178,14 +183,14 @@ static fst_log_state look_at_wal(int descriptor, const char *mark)
  * It holds pages as they were before the transaction; SQLite ignores one whose first byte is zero.
  */
 
-static fst_log_state look_at_journal(int descriptor, const char *mark)
+static fst_log_state look_at_journal(int descriptor, const char *mark, int *reason)
 {
     enum { PIECE = 65536 };
     struct stat there;
     unsigned char *bytes = malloc(PIECE);
     int own = 0, foreign = 0;
     if (!bytes || fstat(descriptor, &there) != 0 || there.st_size <= 512 ||
-        !read_all(descriptor, bytes, 1, 0) || bytes[0] == 0) {
+        !read_all(descriptor, bytes, 1, 0, reason) || bytes[0] == 0) {
         free(bytes);
         return FST_LOG_NONE;
     }
@@ -194,7 +199,7 @@ static fst_log_state look_at_journal(int descriptor, const char *mark)
         const off_t rest = there.st_size - place;
         const size_t size = rest < PIECE ? (size_t)rest : PIECE;
         char found[FST_MARK_SIZE];
-        if (!read_all(descriptor, bytes, size, place))
+        if (!read_all(descriptor, bytes, size, place, reason))
             break;
         if (fst_mark_find(bytes, size, found))
             *(strcmp(found, mark) == 0 ? &own : &foreign) = 1;
@@ -210,16 +215,20 @@ static int name_log(char name[FST_LOG_NAME_SIZE], const char *path, const char *
     return snprintf(name, FST_LOG_NAME_SIZE, "%s%s", path, ending) < FST_LOG_NAME_SIZE;
 }
 
-fst_log_state fst_log_look(const char *path, const char *mark, char name[FST_LOG_NAME_SIZE])
+fst_log_state fst_log_look(const char *path, const char *mark, char name[FST_LOG_NAME_SIZE], int *reason)
 {
     fst_log_state state = FST_LOG_NONE;
+    *reason = 0;
     for (int i = 0; i < 2 && state != FST_LOG_FOREIGN; ++i) {
         const int descriptor =
             name_log(name, path, ENDINGS[i]) ? open(name, O_RDONLY | O_CLOEXEC | O_NONBLOCK) : -1;
         if (descriptor < 0)
             continue;
-        const fst_log_state found = i == 0 ? look_at_wal(descriptor, mark) : look_at_journal(descriptor, mark);
+        const fst_log_state found =
+            i == 0 ? look_at_wal(descriptor, mark, reason) : look_at_journal(descriptor, mark, reason);
         (void)close(descriptor);
+        if (*reason)
+            return FST_LOG_NONE;
         state = found > state ? found : state;
         if (found == FST_LOG_FOREIGN)
             break;

@@ -26,9 +26,10 @@ typedef enum {
     FST_LOG_FOREIGN  /* another database's */
 } fst_log_state;
 
-/* What lies beside the database `path` of this mark; `name` (FST_LOG_NAME_SIZE) is the file found. */
+/* What lies beside the database `path` of this mark; `name` (FST_LOG_NAME_SIZE) is the file found.  *reason is
+ * the errno of a read that failed, which says nothing of the log, or 0. */
 enum { FST_LOG_NAME_SIZE = 4200 };
-fst_log_state fst_log_look(const char *path, const char *mark, char name[FST_LOG_NAME_SIZE]);
+fst_log_state fst_log_look(const char *path, const char *mark, char name[FST_LOG_NAME_SIZE], int *reason);
 
 /* Remove what an earlier database of this name left. */
 fst_status fst_log_remove(const char *path, fst_error *error);
