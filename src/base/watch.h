@@ -1,7 +1,7 @@
-/* watch.h - the caller of a long computation: he is told how far it is, and may want no more of it.
+/* watch.h - the caller of a long computation is told how far it is, and may want no more of it.
  *
  * One watch goes down with the work, into the innermost loop.  Work is counted in evaluations of the equations
- * of motion, so that the caller is asked at even intervals whatever the loop.  Once he wants no more, the watch
+ * of motion, so that the caller is asked at even intervals whatever the loop.  Once the answer is no, the watch
  * answers so for good: many loops take a failure for "nothing is here" and go on, and each then meets the same
  * answer at its next step, without any work being done.
  */
@@ -18,7 +18,7 @@ typedef struct fst_watch {
     double fraction;              /* of the whole work; it never falls */
     unsigned work;                /* since the last question */
     fst_status status;            /* other than FST_OK once the caller wanted no more */
-    fst_error error;              /* what he said then */
+    fst_error error;              /* what the caller said then */
 } fst_watch;
 
 static inline void fst_watch_begin(fst_watch *watch, const fst_progress *progress)
@@ -44,7 +44,7 @@ static inline void fst_watch_reach(fst_watch *watch, double x)
     watch->fraction = fraction > watch->fraction ? fraction : watch->fraction;
 }
 
-/* Tell the caller, and ask whether the work may go on: FST_OK, or what he answered.  No watch: FST_OK. */
+/* Tell the caller, and ask whether the work may go on: FST_OK, or the answer.  No watch: FST_OK. */
 static inline fst_status fst_watch_ask(fst_watch *watch, fst_error *error)
 {
     if (!watch)

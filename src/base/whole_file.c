@@ -264,9 +264,7 @@ static int sync_descriptor(int descriptor)
     return failed;
 }
 
-/* The rename itself is only safe once the directory is synced.  Directories that may not be read, and file
- * systems that cannot sync one, leave nothing better to be had; 0, or the errno of a failure. */
-static int sync_directory_of(const char *path)
+int fst_sync_directory_of(const char *path)
 {
     char *place = directory_of(path);
     const int descriptor = place ? open(place, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
@@ -321,7 +319,7 @@ fst_status fst_whole_file_commit(fst_whole_file *file, fst_error *error)
         status = fail_write(file, reason, error);
     if (status != FST_OK) {
         (void)unlink(file->temporary);
-    } else if ((reason = sync_directory_of(file->path)) != 0) {
+    } else if ((reason = fst_sync_directory_of(file->path)) != 0) {
         status = fst_fail(
             error, FST_IO, file->path,
             "this file is complete, but may be lost with the power: its directory cannot be synced: %s",

@@ -29,6 +29,10 @@ fst_status fst_whole_file_open(fst_whole_file *file, const char *path, fst_error
 fst_status fst_whole_file_open_next(fst_whole_file *file, const char *path, fst_error *error);
 void fst_whole_file_tidy(const char *directory, const char *prefix);
 
+/* Make safe a change of names in the directory of `path`; 0, or the errno of a failure.  Directories that may
+ * not be read, and file systems that cannot sync one, leave nothing better to be had, and are no failure. */
+int fst_sync_directory_of(const char *path);
+
 /* Remove the leftovers of `path` without writing it. */
 void fst_whole_file_tidy_beside(const char *path);
 

@@ -4,8 +4,7 @@
  * each picture lies and how long it is, and is written last: a film cut short has none, or one that speaks of
  * more than there is.
  *
- *     ftyp | moov { trak { mdia { minf { stbl { stsz: sizes of all pictures } } } } } | free | mdat: the
- * pictures
+ *     ftyp | moov { trak { mdia { minf { stbl { stsz: sizes of pictures } } } } } | free | mdat: pictures
  *
  * A GIF is a row of blocks that ends with the byte 0x3B.
  */

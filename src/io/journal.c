@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/whole_file.h"
 #include "io/file_system.h"
 #include "io/sweep_columns.h"
 #include "io/sweep_file.h"
@@ -269,7 +270,7 @@ static fst_status rescue(fst_journal *journal, fst_error *error)
     if (statement)
         saved = sqlite3_exec(journal->file.database, statement, NULL, NULL, NULL) == SQLITE_OK;
     if (saved)
-        fst_sync_folder(to);
+        (void)fst_sync_directory_of(to);
     sqlite3_free(statement);
     sqlite3_free(to);
     return saved ? fst_fail(error, FST_IO, journal->path,

@@ -29,20 +29,6 @@ int fst_sweep_is_made(const char *path)
     return stat(path, &there) == 0 && !(S_ISREG(there.st_mode) && there.st_size == 0);
 }
 
-void fst_sync_folder(const char *path)
-{
-    char *folder = strdup(path), *slash = folder ? strrchr(folder, '/') : NULL;
-    if (slash) {
-        slash[slash == folder] = '\0';
-        const int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (descriptor >= 0) {
-            (void)fsync(descriptor); /* some file systems cannot, and then nothing better is to be had */
-            (void)close(descriptor);
-        }
-    }
-    free(folder);
-}
-
 /* ------------------------------------------------------------------ filling */
 
 /* The sound rows of another database of the same sweep, with checksums of the new one. */
@@ -235,12 +221,13 @@ static fst_status give_name(const char *name, const char *path, const fst_whole_
     fst_status status = fst_log_remove(path, error);
     if (status != FST_OK)
         return status;
-    fst_sync_folder(path);
+    (void)fst_sync_directory_of(path);
     *made = rename_if_free(part->temporary, path) == 0;
     if (!*made && errno != EEXIST)
         return fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(errno));
-    fst_sync_folder(path);
-    return FST_OK;
+    const int reason = fst_sync_directory_of(path);
+    return reason ? fst_fail(error, FST_IO, name, "its directory cannot be synced: %s", strerror(reason))
+                  : FST_OK;
 }
 
 fst_status fst_sweep_make(const char *name, const char *path, const fst_sweep_identity *identity,
@@ -309,7 +296,7 @@ fst_status fst_sweep_repair(fst_sweep_file *damaged, const fst_sweep_identity *i
         status = keep_damaged(name, path, error);
         if (status == FST_OK && rename(part.temporary, path) != 0)
             status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(errno));
-        fst_sync_folder(path);
+        (void)fst_sync_directory_of(path);
         fst_whole_file_discard(&part);
     }
     if (status == FST_OK) {

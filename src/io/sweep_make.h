@@ -21,7 +21,4 @@ void fst_sweep_tidy(const char *path);
 /* Whether a file is there that is not empty. */
 int fst_sweep_is_made(const char *path);
 
-/* Make safe a change of names in the folder of a file. */
-void fst_sync_folder(const char *path);
-
 #endif

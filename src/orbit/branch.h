@@ -35,7 +35,7 @@ typedef struct fst_tracer {
 /* Put a branch that passes through `start` on the list. */
 fst_status fst_tracer_add(fst_tracer *t, const fst_node *start, fst_error *error);
 
-/* Tell the caller how far the work is; what he answers. */
+/* Tell the caller how far the work is; the answer. */
 fst_status fst_tracer_progress(fst_tracer *t, fst_error *error);
 
 /* Follow every pending branch, and those that are born on the way. */

@@ -115,7 +115,7 @@ static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
            size == sizeof *i + (size_t)count * sizeof(double) && (unsigned)i->place.stage < FST_STAGE_COUNT &&
            (i->place.stage == FST_STAGE_ALONE) == (numbers == 0 && i->place.stage != FST_STAGE_PARKED) &&
            is_sound_series(&i->run.section_marks) && is_sound_series(&i->run.period_marks) &&
-           i->run.exponent_is <= FST_EXPONENT_KNOWN;
+           i->run.exponent_is <= FST_EXPONENT_KNOWN && !i->run.is_ramp; /* whose indices are not checked */
 }
 
 int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_run_state *run, fst_run_place *place,

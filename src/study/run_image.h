@@ -3,8 +3,8 @@
  * An image is what a run carries, as it lies in memory, with the numbers of its lane: it means nothing to
  * another build.  So it begins with a number made of the build's identity and of the sizes of what follows, and
  * is taken for nothing where that number is another one.  Pointers are not part of it; a run takes up an image
- * after it was begun from its parameters, and keeps its own.  Whoever adds a pointer to fst_run_state adds it
- * to fst_run_image_take(), and whoever adds an index looks there at what is checked: files may be damaged.
+ * after it was begun from its parameters, and keeps its own.  A new pointer in fst_run_state is to be added
+ * to fst_run_image_take(), and a new index to what is checked there: files may be damaged.
  */
 #ifndef FST_STUDY_RUN_IMAGE_H
 #define FST_STUDY_RUN_IMAGE_H
