@@ -153,6 +153,14 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_progress *p
                   p->seconds, path, path);
 }
 
+static void tell_of_repair(const char *path, const fst_sweep_progress *result)
+{
+    (void)fprintf(stderr,
+                  "festoon: %s: this database was damaged; its sound rows were kept, the lost ones (%lld) "
+                  "are computed again, and the damaged file was kept as %s.damaged\n",
+                  path, (long long)result->lost, path);
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
@@ -181,11 +189,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (result.rank != 0)
         return FST_OK;
     if (result.repaired)
-        (void)fprintf(stderr,
-                      "festoon: %s: this database was damaged; its sound rows were kept, the lost ones (%lld) "
-                      "are computed "
-                      "again, and the damaged file was kept as %s.damaged\n",
-                      path, (long long)result.lost, path);
+        tell_of_repair(path, &result);
     if (status == FST_INTERRUPTED)
         return fail(error, FST_INTERRUPTED, path,
                     "interrupted with %lld of %lld points done; the same command goes on",
