@@ -29,7 +29,18 @@ class Options(Case):
                 self.assertFalse(os.path.exists(self.path("f.svg")))
         for number in ("1,2", "one", "1 period", ""):
             with self.subTest(number=number):
-                self.assertIn("from", self.refused("plot", self.path("t.csv"), "-o", self.path("f.svg"), "--from", number))
+                err = self.refused("plot", self.path("t.csv"), "-o", self.path("f.svg"), "--from", number)
+                self.assertIn(f'--from: "{number}" must be a number, without a unit', err)
+
+    def test_seconds_between_checkpoints(self):
+        """Seconds without a unit, more than none; nothing is begun with others."""
+        for seconds, word in (("0", "positive seconds"), ("-1", "positive seconds"), ("1e10", "positive seconds"),
+                              ("nan", "a number"), ("inf", "a number"), ("3s", "without a unit"), ("", "a number")):
+            with self.subTest(seconds=seconds):
+                err = self.refused("sweep", "--over", "drive.frequency=10,11", "-o", self.path("a.db"), "--checkpoint", seconds)
+                self.assertIn(f'--checkpoint: "{seconds}" must be ', err)
+                self.assertIn(word, err)
+                self.assertFalse(os.path.exists(self.path("a.db")))
 
     def test_a_failed_run_leaves_no_file(self):
         """A start that does not exist: no trajectory, and the one of an earlier run stays as it was."""

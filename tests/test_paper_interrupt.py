@@ -87,6 +87,26 @@ class Interrupted(unittest.TestCase):
         directory = self.cut_short("twice", lambda d: (d / "sketch.svg").exists(), signals=2)
         self.check_what_is_there(directory, 20)
 
+    def test_within_a_long_piece(self):
+        """One number, whose pieces last long: the work ends with the signal, not with the piece."""
+        words = [FESTOON, "paper", "--only", "remanence"]
+        before = os.times()
+        subprocess.run(words, stdout=subprocess.DEVNULL, check=True)
+        after = os.times()
+        whole = after.children_user + after.children_system - before.children_user - before.children_system
+
+        def spent(process):
+            fields = Path(f"/proc/{process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+            return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+        process = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        events.wait_for(process, lambda: spent(process) > 0.1 * whole)
+        process.send_signal(signal.SIGINT)
+        _, status, used = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        out, messages = process.communicate()
+        self.assertEqual((process.returncode, out), (130, ""), messages)
+        self.assertLess(used.ru_utime + used.ru_stime, 0.5 * whole)
+
     def test_among_the_figures(self):
         directory = self.cut_short("figures", lambda d: (d / "sketch.svg").exists())
         self.check_what_is_there(directory, 20)

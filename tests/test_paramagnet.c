@@ -176,7 +176,7 @@ static void remanence_lets_a_bead_counter_rotate(void **unused)
     fst_params params = bead(FST_MATERIAL_MIXED, 0.0, 2e-3, 0.0);
     params.drive_omega = 0.4;
     params.drive_frequency = NAN;
-    const fst_kappa_scan scan = {2e-3, 1.5, 8, 1, 1, 300.0};
+    const fst_kappa_scan scan = {2e-3, 1.5, 8, 1, 1, 300.0, NULL};
     fst_least_found least;
     double speed;
     fst_fate fate;

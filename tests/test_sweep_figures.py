@@ -7,6 +7,7 @@ import csv
 import io
 import math
 import os
+import re
 import shutil
 import signal
 import sys
@@ -170,6 +171,26 @@ class Units(Figures):
         for row, (x, y) in zip(rows, blocks["panel1-curve1"]):
             self.assertLess(abs(x / (float(row["drive.omega"]) * GAMMA / (2 * math.pi)) - 1), 1e-6)
             self.assertLess(abs(y / (float(row["mean_r"]) * 23) - 1), 1e-6)
+
+    def test_regimes_have_one_colour_in_all_panels(self):
+        rows = self.sweep("c.db", "drive.frequency=2,10,11,12")
+        script, blocks = self.plot("c.db")
+        entries = re.findall(r"'(panel\d)-(curve\d)'.* lc rgb '(#\w+)' title '([\w-]+)'", script)
+        titles = [title for panel, _, _, title in entries if panel == "panel3"]
+        self.assertEqual(sorted(titles), sorted({row["regime"] for row in rows}))
+        self.assertGreater(len(titles), 1)
+        self.assertEqual([title for _, _, _, title in entries], titles * 3)
+        self.assertEqual(re.findall(r"^(?:unset|set) key", script, re.M)[-3:], ["unset key", "unset key", "set key"])
+        colours = {(curve, colour) for _, curve, colour, _ in entries}
+        self.assertEqual(len(colours), len(titles))
+        self.assertEqual(len({colour for _, colour in colours}), len(titles))
+        for panel, key in enumerate(("mean_r", "std_r", "mean_alpha_dot"), 1):
+            for curve, regime in enumerate(titles, 1):
+                drawn = [y for _, y in blocks[f"panel{panel}-curve{curve}"] if math.isfinite(y)]
+                wanted = [float(row[key]) for row in rows if row["regime"] == regime]
+                self.assertEqual(len(drawn), len(wanted))
+                for one, other in zip(drawn, wanted):
+                    self.assertAlmostEqual(one, other, 6)
 
     def test_keys_without_values(self):
         self.sweep("c.db", "drive.frequency=10,11,12")

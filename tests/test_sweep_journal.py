@@ -280,21 +280,21 @@ class Damage(Journal):
         expected = self.made()
         self.made("other.db", OTHER)
         for lost, words, statement in (
-                ({3}, ["points 3 are"], "UPDATE rows SET mean_r = mean_r + 1e-15 WHERE point = 3"),
-                ({4}, ["points 4 are"], "UPDATE rows SET mean_r = 'much' WHERE point = 4"),
-                ({5}, ["points 5 are"], "UPDATE rows SET reason = 'all is well' WHERE point = 5"),
+                ({3}, ["the row of point 3 is lost"], "UPDATE rows SET mean_r = mean_r + 1e-15 WHERE point = 3"),
+                ({4}, ["the row of point 4 is lost"], "UPDATE rows SET mean_r = 'much' WHERE point = 4"),
+                ({5}, ["the row of point 5 is lost"], "UPDATE rows SET reason = 'all is well' WHERE point = 5"),
                 ({0, 17}, ["points 0, 17 are"], "UPDATE rows SET returns = 7 WHERE point IN (0, 17)"),
-                ({2}, ["points 2 are"], "UPDATE rows SET final_X = NULL WHERE point = 2"),
-                ({1}, ["points 1 are"], "UPDATE rows SET \"model.kappa\" = 2 WHERE point = 1"),
+                ({2}, ["the row of point 2 is lost"], "UPDATE rows SET final_X = NULL WHERE point = 2"),
+                ({1}, ["the row of point 1 is lost"], "UPDATE rows SET \"model.kappa\" = 2 WHERE point = 1"),
                 ({1, 2}, ["points 1-2 are"], "UPDATE rows SET checksum = 0 WHERE point IN (1, 2)"),
-                ({7}, ["points 7 are"], "UPDATE rows SET checksum = NULL WHERE point = 7"),
+                ({7}, ["the row of point 7 is lost"], "UPDATE rows SET checksum = NULL WHERE point = 7"),
                 ({8}, ["1 of its rows belong to no point"], "UPDATE rows SET point = 18 WHERE point = 8"),
                 ({9}, ["1 of its rows belong to no point"], "UPDATE rows SET point = -1 WHERE point = 9")):
             with self.subTest(statement=statement):
                 self.alter(statement)
                 self.check(expected, lost, *words)
         self.alter(f"ATTACH '{self.path('other.db')}' AS other", "REPLACE INTO rows SELECT * FROM other.rows WHERE point = 6")
-        self.check(expected, {6}, "points 6 are")
+        self.check(expected, {6}, "the row of point 6 is lost")
 
     def test_pages_that_were_damaged(self):
         """Each page in turn: rows are named and the rest goes on, or the file says that it is damaged."""

@@ -149,7 +149,7 @@ static void what_has_not_settled_is_prolonged(void **state)
     params.run_rtol = 1e-8;
     const double before = params.run_periods;
     fst_run_result result;
-    assert_int_equal(fst_paper_run_settled(&params, &result, NULL, NULL), FST_OK);
+    assert_int_equal(fst_paper_run_settled(&params, NULL, &result, NULL, NULL), FST_OK);
     assert_true(params.run_periods >= 2.0 * before && params.run_discard == 0.5 * params.run_periods);
     if (result.regime == FST_REGIME_UNDECIDED)
         assert_true(params.run_periods == 8.0 * before && isnan(result.mean_r) && isfinite(result.omega));

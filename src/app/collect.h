@@ -4,9 +4,10 @@
 
 #include <festoon/festoon_tools.h>
 
-/* Run `params` and keep the samples from the discard on; free the table with fst_table_free(). */
-fst_status fst_collect_run(const fst_params *params, fst_run_result *result, fst_table *table,
-                           fst_error *error);
+/* Run `params` and keep the samples from the discard on; free the table with fst_table_free().  `progress` may
+ * be NULL. */
+fst_status fst_collect_run(const fst_params *params, const fst_progress *progress, fst_run_result *result,
+                           fst_table *table, fst_error *error);
 
 /* The column called `name`, which must be one of columns.def's. */
 const double *fst_collected(const fst_table *table, const char *name);

@@ -53,7 +53,17 @@ static fst_status progress_of_stage(void *user, int done, fst_error *error)
     if (!options->progress)
         return FST_OK;
     double fraction = stage->from + (stage->to - stage->from) * done / stage->count;
-    return options->progress(options->user, fraction, stage->what, error);
+    const fst_status status = options->progress(options->user, fraction, stage->what, error);
+    if (status != FST_OK)
+        atomic_store(&work->paper->refused, 1);
+    return status;
+}
+
+static fst_status be_patient(void *user, double fraction, fst_error *error)
+{
+    fst_paper_state *paper = user;
+    (void)fraction;
+    return atomic_load(&paper->refused) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 
 /* Of all threads, and of the processes that drew. */
@@ -240,6 +250,7 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
         return fst_fail(error, FST_BAD_INPUT, "fst_paper",
                         "the options were not made by fst_default_paper_options()");
     fst_paper_state paper = {.options = options, .directory = directory};
+    paper.patience = (fst_progress){&paper, be_patient};
     fst_status status = options->only ? FST_OK : make_directory(&paper, error);
     if (status != FST_OK)
         return status;

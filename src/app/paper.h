@@ -9,6 +9,7 @@
 #include "app/paramagnet.h"
 #include "app/paper_probes.h"
 
+#include <stdatomic.h>
 #include <festoon/festoon_tools.h>
 
 /* ------------------------------------------------------------------ runs */
@@ -130,6 +131,8 @@ typedef struct fst_paper_state {
     int complete;             /* all of them, and the figures */
     const fst_paper_options *options;
     const char *directory;
+    atomic_int refused;    /* the caller wants no more of it; */
+    fst_progress patience; /* long computations ask, from any thread, and end with FST_INTERRUPTED */
     int counts[FST_SCAN_COUNT];
     int films;                   /* that are made */
     int first_scan;              /* runs of the scans before this one are not made */
@@ -166,9 +169,9 @@ void fst_paper_note_time(fst_paper_state *paper, const char *what, double began)
 int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan scan);
 
 /* Make a run; while its motion has not settled, again and twice as long with all of it discarded, up to eight
- * times as long.  `params` are then those of the last one.  The trajectory may be NULL. */
-fst_status fst_paper_run_settled(fst_params *params, fst_run_result *result, fst_table *trajectory,
-                                 fst_error *error);
+ * times as long.  `params` are then those of the last one.  The progress and the trajectory may be NULL. */
+fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progress, fst_run_result *result,
+                                 fst_table *trajectory, fst_error *error);
 /* Its regime is decided, and the errors of its means are small.  (Neither chaotic nor off the plate.) */
 int fst_paper_is_settled(const fst_run_result *result);
 /* It has not settled, and more time may settle it: chaos stays chaos, and what left the plate is gone. */

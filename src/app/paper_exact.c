@@ -27,13 +27,13 @@ static fst_params params_at(fst_dynamics dynamics, double omega)
 }
 
 /* Each row of Table 1 whose pattern closes somewhere on the stable branch. */
-static fst_status close_patterns(const fst_params *params, const fst_branch *branch, fst_paper_exact *exact,
-                                 fst_error *error)
+static fst_status close_patterns(const fst_params *params, const fst_branch *branch,
+                                 const fst_progress *progress, fst_paper_exact *exact, fst_error *error)
 {
     fst_status status = FST_OK;
     for (int row = 0; row < FST_TABLE1_ROWS && status == FST_OK; row++) {
         fst_festoon_list list;
-        status = fst_festoons_on(params, branch, fst_table1[row].count, NULL, &list, error);
+        status = fst_festoons_on(params, branch, fst_table1[row].count, progress, &list, error);
         if (status == FST_OK)
             exact->closed[row] = (fst_paper_pattern){list.omegas[0], list.orbits[0].means.symmetry};
         fst_festoons_free(&list);
@@ -63,12 +63,15 @@ static void read_branch(const fst_branch *branch, fst_paper_exact *exact)
 }
 
 /* The point at which the stable locked states end that reach highest. */
-static fst_status find_locked_end(const fst_params *params, fst_paper_exact *exact, fst_error *error)
+static fst_status find_locked_end(const fst_params *params, const fst_progress *progress,
+                                  fst_paper_exact *exact, fst_error *error)
 {
     fst_branch_options options = fst_default_branch_options();
     options.kind = FST_BRANCH_LOCKED;
     options.from = LOCKED_FROM;
     options.to = LOCKED_TO;
+    options.user = progress->user;
+    options.progress = progress->tell;
     fst_branch branch;
     const fst_status status = fst_branch_follow(params, &options, &branch, error);
     double highest = -INFINITY;
@@ -84,11 +87,12 @@ static fst_status find_locked_end(const fst_params *params, fst_paper_exact *exa
     return status;
 }
 
-static fst_status count_minima(fst_dynamics dynamics, fst_paper_exact *exact, fst_error *error)
+static fst_status count_minima(fst_dynamics dynamics, const fst_progress *progress, fst_paper_exact *exact,
+                               fst_error *error)
 {
     fst_params params = params_at(dynamics, LOCKED_AT);
     fst_locked_list list;
-    fst_status status = fst_locked_find(&params, NULL, &list, error);
+    fst_status status = fst_locked_find(&params, progress, &list, error);
     if (status != FST_OK)
         return status;
     exact->locked_minima = 0.0;
@@ -99,12 +103,13 @@ static fst_status count_minima(fst_dynamics dynamics, fst_paper_exact *exact, fs
 }
 
 /* The damping ratio -Re/|lambda| of the least damped swing about a stable locked state at a small kappa. */
-static fst_status find_damping(fst_dynamics dynamics, fst_paper_exact *exact, fst_error *error)
+static fst_status find_damping(fst_dynamics dynamics, const fst_progress *progress, fst_paper_exact *exact,
+                               fst_error *error)
 {
     fst_params params = params_at(dynamics, WEAK_DRIVE);
     params.model_kappa = WEAK;
     fst_locked_list list;
-    fst_status status = fst_locked_find(&params, NULL, &list, error);
+    fst_status status = fst_locked_find(&params, progress, &list, error);
     if (status != FST_OK)
         return status;
     for (size_t i = 0; i < list.count; i++) {
@@ -123,24 +128,27 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
 {
     fst_dynamics dynamics = (fst_dynamics)index;
     fst_paper_exact *exact = &paper->exact[dynamics];
+    const fst_progress *progress = &paper->patience;
     fst_params params = params_at(dynamics, BRANCH_START);
     fst_branch_options options = fst_default_branch_options();
     options.from = BRANCH_FROM;
     options.to = BRANCH_TO;
+    options.user = progress->user;
+    options.progress = progress->tell;
     fst_branch branch;
     fst_error why = {.code = FST_OK};
     fst_status status = fst_branch_follow(&params, &options, &branch, &why);
     if (status == FST_OK) {
         read_branch(&branch, exact);
-        status = close_patterns(&params, &branch, exact, &why);
+        status = close_patterns(&params, &branch, progress, exact, &why);
     }
     fst_branch_free(&branch);
     if (status == FST_OK)
-        status = find_locked_end(&params, exact, &why);
+        status = find_locked_end(&params, progress, exact, &why);
     if (status == FST_OK)
-        status = count_minima(dynamics, exact, &why);
+        status = count_minima(dynamics, progress, exact, &why);
     if (status == FST_OK)
-        status = find_damping(dynamics, exact, &why);
+        status = find_damping(dynamics, progress, exact, &why);
     /* Without LAPACK, or where the method fails, the rest of the paper stands, and this sentence instead. */
     if (status == FST_UNAVAILABLE || status == FST_NO_CONVERGENCE) {
         (void)snprintf(exact->missing, sizeof exact->missing, "%s", why.sentence);

@@ -89,10 +89,11 @@ static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_d
     return status;
 }
 
-static fst_status make_run(fst_scan scan, fst_paper_run *run, fst_error *error)
+static fst_status make_run(fst_paper_state *paper, fst_scan scan, fst_paper_run *run, fst_error *error)
 {
     fst_table *trajectory = scans[scan].samples ? &run->trajectory : NULL;
-    const fst_status status = fst_paper_run_settled(&run->params, &run->result, trajectory, error);
+    const fst_status status =
+        fst_paper_run_settled(&run->params, &paper->patience, &run->result, trajectory, error);
     run->done = status == FST_OK;
     return status;
 }
@@ -158,7 +159,7 @@ static fst_status scan_piece(fst_paper_state *paper, int index, fst_error *error
         if (index < here) {
             int point = index / FST_PAPER_DYNAMICS;
             fst_dynamics dynamics = index % FST_PAPER_DYNAMICS ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID;
-            return make_run((fst_scan)scan, &paper->scans[scan][dynamics][point], error);
+            return make_run(paper, (fst_scan)scan, &paper->scans[scan][dynamics][point], error);
         }
         index -= here;
     }
@@ -188,7 +189,7 @@ static fst_status probe(const fst_paper_state *paper, fst_change change, fst_dyn
         status = set(&params, "run.discard", changes[change].discard, status, error);
     }
     if (status == FST_OK)
-        status = fst_paper_run_settled(&params, &result, NULL, error);
+        status = fst_paper_run_settled(&params, &paper->patience, &result, NULL, error);
     if (status == FST_OK)
         *below = isnan(result.mean_r) && fst_paper_may_settle(&result) ? -1 : is_below(change, &result);
     return status;

@@ -49,12 +49,16 @@ static void forget_means(fst_run_result *result)
     result->largest_exponent_error = exponent_error;
 }
 
-fst_status fst_paper_run_settled(fst_params *params, fst_run_result *result, fst_table *trajectory,
-                                 fst_error *error)
+fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progress, fst_run_result *result,
+                                 fst_table *trajectory, fst_error *error)
 {
     fst_run_options options = fst_default_run_options();
+    if (progress) {
+        options.sink.user = progress->user;
+        options.sink.progress = progress->tell;
+    }
     for (int doublings = 0;; doublings++) {
-        const fst_status status = trajectory ? fst_collect_run(params, result, trajectory, error)
+        const fst_status status = trajectory ? fst_collect_run(params, progress, result, trajectory, error)
                                              : fst_run(params, &options, result, error);
         if (status != FST_OK || !fst_paper_may_settle(result))
             return status;

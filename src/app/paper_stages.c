@@ -19,8 +19,8 @@ static const double NEAR_THRESHOLD = 0.0012;
 
 enum { SEARCH = 240, REDUCED_SEARCH = 24 };
 
-const fst_kappa_scan fst_remanence_scan = {2e-3, 1.5, 90, 3, 2, 600.0};
-static const fst_kappa_scan reduced_remanence_scan = {2e-3, 1.5, 8, 1, 1, 100.0};
+const fst_kappa_scan fst_remanence_scan = {2e-3, 1.5, 90, 3, 2, 600.0, NULL};
+static const fst_kappa_scan reduced_remanence_scan = {2e-3, 1.5, 8, 1, 1, 100.0, NULL};
 
 static fst_params probe_params(fst_dynamics dynamics, double omega)
 {
@@ -131,8 +131,9 @@ static fst_status remanence_piece(fst_paper_state *paper, int index, fst_error *
     params.bead_material = FST_MATERIAL_MIXED;
     params.bead_a = fst_remanence_strengths[strength];
     params.run_rtol = 1e-8;
-    return fst_least_kappa(&params, paper->options->reduced ? &reduced_remanence_scan : &fst_remanence_scan,
-                           least, error);
+    fst_kappa_scan scan = paper->options->reduced ? reduced_remanence_scan : fst_remanence_scan;
+    scan.progress = &paper->patience;
+    return fst_least_kappa(&params, &scan, least, error);
 }
 
 fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *only, fst_error *error)

@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <pthread.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { MOST_THREADS = 64 };
@@ -45,23 +46,34 @@ static void *labour(void *argument)
     return NULL;
 }
 
+/* Wait for the crew, but no longer than 20 ms: who is told wants to be asked too. */
+static void wait_a_little(crew *all)
+{
+    struct timespec until;
+    (void)clock_gettime(CLOCK_MONOTONIC, &until);
+    until.tv_nsec += 20000000;
+    if (until.tv_nsec >= 1000000000) {
+        until.tv_nsec -= 1000000000;
+        until.tv_sec++;
+    }
+    (void)pthread_cond_timedwait(&all->changed, &all->lock, &until);
+}
+
 /* Watch the crew and report, until nobody works any more; called with the lock held. */
 static fst_status watch(crew *all, fst_error *error)
 {
     fst_status status = FST_OK;
-    int told = -1;
     while (all->busy > 0) {
-        int done = all->done;
-        if (all->work->progress && done != told && status == FST_OK) {
-            told = done;
+        const int told = all->done;
+        if (all->work->progress && status == FST_OK) {
             pthread_mutex_unlock(&all->lock);
-            status = all->work->progress(all->work->user, done, error);
+            status = all->work->progress(all->work->user, told, error);
             pthread_mutex_lock(&all->lock);
             if (status != FST_OK)
                 all->stopped = 1;
-            continue; /* what changed in the meantime is seen before waiting */
         }
-        pthread_cond_wait(&all->changed, &all->lock);
+        if (all->busy > 0 && all->done == told) /* else it changed in the meantime */
+            wait_a_little(all);
     }
     return status;
 }
@@ -70,7 +82,11 @@ fst_status fst_parallel(const fst_work *work, fst_error *error)
 {
     crew all = {.work = work, .failed_piece = work->count, .status = FST_OK};
     pthread_mutex_init(&all.lock, NULL);
-    pthread_cond_init(&all.changed, NULL);
+    pthread_condattr_t clock;
+    pthread_condattr_init(&clock);
+    pthread_condattr_setclock(&clock, CLOCK_MONOTONIC); /* which nobody sets */
+    pthread_cond_init(&all.changed, &clock);
+    pthread_condattr_destroy(&clock);
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     int wanted = processors < 1 ? 1 : processors > MOST_THREADS ? MOST_THREADS : (int)processors;
     if (wanted > work->count)

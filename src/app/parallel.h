@@ -10,8 +10,8 @@ typedef struct fst_work {
     /* Do piece `index`.  Pieces may run at the same time and in any order, so each writes into its own place;
      * then the results do not depend on the threads. */
     fst_status (*piece)(void *user, int index, fst_error *error);
-    /* Called by the calling thread alone, now and then, with the number of pieces done; may be NULL.  Another
-     * status than FST_OK ends the work. */
+    /* Called by the calling thread alone, every 20 ms and oftener, with the number of pieces done; may be NULL.
+     * Another status than FST_OK ends the work: no new pieces begin, and those at work should be told. */
     fst_status (*progress)(void *user, int done, fst_error *error);
 } fst_work;
 

@@ -282,6 +282,10 @@ static fst_status counter_rotates(const fst_params *params, const fst_kappa_scan
         double speed;
         /* Half a turn further the start is the image under S2 of this one: the same motion. */
         tried.start_phi = params->start_phi + 180.0 * start / scan->starts;
+        if (scan->progress)
+            status = scan->progress->tell(scan->progress->user, 0.0, error);
+        if (status != FST_OK)
+            return status;
         status = begin(&bead, &tried, error);
         if (status == FST_OK)
             status = fate_until(&bead, scan->periods * bead.period, &fate, &speed, error);

@@ -84,6 +84,7 @@ typedef struct fst_kappa_scan {
     double low, high;
     int points, halvings, starts;
     double periods;
+    const fst_progress *progress; /* asked before each start; NULL: nobody */
 } fst_kappa_scan;
 
 /* `kappa` is the least with which the bead was seen to counter-rotate, NAN: none of the scan; `below` the

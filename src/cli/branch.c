@@ -133,8 +133,13 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
         status = read_second(given, keys[1], o, error);
     if (status == FST_OK && tolerance)
         status = read_numbers("--tolerance", tolerance, &o->tolerance, 1, error);
+    if (status == FST_OK && !(o->tolerance >= 1e-14 && o->tolerance <= 1e-6))
+        status = fail(error, FST_BAD_INPUT, "--tolerance", "\"%.40s\" must be a number from 1e-14 to 1e-6",
+                      tolerance);
     if (status == FST_OK && step)
         status = read_numbers("--step", step, &o->longest_step, 1, error);
+    if (status == FST_OK && !(o->longest_step > 1e-5))
+        status = fail(error, FST_BAD_INPUT, "--step", "\"%.40s\" must be a number greater than 1e-5", step);
     return status;
 }
 

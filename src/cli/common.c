@@ -111,8 +111,12 @@ fst_status read_numbers(const char *option_name, const char *text, double *numbe
         (void)snprintf(word, sizeof word, "%.*s", (int)(length < 63 ? length : 63), at);
         if (at[length] != (last ? '\0' : ',') ||
             fst_parse_value(word, FST_UNIT_NUMBER, &numbers[i], error) != FST_OK)
-            return fail(error, FST_BAD_INPUT, option_name, "\"%.60s\" must be %d number%s%s", text, count,
-                        count > 1 ? "s separated by commas" : "", count > 1 ? ", without spaces or units" : "");
+            return count == 1
+                       ? fail(error, FST_BAD_INPUT, option_name, "\"%.60s\" must be a number, without a unit",
+                              text)
+                       : fail(error, FST_BAD_INPUT, option_name,
+                              "\"%.60s\" must be %d numbers separated by commas, without spaces or units", text,
+                              count);
         at += length + !last;
     }
     return FST_OK;

@@ -153,6 +153,14 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_progress *p
                   p->seconds, path, path);
 }
 
+static void tell_of_repair(const char *path, const fst_sweep_progress *result)
+{
+    (void)fprintf(stderr,
+                  "festoon: %s: this database was damaged; its sound rows were kept, the lost ones (%lld) "
+                  "are computed again, and the damaged file was kept as %s.damaged\n",
+                  path, (long long)result->lost, path);
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
@@ -181,11 +189,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (result.rank != 0)
         return FST_OK;
     if (result.repaired)
-        (void)fprintf(
-            stderr,
-            "festoon: %s: this database was damaged; its sound rows were kept, %lld lost ones are computed "
-            "again, and the damaged file was kept as %s.damaged\n",
-            path, (long long)result.lost, path);
+        tell_of_repair(path, &result);
     if (status == FST_INTERRUPTED)
         return fail(error, FST_INTERRUPTED, path,
                     "interrupted with %lld of %lld points done; the same command goes on",
@@ -200,17 +204,18 @@ const command sweep_command = {
     .synopsis = "[SCENE.yaml] --over KEY=LO:HI:COUNT [--over ...] -o FILE.db [options]",
     .summary = "Run every point of a grid into a database, and go on where it stopped",
     .details =
-        "Both ends of LO:HI are included, and values may carry units: --over drive.frequency=1Hz:120Hz:240.  "
-        "Several\n"
-        "--over multiply, the last one running fastest; random ones are drawn together.  Each point gets one "
-        "row with\n"
-        "the keys of festoon run; runs that fail have rows too.  Killed or interrupted (Ctrl-C, status 130) at "
-        "any\n"
-        "moment, the same command goes on.  One command at a time works on a FILE.db (status 1 for the "
-        "second).  "
-        "Under mpirun -n N or srun --mpi=pmix the points are shared "
-        "between\n"
-        "processes; interrupted, mpirun has a status of its own, and what was committed stays all the same.\n",
+        "Both ends of LO:HI are included, and values may carry units: --over drive.frequency=1Hz:120Hz:240.\n"
+        "Several --over multiply, the last one running fastest; random ones are drawn together.  Each point "
+        "gets\n"
+        "one row with the keys of festoon run; runs that fail have rows too.  Killed or interrupted (Ctrl-C, "
+        "status\n"
+        "130) at any moment, the same command goes on; docs/sweeps.md tells what a kill can cost.  One command "
+        "at a\n"
+        "time works on a FILE.db (status 1 for the second).  Under mpirun -n N or srun --mpi=pmix the points "
+        "are\n"
+        "shared between processes; interrupted, mpirun has a status of its own, and what was committed stays "
+        "all\n"
+        "the same.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -10,8 +10,8 @@
 enum { MOST_KEYS = 8, REGIMES = FST_REGIME_LIFTED + 1, MOST_POINTS = 10000 };
 
 typedef struct drawing {
-    double *x, *by_regime; /* by_regime[regime * points + i] */
-    fst_chart_curve curves[MOST_KEYS + REGIMES];
+    double *x, *by_regime; /* by_regime[(panel * REGIMES + regime) * points + i] */
+    fst_chart_curve curves[MOST_KEYS * REGIMES];
     fst_chart_panel panels[MOST_KEYS];
     int curve_count, panel_count;
     size_t points, step; /* that are drawn: every `step`-th one of the sweep */
@@ -34,11 +34,11 @@ static void mention_empty(drawing *d, const char *label)
                    strchr(d->title, ':') ? ", " : "; no value of: ", label);
 }
 
-/* One curve for each regime that occurs, at the height of `values`: who does what where. */
-static void add_regimes(drawing *d, const double *regime, const double *values)
+/* One curve of a panel for each regime that occurs, at the height of `values`: who does what where. */
+static void add_regimes(drawing *d, int panel, const double *regime, const double *values)
 {
     for (int r = 0; r < REGIMES; ++r) {
-        double *y = d->by_regime + (size_t)r * d->points;
+        double *y = d->by_regime + (size_t)(panel * REGIMES + r) * d->points;
         int occurs = 0;
         for (size_t i = 0; i < d->points; ++i) {
             y[i] = regime[i] == r ? values[i] : NAN;
@@ -54,17 +54,21 @@ static void add_regimes(drawing *d, const double *regime, const double *values)
     }
 }
 
-/* A panel a key; the regime, where it is asked for, colours the points of the key before it. */
+/* A panel a key.  The regime, where it is asked for beside others, has none: it colours the points of every
+ * panel, because a colour that means a regime in one panel must not mean nothing in the next. */
 static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep_quantity *quantities,
                        int count)
 {
     const size_t all = (size_t)fst_grid_points(table->grid);
+    const double *regime = NULL;
+    for (int k = 1; k < count; ++k)
+        if (strcmp(quantities[k].key, "regime") == 0)
+            regime = table->values + (size_t)k * all;
     for (int k = 0; k < count; ++k)
         for (size_t i = 0; i < d->points; ++i)
             table->values[(size_t)k * all + i] = table->values[(size_t)k * all + i * d->step];
     for (int k = 0; k < count; ++k) {
         double *values = table->values + (size_t)k * all;
-        const int regimes_follow = k + 1 < count && strcmp(quantities[k + 1].key, "regime") == 0;
         if (strcmp(quantities[k].key, "regime") == 0 && k > 0)
             continue;
         for (size_t i = 0; i < d->points; ++i)
@@ -74,14 +78,11 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep
             continue;
         }
         fst_chart_panel *panel = &d->panels[d->panel_count++];
-        *panel = (fst_chart_panel){.left_label = quantities[k].label,
-                                   .low = NAN,
-                                   .high = NAN,
-                                   .key = regimes_follow ? "top right" : NULL,
-                                   .curves = &d->curves[d->curve_count]};
+        *panel = (fst_chart_panel){
+            .left_label = quantities[k].label, .low = NAN, .high = NAN, .curves = &d->curves[d->curve_count]};
         const int first = d->curve_count;
-        if (regimes_follow)
-            add_regimes(d, values + all, values);
+        if (regime)
+            add_regimes(d, d->panel_count - 1, regime, values);
         else
             d->curves[d->curve_count++] = (fst_chart_curve){.x = d->x,
                                                             .y = values,
@@ -90,6 +91,8 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep
                                                             .style = FST_CURVE_POINTS};
         panel->curve_count = d->curve_count - first;
     }
+    if (regime && d->panel_count > 0)
+        d->panels[d->panel_count - 1].key = "top right";
 }
 
 /* The abscissa, and where the drawing ends: at the outermost values, or half a unit beyond those of a choice.
@@ -126,7 +129,7 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
     drawing *d = calloc(1, sizeof *d);
     const size_t all = (size_t)fst_grid_points(table->grid), step = (all + MOST_POINTS - 1) / MOST_POINTS;
     const size_t points = (all + step - 1) / step;
-    double *memory = malloc((1 + REGIMES) * points * sizeof *memory);
+    double *memory = malloc((1 + MOST_KEYS * REGIMES) * points * sizeof *memory);
     if (!d || !memory) {
         free(d);
         free(memory);

@@ -31,13 +31,22 @@ static void refuse(reader *r, const char *key, const json_t *found, const char *
 {
     if (r->status != FST_OK)
         return;
-    char *text = found ? json_dumps(found, JSON_ENCODE_ANY | JSON_COMPACT | JSON_ENSURE_ASCII) : NULL;
-    char quoted[FST_QUOTE_SIZE];
-    r->status = fst_fail(r->error, FST_BAD_INPUT, r->path, "%s%s must be %s, not %s", r->place, key, expected,
-                         !found ? "missing"
-                         : text ? fst_quote(text, quoted)
-                                : "what it is");
-    free(text);
+    char shown[FST_QUOTE_SIZE] = "what it is";
+    if (!found) {
+        r->status = fst_fail(r->error, FST_BAD_INPUT, r->path, "%s%s is missing: it must be %s", r->place, key,
+                             expected);
+        return;
+    }
+    if (json_is_string(found)) {
+        (void)fst_quote(json_string_value(found), shown);
+    } else {
+        char *text = json_dumps(found, JSON_ENCODE_ANY | JSON_COMPACT | JSON_ENSURE_ASCII);
+        if (text)
+            (void)snprintf(shown, sizeof shown, "%.60s%s", text, strlen(text) > 60 ? "..." : "");
+        free(text);
+    }
+    r->status =
+        fst_fail(r->error, FST_BAD_INPUT, r->path, "%s%s must be %s, not %s", r->place, key, expected, shown);
 }
 
 static void read_number(reader *r, const json_t *object, const char *key, double *out)

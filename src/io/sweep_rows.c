@@ -127,7 +127,10 @@ fst_status fst_sweep_rows_fail(const fst_sweep_rows *rows, const char *others, f
     const fst_sweep_file *file = rows->file;
     name_points(&rows->lost, points, sizeof points);
     if (rows->lost.count > 0)
-        (void)snprintf(what, sizeof what, "the rows of the points %s are lost", points);
+        (void)snprintf(what, sizeof what,
+                       rows->lost.count == 1 ? "the row of point %s is lost"
+                                             : "the rows of the points %s are lost",
+                       points);
     else if (rows->lost.outside > 0)
         (void)snprintf(what, sizeof what, "%" PRId64 " of its rows belong to no point of this sweep",
                        rows->lost.outside);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Kill sweeps, hundreds of times, and see that nothing is lost but what docs/performance.md says, and that the rows in
+"""Kill sweeps, hundreds of times, and see that nothing is lost but what docs/sweeps.md says, and that the rows in
 the end are those of a sweep that was never killed.
 
     tests/reliability/kills.py [--count N] [--seed N] [--only TEXT] [--write]

@@ -5,6 +5,7 @@ A section stands between two comment lines, <!-- begin NAME --> and <!-- end NAM
 
 import os
 import re
+import textwrap
 
 
 def page():
@@ -20,6 +21,23 @@ def table(head, rows):
     return "\n".join(lines)
 
 
+def wrapped(text):
+    """Prose and lists with lines of at most 115 characters; tables stay, and so do blanks within code."""
+    def paragraph(lines, indent):
+        kept = re.sub(r"`[^`\n]*`", lambda code: code[0].replace(" ", "\0"), " ".join(lines.split()))
+        lines = textwrap.wrap(kept, 115, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+        return "\n".join(lines).replace("\0", " ")
+
+    parts = []
+    for block in re.split(r"\n{2,}", text.strip()):
+        if block.startswith("- "):
+            block = "\n".join(paragraph(item, "  ") for item in re.split(r"\n(?=- )", block))
+        elif not block.startswith("|"):
+            block = paragraph(block, "")
+        parts.append(block)
+    return "\n\n".join(parts)
+
+
 def write(name, text):
     """Replace the text of the section `name`; the page must have that section."""
     with open(page(), encoding="utf-8") as file:
@@ -28,7 +46,7 @@ def write(name, text):
     pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.S)
     if len(pattern.findall(before)) != 1:
         raise SystemExit(f"{page()} has no section {name}")
-    after = pattern.sub(lambda _: begin + text.strip() + "\n" + end, before)
+    after = pattern.sub(lambda _: begin + wrapped(text) + "\n" + end, before)
     part = page() + ".part"
     with open(part, "w", encoding="utf-8") as file:
         file.write(after)
