@@ -41,8 +41,8 @@ class Material(unittest.TestCase):
         for settings in self.POSSIBLE:
             self.assertEqual(self.warnings(settings), [], settings)
 
-    def test_run_and_lyapunov_tell_and_go_on(self):
-        for command in ("run", "lyapunov"):
+    def test_commands_tell_and_go_on(self):
+        for command in ("run", "lyapunov", "orbit", "locked"):
             status, out, err = festoon(command, *changed("bead.radius=2mm"), *SHORT, "--json")
             self.assertEqual(status, 0, err)
             self.assertEqual(err.count("warning"), 1, err)

@@ -165,8 +165,8 @@ static void test_ramp_through_the_period_halving(void **unused)
                 if (beyond < -1.5 * width && i % 3 == 0) {
                     const fst_params still = bead_at(r.points[i].omega, (fst_dynamics)dynamics);
                     const fst_run_result settled_there = run_of(&still);
-                    CHECK_CLOSE(fabs(r.points[i].mean_nz), fabs(settled_there.mean_nz), 2e-3);
-                    CHECK_CLOSE(r.points[i].mean_r, settled_there.mean_r, 1e-3);
+                    CHECK_WITHIN(fabs(r.points[i].mean_nz) - fabs(settled_there.mean_nz), -2e-5, 2e-5);
+                    CHECK_WITHIN(r.points[i].mean_r - settled_there.mean_r, -1e-5, 1e-5);
                 }
             }
             assert_true(settled >= FINE - 2);

@@ -409,6 +409,30 @@ static void test_same_regimes_at_any_tolerance(void **unused)
     assert_true(locked >= 4 && librating >= 2 && turning >= 5);
 }
 
+/* Just above a Hopf point the locked state is unstable and the bead leaves it, from a distance that no speed
+ * tells from rest; just below it is stable. */
+static void test_leaving_a_locked_state(void **unused)
+{
+    (void)unused;
+    const double hopf[] = {0.092106345, 0.098864612}; /* docs/orbits.md */
+    const double above[] = {1e-5, 2e-5, 3e-5};
+    for (int dynamics = 0; dynamics < 2; ++dynamics) {
+        for (size_t i = 0; i < sizeof above / sizeof *above; ++i) {
+            fst_params p = bead_at(hopf[dynamics] + above[i], (fst_dynamics)dynamics);
+            p.run_periods = i == 0 && dynamics ? 1200 : 400;
+            p.run_discard = 0.5 * p.run_periods;
+            const fst_run_result r = run_of(&p);
+            expect_regime(&r, FST_REGIME_UNDECIDED);
+            assert_true(strstr(r.reason, "grows") || strstr(r.reason, "drifts"));
+        }
+        fst_params p = bead_at(hopf[dynamics] - 3e-5, (fst_dynamics)dynamics);
+        p.run_periods = 400;
+        p.run_discard = 200;
+        const fst_run_result r = run_of(&p);
+        expect_regime(&r, FST_REGIME_LOCKED);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -430,6 +454,7 @@ int main(void)
         cmocka_unit_test(test_balanced_on_the_axis),
         cmocka_unit_test(test_near_the_period_halving),
         cmocka_unit_test(test_slowly_lost),
+        cmocka_unit_test(test_leaving_a_locked_state),
     };
     return cmocka_run_group_tests_name("regimes", tests, NULL, NULL);
 }

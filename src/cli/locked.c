@@ -44,6 +44,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status == FST_OK)
         status = fst_model_new(&params, &model, error);
     if (status == FST_OK) {
+        warn_of_material(&params);
         progress_line line;
         const fst_progress progress = {&line, progress_tell};
         progress_begin(&line);

@@ -78,10 +78,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_params params;
     fst_orbit orbit;
     fst_status status = read_scene(given, operand(given), &params, error);
-    if (status == FST_OK && option_value(given, "festoons"))
-        return with_festoons(given, &params, out, error);
     if (status != FST_OK)
         return status;
+    warn_of_material(&params);
+    if (option_value(given, "festoons"))
+        return with_festoons(given, &params, out, error);
     progress_line line;
     const fst_progress progress = {&line, progress_tell};
     progress_begin(&line);

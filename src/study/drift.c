@@ -37,7 +37,8 @@ static const double ALIASED = 0.1;       /* part of the swing that a block shows
 static const double SWING_MATTERS = 0.1; /* relative change of the swing of a bead that librates */
 static const double SWING_SEEN = 1e-7;   /* a swing below this part of <r> is rounding */
 static const double HIDES = 0.1;         /* a drift of this part of a mean must be seen, where there is one */
-enum { LEAST_BLOCKS = 4 };               /* for a line and its scatter */
+static const double LEAVES = 0.3; /* growth of the logarithm of a bead's speed that leaves a state of rest */
+enum { LEAST_BLOCKS = 4 };        /* for a line and its scatter */
 
 /* Means between one kept mark and the next, and their straight line of least squares. */
 typedef struct blocks {
@@ -167,4 +168,19 @@ fst_drift fst_hidden_drift_of(const fst_run_state *run)
     found.noise = worst->hidden;
     found.mean = worst->mean;
     return found;
+}
+
+/* The second half alone: where a bead comes to rest the steps lengthen first, and what their errors leave of
+ * motion grows with them. */
+int fst_speed_grows(const fst_run_state *run)
+{
+    const fst_mark_series *marks = &run->period_marks;
+    const int from = 1 + (marks->count - 1) / 2, count = marks->count - from;
+    if (count < 2 * LEAST_BLOCKS)
+        return 0;
+    double logarithms[FST_MARKS];
+    for (int i = 0; i < count; ++i)
+        logarithms[i] = log(fmax(marks->kept[from + i].activity, 1e-300));
+    const line growth = line_through(logarithms, count);
+    return growth.change > LEAVES && growth.change > STANDS_OUT * growth.noise;
 }

@@ -20,4 +20,8 @@ fst_drift fst_drift_of(const fst_run_state *run);
  * not be seen; then `what` is set, and `noise` is the change that could hide. */
 fst_drift fst_hidden_drift_of(const fst_run_state *run);
 
+/* Whether the speed in the turning frame grows over the second half of the window as a straight line of its
+ * logarithm, beyond its scatter: so does a bead that is about to leave an unstable state of rest. */
+int fst_speed_grows(const fst_run_state *run);
+
 #endif

@@ -54,8 +54,10 @@ fst_status fst_ramp_step(fst_run_state *run, fst_error *error)
 static const double DIED_OUT = 1e-2; /* asymmetry over the disturbance: below, the orbit is symmetric */
 static const double GROWN = 1e2;     /* the same: above, the orbit is not, if it changes no more */
 static const double STEADY = 1e-3;   /* relative change of the asymmetry over the last returns */
-static const double CLOSED = 1e-5;   /* distance of successive whole returns */
-enum { FEWEST_TURNS = 16 };          /* in which a turning bead makes its returns; else none are waited for */
+static const double ARRIVED = 2e-5;  /* what is left of the way to the orbit, where the means begin */
+static const double SLOWEST =
+    0.9999;                 /* a return's distance over the one before: nearer to 1 is not told from it */
+enum { FEWEST_TURNS = 16 }; /* in which a turning bead makes its returns; else none are waited for */
 
 double fst_ramp_progress(const fst_run_state *run)
 {
@@ -77,6 +79,18 @@ void fst_ramp_crossing(fst_run_state *run, const fst_mark *mark, const double *i
     w->returns += 1;
 }
 
+/* The way that is left to the orbit where the means begin, which is at the `oldest` mark: the distances of
+ * whole returns fall by the same factor from return to return, and this is the sum of all that follow.  The
+ * last one alone does not tell: the returns before it, over which the means are taken, may be a thousand times
+ * as far. */
+static double way_left(const fst_mark *oldest, const fst_mark *latest, double rounding)
+{
+    if (oldest->full_distance <= rounding)
+        return 0.0;
+    const double ratio = fmax(latest->full_distance, rounding) / oldest->full_distance;
+    return oldest->full_distance / (1.0 - fmin(pow(ratio, 1.0 / FST_WAIT_RETURNS), SLOWEST));
+}
+
 /* The orbit has closed: it is symmetric, or asymmetric by an amount that no longer changes. */
 static int has_settled(const fst_run_state *run)
 {
@@ -87,7 +101,8 @@ static int has_settled(const fst_run_state *run)
               oldest = (int)(w->returns % (FST_WAIT_RETURNS + 1));
     const double now = w->asymmetry[latest], before = w->asymmetry[oldest];
     const double noise = fmax(run->options->ramp_disturbance, 10.0 * run->params->run_rtol);
-    if (!(w->marks[latest].full_distance < CLOSED))
+    const double rounding = 100.0 * run->params->run_rtol;
+    if (!(way_left(&w->marks[oldest], &w->marks[latest], rounding) < ARRIVED))
         return 0;
     return now < DIED_OUT * noise || (now > GROWN * noise && fabs(now - before) <= STEADY * now);
 }

@@ -14,12 +14,14 @@ static const double AT_REST = 1e-8; /* greatest |d(state)/dt| of a locked bead, 
 static const double STILL = 50.0;   /* times run.rtol: n within this of rest is at rest */
 static const double KEPT = 1e-9;    /* Phi within this, or within run.rtol, keeps its place */
 static const double NOISE = 100.0;  /* times run.rtol: slower motion is not told from the integrator's noise */
+static const double LEAVING = 10.0; /* times run.rtol: where slower motion grows, the steps made it */
 static const double GROWING =
     2.0; /* activity of a third of the window over the one before: above, twice, it grows */
 static const double CLOSED = 1e-6;   /* greatest distance of successive section states of a closed orbit */
 static const double STEADY = 0.01;   /* relative change of the half distance over half the window: S1 */
 static const double RELAXING = 1e-2; /* below this, distances that halve over half the window are relaxing */
 static const double STILL_FALLING = 0.95; /* activity of the last half over the first: below, it dies out */
+static const double SMALL = 1e-6;         /* range of Phi whose growth is seen in the speed alone */
 static const double WIDE = 0.3;           /* range of Phi of a wide libration */
 static const double GROWTH = 10.0;        /* exponent times duration: e^10 of growth is chaos */
 static const double QUIET = 2.0;          /* the same: below e^2 of growth a motion with friction is regular */
@@ -289,8 +291,10 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
     }
     if (late >= noise && still_drifts(run, result))
         return FST_OK;
-    if (late < noise) {
-        REASON("the motion is no faster than the integrator's noise but grows (speed in the turning frame from "
+    const int small = run->greatest_phi - run->least_phi < SMALL;
+    if (late < noise || (small && fst_speed_grows(run))) {
+        REASON("the motion is hardly faster than the integrator's noise but grows (speed in the turning frame "
+               "from "
                "%.2g "
                "to %.2g): run longer, or lower run.rtol",
                early, late);
@@ -336,6 +340,14 @@ fst_status fst_decide_regime(fst_run_state *run, fst_run_result *result, fst_err
         return FST_OK;
     }
     const double speed = speed_at_end(run), at_rest = fmax(AT_REST, run->params->run_rtol);
+    const fst_mark_series *marks = &run->period_marks;
+    const double lately = activity_over(marks, 1 + (marks->count - 1) / 2, marks->count);
+    if (speed < at_rest && lately > LEAVING * run->params->run_rtol && fst_speed_grows(run)) {
+        REASON("nearly at rest in the turning frame (|d(state)/dt| = %.2g), but that grows: the bead may be "
+               "leaving an unstable state; run longer",
+               speed);
+        return FST_OK;
+    }
     if (speed < at_rest) {
         const fst_drift approach = fst_drift_of(run);
         result->regime = FST_REGIME_LOCKED;
