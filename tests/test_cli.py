@@ -6,6 +6,7 @@ Environment: FESTOON is the program, SOURCE_DIR the source tree.
 import json
 import math
 import os
+import re
 import signal
 import subprocess
 import tempfile
@@ -359,7 +360,7 @@ class Run(Case):
         status, out, messages = events.on_a_terminal(self.FOR_DAYS, lambda text: " left" in text)
         self.assertEqual((status, out), (130, b""), messages)
         self.assertIn("interrupted", messages)
-        for number, words in ((signal.SIGINT, []), (signal.SIGTERM, ["-o", self.path("i.h5")])):
+        for number, words in ((signal.SIGINT, []), (signal.SIGHUP, []), (signal.SIGTERM, ["-o", self.path("i.h5")])):
             status, out, messages = events.signal_when([*self.FOR_DAYS, "--csv", self.path("i.csv"), *words],
                                                        lambda: self.written(".i.csv.") > 100000, number)
             self.assertEqual((status, out), (130, b""), messages)
@@ -372,6 +373,21 @@ class Run(Case):
             status, _, messages = festoon("plot", self.path("i." + ending), "-o", self.path(ending + ".svg"))
             if status != 1 or "gnuplot" not in messages:
                 self.assertEqual(status, 0, messages)
+
+    def test_nohup(self):
+        """SIGHUP stays ignored where it was; SIGTERM still ends the command."""
+        def ignored():
+            with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
+                return int(re.search(r"^SigIgn:\s*(\w+)", file.read(), re.M).group(1), 16)
+        process = events.start(["nohup", *self.FOR_DAYS, "--csv", self.path("n.csv")],
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        try:
+            events.wait_for(process, lambda: self.written(".n.csv.") > 0)
+            self.assertTrue(ignored() >> (signal.SIGHUP - 1) & 1)
+        finally:
+            process.terminate()
+            process.communicate(timeout=events.HANG)
+        self.assertEqual(process.returncode, 130)
 
     def test_plot_refuses_foreign_files(self):
         figure = self.path("f.svg")

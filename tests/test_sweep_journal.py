@@ -47,7 +47,7 @@ class Journal(Case):
 class Logs(Journal):
     """Files that SQLite would take for the log of a database because of their names."""
 
-    CHANGES = ("UPDATE rows SET mean_r = 9", "UPDATE seal SET commits = 7")
+    CHANGES = ("UPDATE rows SET mean_r = 9", "UPDATE seal SET commits = commits + 7")
 
     def test_a_new_sweep_has_nothing_of_a_deleted_one(self):
         self.made("dead.db", OTHER)
@@ -98,6 +98,26 @@ class Logs(Journal):
         self.put("a.db-wal", log)
         self.assertEqual(self.rows("a.db").count("\n"), 10)
         self.put("a.db-wal", b"")
+
+    def test_a_log_that_was_left_behind_is_refused(self):
+        """Moved without its log, finished, and moved back: the log would undo what was committed since."""
+        self.made()
+        log = self.log_of("a.db", "DELETE FROM rows WHERE point > 8", self.CHANGES[1])
+        for more, older in ((7, False), (8, True), (300, True)):
+            shutil.copy(self.path("a.db"), self.path("b.db"))
+            base = sqlite3.connect(self.path("b.db"))
+            base.execute(f"UPDATE seal SET commits = commits + {more}")
+            base.commit()
+            base.close()
+            self.put("b.db-wal", log)
+            before = content_of(self.path("b.db"))
+            for words in (("export", self.path("b.db"), "--csv"), ("plot", self.path("b.db"), "-o", self.path("f.svg")),
+                          ("sweep", *SMALL, "-o", self.path("b.db"))) if older else ():
+                self.assertIn("one older than it", self.refused(*words))
+                self.assertEqual((content_of(self.path("b.db")), content_of(self.path("b.db-wal"))), (before, log))
+            if older:
+                os.remove(self.path("b.db-wal"))
+            self.assertEqual(self.rows("b.db").count("\n"), 19 if older else 10)
 
     def test_a_damaged_log_is_told(self):
         expected = self.made()
@@ -376,7 +396,7 @@ class Names(Journal):
             self.skipTest("a small file system needs root")
         self.addCleanup(subprocess.run, ["umount", "-l", mount], check=True)
         expected = self.made("usual.db")
-        log = self.log_of("usual.db", "DELETE FROM rows WHERE point > 8", "UPDATE seal SET commits = 7")
+        log = self.log_of("usual.db", "DELETE FROM rows WHERE point > 8", "UPDATE seal SET commits = commits + 7")
         names = ("100%.db", "a#b.db", "a?immutable=0", "a b.db")
         for name in names:
             shutil.copy(self.path("usual.db"), os.path.join(mount, name))

@@ -46,6 +46,10 @@ void terminal_prepare(void)
     (void)sigemptyset(&action.sa_mask);
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
+    /* A terminal that goes away ends a command in the same way, but for one that nohup(1) has started. */
+    struct sigaction before;
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+        (void)sigaction(SIGHUP, &action, NULL);
     /* A closed pipe, and a file that grows over the limit of ulimit -f, are failed writes, with a message and
      * status 1. */
     struct sigaction ignore = {.sa_handler = SIG_IGN};

@@ -9,7 +9,7 @@
 /* Prepare standard streams and signals, before anything is opened. */
 void terminal_prepare(void);
 
-/* Whether SIGINT or SIGTERM came. */
+/* Whether SIGINT, SIGTERM or SIGHUP came. */
 int interrupted(void);
 
 /* A progress line on standard error, if that is a terminal. */

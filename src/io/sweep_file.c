@@ -96,8 +96,8 @@ static fst_status look_beside(fst_sweep_file *file, int descriptor, int locked, 
         return FST_OK;
     return fst_fail(
         error, FST_BAD_INPUT, file->name,
-        "beside this database lies the log of another one, %s; nothing was changed: move the log back "
-        "to its database, or remove it",
+        "beside this database lies the log of another one, or one older than it, %s; nothing was changed: "
+        "move the log back to its database, or remove it",
         log);
 }
 

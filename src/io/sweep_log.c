@@ -45,6 +45,26 @@ int fst_mark_find(const void *bytes, size_t size, char mark[FST_MARK_SIZE])
     return 0;
 }
 
+/* The number of transactions in the row of the table `seal`, which is alone on its page; -1: it is not there.
+ * A cell: sizes of the payload and of the key, a byte each; a head of four bytes (its size, the types of the
+ * three columns); the mark; the number. */
+static int64_t transactions_on(const unsigned char *page, size_t size, const char *mark)
+{
+    enum { MARK = FST_MARK_SIZE - 1, CELL = 6 + MARK };
+    static const int SIZES[] = {-1, 1, 2, 3, 4, 6, 8, -1, 0, 0}; /* of the types of SQLite's format */
+    const size_t at = (size_t)page[8] << 8 | page[9];
+    if (page[0] != 0x0d || page[3] != 0 || page[4] != 1 || at + CELL > size)
+        return -1;
+    const unsigned char *cell = page + at;
+    const int type = cell[5], bytes = type < 10 ? SIZES[type] : -1;
+    if (cell[2] != 4 || memcmp(cell + 6, mark, MARK) != 0 || bytes < 0 || at + CELL + (size_t)bytes > size)
+        return -1;
+    uint64_t number = type == 9;
+    for (int i = 0; i < bytes; ++i)
+        number = number << 8 | cell[6 + MARK + i];
+    return number <= INT64_MAX ? (int64_t)number : -1;
+}
+
 /* ------------------------------------------------------------------ the write-ahead log
  *
  * A head of 32 bytes, then frames: a head of 24 bytes and a page.
@@ -58,7 +78,7 @@ int fst_mark_find(const void *bytes, size_t size, char mark[FST_MARK_SIZE])
  * damage, or was being written when the power failed.
  */
 
-enum { HEAD_SIZE = 32, FRAME_SIZE = 24 };
+enum { HEAD_SIZE = 32, FRAME_SIZE = 24, SEAL_PAGE = 2 };
 
 static uint32_t number_at(const unsigned char *bytes)
 {
@@ -71,6 +91,8 @@ typedef struct log_walk {
     uint32_t page_size, salts[2], sum[2];
     int own, foreign; /* marks were found */
     int commits;      /* transactions that SQLite would use */
+    int64_t seal,
+        last; /* the number in the latest page of the seal, and in the last of these transactions; -1 */
     int damaged;
     int reason; /* errno of a read that failed; 0: none did */
 } log_walk;
@@ -148,15 +170,32 @@ static void walk_frames(log_walk *w, unsigned char *frame, const char *mark)
             return;
         }
         memcpy(w->sum, sum, sizeof sum);
-        w->commits += number_at(frame + 4) != 0;
         look_for_marks(w, frame + FRAME_SIZE, mark);
+        if (number_at(frame) == SEAL_PAGE)
+            w->seal = transactions_on(frame + FRAME_SIZE, w->page_size, mark);
+        if (number_at(frame + 4) != 0) {
+            ++w->commits;
+            w->last = w->seal;
+        }
     }
 }
 
-static fst_log_state look_at_wal(int descriptor, const char *mark, int *reason)
+/* Transactions of which the database itself knows, without its log; -1: none. */
+static int64_t transactions_in(int database, uint32_t page_size, const char *mark, int *reason)
+{
+    unsigned char *page = malloc(page_size);
+    const int there = page && read_all(database, page, page_size, (off_t)(SEAL_PAGE - 1) * page_size, reason);
+    const int64_t number = there ? transactions_on(page, page_size, mark) : -1;
+    free(page);
+    return number;
+}
+
+/* A checkpoint writes nothing into the database that its log has not: a whole log that ends before the database
+ * was left behind when the database was moved away, and would undo what was committed since. */
+static fst_log_state look_at_wal(int descriptor, int database, const char *mark, int *reason)
 {
     struct stat there;
-    log_walk w = {.descriptor = descriptor};
+    log_walk w = {.descriptor = descriptor, .seal = -1, .last = -1};
     if (fstat(descriptor, &there) != 0 || there.st_size <= HEAD_SIZE)
         return FST_LOG_NONE;
     const int good = read_head(&w);
@@ -174,6 +213,8 @@ static fst_log_state look_at_wal(int descriptor, const char *mark, int *reason)
     if (w.commits > 0 && !w.own)
         return FST_LOG_FOREIGN;
     if (w.foreign)
+        return FST_LOG_FOREIGN;
+    if (!w.damaged && w.last >= 0 && w.last < transactions_in(database, w.page_size, mark, reason))
         return FST_LOG_FOREIGN;
     return w.damaged ? FST_LOG_DAMAGED : w.commits > 0 ? FST_LOG_OWN : FST_LOG_NONE;
 }
@@ -219,21 +260,22 @@ fst_log_state fst_log_look(const char *path, const char *mark, char name[FST_LOG
 {
     fst_log_state state = FST_LOG_NONE;
     *reason = 0;
+    const int database = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     for (int i = 0; i < 2 && state != FST_LOG_FOREIGN; ++i) {
         const int descriptor =
             name_log(name, path, ENDINGS[i]) ? open(name, O_RDONLY | O_CLOEXEC | O_NONBLOCK) : -1;
         if (descriptor < 0)
             continue;
-        const fst_log_state found =
-            i == 0 ? look_at_wal(descriptor, mark, reason) : look_at_journal(descriptor, mark, reason);
+        const fst_log_state found = i == 0 ? look_at_wal(descriptor, database, mark, reason)
+                                           : look_at_journal(descriptor, mark, reason);
         (void)close(descriptor);
-        if (*reason)
-            return FST_LOG_NONE;
         state = found > state ? found : state;
-        if (found == FST_LOG_FOREIGN)
+        if (*reason || found == FST_LOG_FOREIGN)
             break;
     }
-    return state;
+    if (database >= 0)
+        (void)close(database);
+    return *reason ? FST_LOG_NONE : state;
 }
 
 fst_status fst_log_remove(const char *path, fst_error *error)

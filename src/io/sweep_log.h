@@ -23,7 +23,7 @@ typedef enum {
     FST_LOG_NONE, /* no log, or nothing in it that SQLite would use */
     FST_LOG_OWN,
     FST_LOG_DAMAGED, /* its own, but some of it cannot be used any more */
-    FST_LOG_FOREIGN  /* another database's */
+    FST_LOG_FOREIGN  /* another database's, or from an earlier time of this one */
 } fst_log_state;
 
 /* What lies beside the database `path` of this mark; `name` (FST_LOG_NAME_SIZE) is the file found.  *reason is
