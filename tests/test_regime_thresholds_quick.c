@@ -17,6 +17,7 @@ typedef struct made_up {
     double half[2], full[2]; /* distances of returns: in the middle of the window, at its end */
     double alpha_dot, alpha_dot_error;
     double growth;    /* exponent times duration */
+    double chance;    /* the part of the exponent's error that is chance, times duration */
     double r_rise;    /* of <r> over the blocks, as a line */
     double r_scatter; /* and back and forth from block to block */
     double r_slow;    /* and as a slow swing of two cycles */
@@ -107,6 +108,7 @@ static fst_run_result decide(const made_up *m)
     run->exponent_is = FST_EXPONENT_KNOWN;
     run->exponent.duration = 1000.0;
     run->exponent.value = m->growth / 1000.0;
+    run->exponent.chance = m->chance / 1000.0;
     run->exponent.standard_error = 1e-9;
     fst_run_result result;
     memset(&result, 0, sizeof result);
@@ -275,6 +277,18 @@ static void test_growth(void **unused)
                 "cannot be told");
 }
 
+/* However much neighbours part, it is chaos only if it stands out of chance by three of its errors. */
+static void test_significant(void **unused)
+{
+    (void)unused;
+    made_up m = TURNING;
+    m.chance = 10.0;
+    EITHER_SIDE(m, growth, 29.5, FST_REGIME_UNDECIDED, "cannot be told", 30.5, FST_REGIME_CHAOTIC, "positive");
+    m = LIBRATING;
+    m.chance = 10.0;
+    EITHER_SIDE(m, growth, 29.5, FST_REGIME_UNDECIDED, "cannot be told", 30.5, FST_REGIME_CHAOTIC, "positive");
+}
+
 /* A rise of <r> of 1e-4 is none; a larger one is, if it stands out of the scatter by 5 standard errors: of a
  * line through 32 values that go up and down by s, the change over all of them has the error s sqrt(12/30)
  * 32/sqrt(32^2 - 1). */
@@ -354,7 +368,7 @@ int main(void)
         cmocka_unit_test(test_one_way),       cmocka_unit_test(test_least_numbers),
         cmocka_unit_test(test_growth),        cmocka_unit_test(test_drift),
         cmocka_unit_test(test_hidden_drift),  cmocka_unit_test(test_wide_without_friction),
-        cmocka_unit_test(test_chance_return),
+        cmocka_unit_test(test_chance_return), cmocka_unit_test(test_significant),
     };
     return cmocka_run_group_tests_name("thresholds of regimes", tests, NULL, NULL);
 }
