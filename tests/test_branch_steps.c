@@ -109,12 +109,39 @@ static void steps_do_not_turn_sharply(void **state)
     }
 }
 
+/* Where families lie close together, over the height of the bead, a long step is corrected onto one that runs
+ * the same way: how far it lands from where it aimed tells.  (Without that guard one lands beyond the border
+ * where there is no equilibrium to end at, and with it the whole branch fails.) */
+static void steps_do_not_land_far_away(void **state)
+{
+    static const double folds[] = {0.333263, 0.394009, 0.405458, 0.467670, 0.519281, 0.552479, 0.617588};
+    static const double steps[] = {5.0, 100.0, 1000.0};
+    (void)state;
+    const fst_params params = scene_of(0.09, "rigid");
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
+        fst_branch_options o = over_omega(FST_BRANCH_LOCKED, 0.2, 1.0);
+        o.key = "model.h";
+        o.longest_step = steps[i];
+        o.follow = 0;
+        fst_branch b = followed(&params, &o);
+        size_t found = 0;
+        for (size_t k = 0; k < b.special_count; ++k)
+            found += b.specials[k].type == FST_SPECIAL_FOLD;
+        if (found != sizeof folds / sizeof *folds)
+            fail_msg("steps up to %g: %zu folds", steps[i], found);
+        for (size_t k = 0; k < found; ++k)
+            assert_true(fabs(special_near(&b, FST_SPECIAL_FOLD, folds[k])->value - folds[k]) < 2e-6);
+        fst_branch_free(&b);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(counter_rotation),
         cmocka_unit_test(locked_families),
         cmocka_unit_test(steps_do_not_turn_sharply),
+        cmocka_unit_test(steps_do_not_land_far_away),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -99,6 +99,11 @@ static double arriving(double t) /* a direction that takes its time to turn into
     return -0.02 * t + log(1.0 + 10.0 * exp(-0.01 * t));
 }
 
+static double drifting(double t) /* its rate goes from 0 to 0.01 */
+{
+    return 0.5e-5 * t * t;
+}
+
 static double even(double t)
 {
     return 0.01 * t;
@@ -114,6 +119,10 @@ static void growth_and_its_error(void **state)
         rate = rate_of(arriving, duration, 1000, 0.0);
         assert_true(fabs(rate.value + 0.02) < 3.0 * fmax(rate.error, 1.0 / duration));
     }
+    /* What goes one way has not arrived: all that the halves differ by counts. */
+    rate = rate_of(drifting, 1000.0, 1000, 0.0);
+    CHECK_CLOSE(rate.value, 0.005, 1e-8);
+    CHECK_CLOSE(rate.error, 0.005, 1e-6);
     int within = 0, within_three = 0;
     double mean_error = 0.0;
     enum { SAMPLES = 500 };

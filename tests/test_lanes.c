@@ -153,7 +153,7 @@ static void test_fast_rows_depend_on_nothing_else(void **state)
 }
 
 typedef struct range {
-    double r[2], b[2], load[2];
+    double r[2], b[2], load[2], slip[2], angle[2];
 } range;
 
 static void widen(double bounds[2], double value)
@@ -169,6 +169,8 @@ static fst_status take_sample(void *user, const fst_sample *sample, fst_error *e
     widen(seen->r, sample->seen.r);
     widen(seen->b, sample->seen.b_norm);
     widen(seen->load, sample->seen.load);
+    widen(seen->slip, sample->seen.slip_norm);
+    widen(seen->angle, sample->seen.angle * 360.0 / TWO_PI);
     return FST_OK;
 }
 
@@ -206,7 +208,11 @@ static void test_extremes_are_those_of_the_path(void **state)
         s.order[0] = millionths_of_omega[i];
         s.discard = i < 4 ? 10.0 : 0.5; /* the last one's extremes lie where its window begins */
         assert_int_equal(one_job(&s, &job), 1);
-        range seen = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
+        range seen = {{INFINITY, -INFINITY},
+                      {INFINITY, -INFINITY},
+                      {INFINITY, -INFINITY},
+                      {INFINITY, -INFINITY},
+                      {INFINITY, -INFINITY}};
         fst_run_options options = fst_default_run_options();
         fst_run_result run;
         job.params.run_samples = 20000;
@@ -227,6 +233,8 @@ static void test_extremes_are_those_of_the_path(void **state)
             check_range(seen.r, 1.0, row->min_r, row->max_r);
             check_range(seen.b, 1.0, row->min_b, row->max_b);
             check_range(seen.load, gravity, row->min_load_weights, row->max_load_weights);
+            check_range(seen.slip, 1.0, seen.slip[0], row->max_slip);
+            check_range(seen.angle, 1.0, seen.angle[0], row->max_angle_deg);
         }
     }
 }

@@ -16,11 +16,13 @@ typedef struct made_up {
     double phi_range;
     double half[2], full[2]; /* distances of returns: in the middle of the window, at its end */
     double alpha_dot, alpha_dot_error;
-    double growth;    /* exponent times duration */
-    double r_rise;    /* of <r> over the blocks, as a line */
-    double r_scatter; /* and back and forth from block to block */
-    double r_slow;    /* and as a slow swing of two cycles */
-    double swing[2];  /* delta r in the first block and in the last */
+    double growth;     /* exponent times duration */
+    double chance;     /* the part of the exponent's error that is chance, times duration */
+    double r_rise;     /* of <r> over the blocks, as a line */
+    double r_scatter;  /* and back and forth from block to block */
+    double r_slow;     /* and as a slow swing of two cycles */
+    double alpha_rise; /* of <alpha'> of a turning bead over the blocks, as a line */
+    double swing[2];   /* delta r in the first block and in the last */
     int without_friction;
     int64_t periods;         /* whole drive periods offered, if not as many as there are blocks */
     double full_before_last; /* the full distance of the mark before the last, if not 0 */
@@ -54,14 +56,14 @@ static const made_up TURNING = {.turns = 1,
 static void fill_marks(fst_mark_series *series, const made_up *m, double from, double step)
 {
     fst_marks_begin(series);
-    double r_integral = 0.0, r2_integral = 0.0;
+    double r_integral = 0.0, r2_integral = 0.0, alpha_rise = 0.0;
     for (int i = 0; i <= m->blocks; ++i) {
         fst_mark mark;
         memset(&mark, 0, sizeof mark);
         mark.t.high = from + i * step;
         mark.integrals[FST_Q_R] = r_integral;
         mark.integrals[FST_Q_R2] = r2_integral;
-        mark.big_phi = (m->turns ? m->alpha_dot - 0.3 : 0.0) * mark.t.high;
+        mark.big_phi = (m->turns ? m->alpha_dot - 0.3 : 0.0) * mark.t.high + alpha_rise;
         const int late = 2 * i > m->blocks;
         mark.half_distance = m->half[2 * i >= m->blocks + 2];
         mark.full_distance = m->full[2 * i >= m->blocks + 2];
@@ -72,6 +74,7 @@ static void fill_marks(fst_mark_series *series, const made_up *m, double from, d
                          m->r_slow * sin(2 * TWO_PI * part);
         const double swing = m->swing[0] * pow(m->swing[1] / m->swing[0], part);
         r_integral += r * step;
+        alpha_rise += m->alpha_rise * (part - 0.5) * step;
         r2_integral += ((r - 1.0) * (r - 1.0) + swing * swing) * step;
     }
 }
@@ -107,6 +110,7 @@ static fst_run_result decide(const made_up *m)
     run->exponent_is = FST_EXPONENT_KNOWN;
     run->exponent.duration = 1000.0;
     run->exponent.value = m->growth / 1000.0;
+    run->exponent.chance = m->chance / 1000.0;
     run->exponent.standard_error = 1e-9;
     fst_run_result result;
     memset(&result, 0, sizeof result);
@@ -275,6 +279,18 @@ static void test_growth(void **unused)
                 "cannot be told");
 }
 
+/* However much neighbours part, it is chaos only if it stands out of chance by three of its errors. */
+static void test_significant(void **unused)
+{
+    (void)unused;
+    made_up m = TURNING;
+    m.chance = 10.0;
+    EITHER_SIDE(m, growth, 29.5, FST_REGIME_UNDECIDED, "cannot be told", 30.5, FST_REGIME_CHAOTIC, "positive");
+    m = LIBRATING;
+    m.chance = 10.0;
+    EITHER_SIDE(m, growth, 29.5, FST_REGIME_UNDECIDED, "cannot be told", 30.5, FST_REGIME_CHAOTIC, "positive");
+}
+
 /* A rise of <r> of 1e-4 is none; a larger one is, if it stands out of the scatter by 5 standard errors: of a
  * line through 32 values that go up and down by s, the change over all of them has the error s sqrt(12/30)
  * 32/sqrt(32^2 - 1). */
@@ -288,6 +304,9 @@ static void test_drift(void **unused)
     const double error = 0.01 * sqrt(12.0 / 29.0);
     EITHER_SIDE(m, r_rise, 4.6 * error, FST_REGIME_COUNTER_ROTATING, "does not close", 5.4 * error,
                 FST_REGIME_UNDECIDED, "still drifts: <r>");
+    /* <alpha'> may change by 1e-4 of the drive */
+    EITHER_SIDE(TURNING, alpha_rise, 0.9 * 0.3e-4, FST_REGIME_COUNTER_ROTATING, "does not close", 1.1 * 0.3e-4,
+                FST_REGIME_UNDECIDED, "still drifts: <alpha'>");
     /* a closed orbit does not drift any less for being closed */
     m = TURNING;
     m.half[0] = m.half[1] = 1e-9;
@@ -354,7 +373,7 @@ int main(void)
         cmocka_unit_test(test_one_way),       cmocka_unit_test(test_least_numbers),
         cmocka_unit_test(test_growth),        cmocka_unit_test(test_drift),
         cmocka_unit_test(test_hidden_drift),  cmocka_unit_test(test_wide_without_friction),
-        cmocka_unit_test(test_chance_return),
+        cmocka_unit_test(test_chance_return), cmocka_unit_test(test_significant),
     };
     return cmocka_run_group_tests_name("thresholds of regimes", tests, NULL, NULL);
 }

@@ -12,11 +12,15 @@ import signal
 import socket
 import sqlite3
 import subprocess
+import sys
 import time
 import unittest
 
 from hdf5_reader import Hdf5
 from sweep_tools import FESTOON, SHORT, SMALL, Case, change, content_of, festoon
+
+sys.path.append(os.path.join(os.environ["SOURCE_DIR"], "tests", "reliability"))
+from power import read_log  # noqa: E402
 
 OTHER = SHORT + ["--over", "drive.frequency=9Hz:20Hz:6", "--over", "model.kappa=1,1.5,2", "--set", "start.r=0.9"]
 
@@ -440,6 +444,30 @@ class Texts(Journal):
         units = file.attribute(None, "units")
         for words in ("lengths in l", "times in 1/gamma", "fields in B0"):
             self.assertIn(words, units)
+
+
+class Power(Journal):
+    """What a loss of power may take (tests/reliability/power.py builds the states it may leave)."""
+
+    def test_rows_are_on_the_disk_before_they_count(self):
+        recorder = os.path.join(os.environ["BUILD_DIR"], "tests", "disk_recorder.so")
+        if not os.path.exists(recorder):
+            self.skipTest("built without a recorder of the disk")
+        folder = os.path.realpath(self.directory)
+        environment = dict(os.environ, LD_PRELOAD=recorder, DISK_FOLDER=folder, DISK_LOG=self.path("record"))
+        status, _, err = festoon("sweep", *SMALL, "-o", os.path.join(folder, "a.db"), env=environment)
+        self.assertEqual(status, 0, err)
+        name, waits, synced = None, False, 0
+        for kind, inode, *more in read_log(self.path("record")):
+            if kind == "C" and more[0].endswith("a.db-wal"):
+                name, waits = inode, False
+            waits = waits or (kind == "W" and inode == name)
+            if kind == "S" and inode == name:
+                waits, synced = False, synced + 1
+        if name is None:
+            self.skipTest("on this file system a sweep has no write-ahead log")
+        self.assertGreater(synced, 0)
+        self.assertFalse(waits, "the last rows of the log were never synced")
 
 
 if __name__ == "__main__":
