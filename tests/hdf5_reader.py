@@ -8,7 +8,7 @@ import unittest
 class Hdf5:
     """Columns of doubles in a file of HDF5, read by the C library alone."""
 
-    def __init__(self, path):
+    def __init__(self, path, writable=0):
         names = ["libhdf5_serial.so.103", "libhdf5.so.103", ctypes.util.find_library("hdf5_serial"),
                  ctypes.util.find_library("hdf5")]
         for name in filter(None, names):
@@ -26,7 +26,7 @@ class Hdf5:
         self.library.H5Lget_name_by_idx.restype = ctypes.c_ssize_t
         self.library.H5Tget_size.restype = ctypes.c_size_t
         self.double = ctypes.c_int64.in_dll(self.library, "H5T_NATIVE_DOUBLE_g")
-        self.file = ctypes.c_int64(self.library.H5Fopen(path.encode(), 0, ctypes.c_int64(0)))
+        self.file = ctypes.c_int64(self.library.H5Fopen(path.encode(), writable, ctypes.c_int64(0)))
         assert self.file.value >= 0, path
 
     def close(self):
@@ -49,6 +49,11 @@ class Hdf5:
         info = Info()
         assert self.library.H5Gget_info(self.file, ctypes.byref(info)) >= 0
         return info.links
+
+    def resize(self, name, rows):
+        data_set = ctypes.c_int64(self.library.H5Dopen2(self.file, name.encode(), ctypes.c_int64(0)))
+        assert self.library.H5Dset_extent(data_set, ctypes.byref(ctypes.c_uint64(rows))) >= 0
+        self.library.H5Dclose(data_set)
 
     def column(self, name):
         data_set = ctypes.c_int64(self.library.H5Dopen2(self.file, name.encode(), ctypes.c_int64(0)))

@@ -1,10 +1,12 @@
 /* The motion that a film shows, from samples whose motion is known exactly: a body that turns evenly about an
- * axis at rest, and a bead that goes straight on. */
+ * axis at rest, and a bead that goes straight on.  And what tells a whole film from one that was cut short. */
 #include "numeric.h"
 
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "app/film_motion.h"
+#include "draw/film_file.h"
 
 #include <festoon/festoon_tools.h>
 
@@ -149,12 +151,77 @@ static void test_ranges_of_colours(void **state)
     }
 }
 
+/* ------------------------------------------------------------------ files */
+
+static void put_number(unsigned char *at, size_t value)
+{
+    for (int i = 0; i < 4; ++i)
+        at[i] = (unsigned char)(value >> (24 - 8 * i));
+}
+
+/* Make a box of what has been written from `start` on, which begins with the room for its head. */
+static void close_box(unsigned char *bytes, size_t start, size_t end, const char *type)
+{
+    put_number(bytes + start, end - start);
+    memcpy(bytes + start + 4, type, 4);
+}
+
+/* An mp4 whose table has so many pictures of ten bytes, with so many bytes of contents; its size. */
+static size_t make_mp4(unsigned char *bytes, size_t pictures, size_t contents)
+{
+    static const char *const holders[] = {"moov", "trak", "mdia", "minf", "stbl"};
+    enum { HEAD = 8, FTYP = 16, TABLE = FTYP + 5 * HEAD };
+    memset(bytes, 0, 1024);
+    close_box(bytes, 0, FTYP, "ftyp");
+    put_number(bytes + TABLE + 16, pictures);
+    size_t end = TABLE + 20;
+    for (size_t i = 0; i < pictures; ++i, end += 4)
+        put_number(bytes + end, 10);
+    close_box(bytes, TABLE, end, "stsz");
+    for (size_t i = 0; i < 5; ++i)
+        close_box(bytes, FTYP + i * HEAD, end, holders[i]);
+    close_box(bytes, end, end + HEAD + contents, "mdat");
+    return end + HEAD + contents;
+}
+
+static void check_film(const unsigned char *bytes, size_t size, const char *problem)
+{
+    char path[] = "/tmp/festoon-film-XXXXXX";
+    fst_error error = {FST_OK, "", ""};
+    const int descriptor = mkstemp(path);
+    assert_true(descriptor >= 0);
+    assert_int_equal(write(descriptor, bytes, size), (ssize_t)size);
+    assert_int_equal(close(descriptor), 0);
+    const fst_status status = fst_film_file_check(path, "mp4", 12, "film.mp4", &error);
+    assert_int_equal(unlink(path), 0);
+    assert_int_equal(status, problem ? FST_IO : FST_OK);
+    if (problem)
+        CHECK_CONTAINS(error.sentence, problem);
+}
+
+static void test_films_are_whole(void **state)
+{
+    (void)state;
+    static unsigned char bytes[1024];
+    const size_t size = make_mp4(bytes, 12, 120);
+    check_film(bytes, size, NULL);
+    for (size_t cut = 1; cut < 128; cut += 9)
+        check_film(bytes, size - cut, "it is cut short");
+    check_film(bytes, size - 128, "the contents of pictures are missing");
+    check_film(bytes, make_mp4(bytes, 12, 119), "the contents of pictures are missing");
+    check_film(bytes, make_mp4(bytes, 11, 120), "pictures are missing");
+    check_film(bytes, make_mp4(bytes, 13, 130), "pictures are missing");
+    check_film(bytes, 16, "it has no index");
+    check_film(bytes, 0, "it is empty");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_body_turns_with_the_bead),
         cmocka_unit_test(test_places_between_samples),
         cmocka_unit_test(test_ranges_of_colours),
+        cmocka_unit_test(test_films_are_whole),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

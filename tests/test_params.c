@@ -253,6 +253,16 @@ static void structs_are_validated(void **state)
     assert_int_equal(fst_params_set(&params, "bead.radius", "1 mm", &error), FST_BAD_INPUT);
 }
 
+/* Each status has a text of its own: a row of a sweep that failed must not read like one that is done. */
+static void statuses_have_texts(void **state)
+{
+    (void)state;
+    assert_string_equal(fst_status_text(FST_OK), "done");
+    for (int i = 0; i <= FST_INTERRUPTED; i++)
+        for (int k = 0; k < i; k++)
+            assert_string_not_equal(fst_status_text((fst_status)i), fst_status_text((fst_status)k));
+}
+
 static void nearest_names(void **state)
 {
     (void)state;
@@ -307,6 +317,7 @@ int main(void)
         cmocka_unit_test(forms_replace_each_other),
         cmocka_unit_test(kappa_has_two_makers),
         cmocka_unit_test(structs_are_validated),
+        cmocka_unit_test(statuses_have_texts),
         cmocka_unit_test(nearest_names),
         cmocka_unit_test(locale_does_not_matter),
     };

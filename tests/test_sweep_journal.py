@@ -446,6 +446,23 @@ class Texts(Journal):
             self.assertIn(words, units)
 
 
+    def test_columns_of_unequal_length(self):
+        """Made by HDF5 itself, so that every checksum in the file is right."""
+        status, _, err = festoon("run", *SHORT, "-o", self.path("t.h5"))
+        if status != 0 and "HDF5" in err:
+            self.skipTest("built without HDF5")
+        self.assertEqual(status, 0, err)
+        whole = content_of(self.path("t.h5"))
+        for change in (-1, 1, -10000):
+            self.put("t.h5", whole)
+            file = Hdf5(self.path("t.h5"), writable=1)
+            rows = len(file.column("r"))
+            file.resize("r", max(rows + change, 1))
+            file.close()
+            self.assertIn("the column r has another length",
+                          self.refused("plot", self.path("t.h5"), "-o", self.path("f.svg")))
+
+
 class Power(Journal):
     """What a loss of power may take (tests/reliability/power.py builds the states it may leave)."""
 

@@ -57,6 +57,14 @@ static fst_sample sample_at(int index)
         sample.state[i] = sin(value + i);
     sample.phi = -value;
     sample.alpha = 1e-300 * value;
+    sample.x = cos(value);
+    sample.y = cos(value + 0.3);
+    for (int i = 0; i < 2; i++)
+        sample.v_lab[i] = cos(value - 0.2 * (1 + i));
+    for (int i = 0; i < 3; i++) {
+        sample.n_lab[i] = cos(0.7 * value + i);
+        sample.w_lab[i] = cos(0.9 * value + i);
+    }
     sample.seen.r = 1.0 / value;
     sample.seen.angle = 0.1;
     sample.seen.load = index % 7 == 3 ? NAN : 1e300;
@@ -92,6 +100,17 @@ static int column(const char *name)
     return -1;
 }
 
+/* What stands in the laboratory's columns is not what the turning frame's hold. */
+static void check_laboratory(const fst_table *table, int row, const fst_sample *sample)
+{
+    static const char *const names[] = {"x", "y", "vx", "vy", "n_x", "n_y", "n_z", "w_x", "w_y", "w_z"};
+    const double values[] = {sample->x,        sample->y,        sample->v_lab[0], sample->v_lab[1],
+                             sample->n_lab[0], sample->n_lab[1], sample->n_lab[2], sample->w_lab[0],
+                             sample->w_lab[1], sample->w_lab[2]};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        CHECK_SAME_BITS(table->columns[column(names[i])][row], values[i]);
+}
+
 /* 10000 rows: more than two chunks of the HDF5 file. */
 static void files_give_back_every_bit(void **state)
 {
@@ -115,6 +134,7 @@ static void files_give_back_every_bit(void **state)
                 CHECK_SAME_BITS(table.columns[column("WZ")][i], sample.state[FST_WZ]);
                 CHECK_SAME_BITS(table.columns[column("alpha")][i], sample.alpha);
                 CHECK_SAME_BITS(table.columns[column("r")][i], sample.seen.r);
+                check_laboratory(&table, i, &sample);
                 CHECK_CLOSE(table.columns[column("angle")][i], 5.729577951308232, 1e-14);
                 assert_true(isnan(sample.seen.load) ? isnan(table.columns[column("load")][i])
                                                     : table.columns[column("load")][i] == sample.seen.load);

@@ -366,7 +366,8 @@ def report(entries, results, write):
         if results.get(entry).get("outcome") == "invalid":
             print(f"invalid: {entry.name} ({entry.path}) does not compile")
     if write:
-        section.write("mutants", text_of(rows, survivors))
+        few = [entry.name for entry in survivors if results.get(entry)["outcome"] == "open"]
+        section.write("mutants", text_of(rows, survivors, few))
     valid = sum(counts[name] for name in COUNTED)
     left = counts["not tried"]
     if left:
@@ -375,8 +376,8 @@ def report(entries, results, write):
                  not left and all(entry.why for entry in survivors)) else 1
 
 
-def text_of(rows, survivors):
-    """The section of docs/reliability.md."""
+def text_of(rows, survivors, few):
+    """The section of docs/reliability.md; `few` are the faults that only their likely tests were asked about."""
     text = ("Faults that a reviewer would call bugs (a wrong sign, factor, index or threshold, a check, a term or an "
             "error bar\nleft out, a text unquoted, a status ignored) are put into the code by hand, one at a time: "
             "`tests/mutants/*.mutants`\nlists them, a block a fault. For each, the tree is built and its tests are "
@@ -390,6 +391,8 @@ def text_of(rows, survivors):
     for entry in survivors:
         what = " ".join(entry.comment) or "`" + " ".join(" ".join(entry.old).split()).replace("|", "\\|") + "`"
         text += f"- `{entry.name}` in `{entry.path}` ({what}): {' '.join(entry.why) or 'no reason yet'}\n"
+    if few:
+        text += f"\nOf these, only the likely tests were asked about {len(few)}: `{'`, `'.join(few)}`.\n"
     return text
 
 
