@@ -222,8 +222,7 @@ hid_t fst_hdf5_access(fst_hdf5_disk *disk)
 {
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS), id = H5FDregister(&driver);
     const int failed = access < 0 || id < 0 || H5Pset_driver(access, id, &disk) < 0;
-    if (id >= 0)
-        (void)H5FDunregister(id); /* lists and open files hold it */
+    disk->driver = id;
     if (failed && access >= 0)
         (void)H5Pclose(access);
     return failed ? -1 : access;
@@ -231,6 +230,9 @@ hid_t fst_hdf5_access(fst_hdf5_disk *disk)
 
 void fst_hdf5_forget(fst_hdf5_disk *disk)
 {
+    if (disk->driver > 0)
+        (void)H5FDunregister(disk->driver);
+    disk->driver = 0;
     while (disk->oldest) {
         fst_hdf5_block *next = disk->oldest->next;
         free(disk->oldest);

@@ -23,6 +23,7 @@ typedef struct fst_hdf5_block fst_hdf5_block;
 typedef struct fst_hdf5_disk {
     int descriptor; /* of the file, which stays the caller's; -1: the file is in the list */
     int reason;     /* errno of the first failure; 0: none */
+    hid_t driver;   /* registered until fst_hdf5_forget(): H5Fclose() reads it after it has let it go */
     fst_hdf5_block *oldest, *newest;
 } fst_hdf5_disk;
 
@@ -33,7 +34,7 @@ int fst_hdf5_load(fst_hdf5_disk *disk);
  */
 hid_t fst_hdf5_access(fst_hdf5_disk *disk);
 
-/* Free the list of blocks. */
+/* Free the list of blocks and let the driver go, once the file is closed. */
 void fst_hdf5_forget(fst_hdf5_disk *disk);
 
 #endif
