@@ -106,6 +106,8 @@ static fst_status look_at_file(fst_sweep_file *file, int locked, fst_error *erro
 {
     int descriptor;
     fst_status status = fst_open_regular(file->name, &descriptor, error);
+    if (status == FST_BAD_INPUT && locked && access(file->name, F_OK) != 0)
+        return fst_fail(error, FST_IO, file->name, "this file was there a moment ago, and is removed");
     if (status != FST_OK)
         return status;
     status = fst_database_head(descriptor, file->name, file->mark, error);

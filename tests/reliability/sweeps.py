@@ -50,7 +50,7 @@ def stopped_at_work(points, path, rows=1):
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         while process.poll() is None:
             if rows_in(path) >= rows:
-                process.send_signal(signal.SIGSTOP)
+                os.kill(process.pid, signal.SIGSTOP)  # send_signal() would reap a program that is over
                 os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
                 if process.poll() is None and rows_in(path) < points:
                     return process, points
