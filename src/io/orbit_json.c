@@ -165,6 +165,8 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
         json_object_set_new(end, "branch", json_integer(e->branch));
         json_object_set_new(end, "born_on", e->family >= 0 ? json_integer(e->family) : json_null());
         json_object_set_new(end, "value", fst_json_number(e->value));
+        if (e->type != FST_END_NONE)
+            json_object_set_new(end, "type", json_string(fst_end_name(e->type)));
         json_object_set_new(end, "reason", json_string(e->reason));
         if (!branch->second_key[0])
             json_object_set_new(end, "image_under_s2",

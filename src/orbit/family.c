@@ -190,6 +190,12 @@ void fst_family_tighten(fst_family *family, double tolerance)
     family->location = fmin(1e-13, 0.1 * tolerance);
 }
 
+double fst_family_scale(const char *key, double from, double to)
+{
+    /* the states themselves vary by several times omega */
+    return strcmp(key, "drive.omega") == 0 ? 1.0 : fmax(fabs(from), fabs(to));
+}
+
 fst_params fst_family_params(const fst_family *family, double value)
 {
     fst_params params = family->params;
