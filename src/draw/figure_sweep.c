@@ -26,7 +26,7 @@ static fst_status units_of(const fst_grid *grid, const char *what, double *lengt
         const char *key = fst_grid_key(grid, i);
         if (fst_grid_axis_points(grid, i) > 1 && ((length && strcmp(key, "magnet.half_length") == 0) ||
                                                   (time && strcmp(key, "friction.gamma") == 0)))
-            return fst_fail(error, FST_BAD_INPUT, "--units",
+            return fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.units",
                             "the sweep varies %s, a unit itself, so %s is shown in the units it was made with",
                             key, what);
     }
@@ -189,9 +189,10 @@ fst_status fst_figure_sweep(const char *path, const char *const *keys, int count
         return status;
     status = axes_of(grid, path, units, axes, &varied, error);
     if (status == FST_OK && varied == 2 && count > 1)
-        status = fst_fail(error, FST_BAD_INPUT, "--key", "a map shows one key, not %d", count);
+        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a map shows one key, not %d", count);
     if (status == FST_OK && count > MOST_KEYS)
-        status = fst_fail(error, FST_BAD_INPUT, "--key", "a figure shows at most %d keys", MOST_KEYS);
+        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a figure shows at most %d keys",
+                          MOST_KEYS);
     const char *const *shown = count > 0 ? keys : varied == 1 ? curves : map;
     const int shown_count = count > 0 ? count : varied == 1 ? 4 : 1;
     for (int i = 0; i < shown_count && status == FST_OK; ++i)

@@ -285,8 +285,8 @@ fst_status fst_run_dots_read(const char *path, const char *key, const char *obse
     }
     free(text);
     if (status == FST_OK && *count == 0)
-        status = fst_fail(error, FST_BAD_INPUT, path,
-                          "no document of festoon run --json with %s and %s is in it", key, observable);
+        status = fst_fail(error, FST_BAD_INPUT, path, "it holds no document of festoon run with %s and %s", key,
+                          observable);
     if (status != FST_OK) {
         free(*dots);
         *dots = NULL;

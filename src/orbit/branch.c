@@ -1,9 +1,27 @@
-/* branch.c - whole branches: the counter-rotating family, and every family of equilibria. */
+/* branch.c - whole branches, as the public call makes them.
+ *
+ *      branch.c        checks the options, and chooses
+ *        counter.c       the counter-rotating family: simulate until an orbit is found, begin there
+ *        locked.c        every equilibrium, by Newton's method from many starts at several values of the
+ * parameter tracer.c        a list of branches still to be followed; one after another, each both ways curve.c
+ * point by point special.c       special points between; a branch that is born there goes on the tracer's list
+ *        special_curve.c with two parameters: special points of one type, each followed as a curve over both
+ *
+ *                    .----- 1 ---- end            0 is followed first, from its start both ways;
+ *       end ---- 0 --*-- start --- 0 --- end      1 and 2, born at its special points (*), wait on the list,
+ *                    '----- 2 ---- end            and are followed away from there only.
+ *
+ * A branch that is met again (a curve that closes, the other end of one that is known) is recognised by its
+ * numbers and not followed twice.  Of two conjugate orbits, images of each other under S2, only one is
+ * followed; every end says on which branch the images lie.  Over two parameters the branches over the first are
+ * followed for their special points alone, at the scene's value of the second.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "base/number.h"
 #include "model/params.h"
 #include "orbit/branch_list.h"
 #include "orbit/counter.h"
@@ -44,32 +62,59 @@ void fst_branch_free(fst_branch *branch)
     memset(branch, 0, sizeof *branch);
 }
 
+/* The field `name` of the options is wrong. */
+#define WRONG(name, ...) return fst_fail(error, FST_BAD_INPUT, "fst_branch_options." name, __VA_ARGS__)
+
+/* The motion must depend on the parameter, and both ends must be values that it can have.  (What is no
+ * parameter at all, fst_family_begin() refuses.) */
+static fst_status check_key(const char *field, const char *key, double from, double to, fst_error *error)
+{
+    static const char *const apart[] = {"start.", "run.", "plate."};
+    const int row = fst_param_find(key);
+    for (size_t i = 0; i < sizeof apart / sizeof *apart; ++i)
+        if (strncmp(key, apart[i], strlen(apart[i])) == 0)
+            return fst_fail(
+                error, FST_BAD_INPUT, field,
+                "no orbit and no locked state depends on %s: expected a parameter of the magnet, the "
+                "bead, the drive or the model",
+                key);
+    for (int end = 0; row >= 0 && fst_param_at(row)->kind == FST_KIND_REAL && end < 2; ++end) {
+        fst_params scratch = fst_default_params();
+        fst_error why;
+        char text[40];
+        (void)fst_number_write(text, sizeof text, end ? to : from);
+        if (fst_params_set(&scratch, key, text, &why) != FST_OK)
+            return fst_fail(error, FST_BAD_INPUT, field, "%s", why.sentence);
+    }
+    return FST_OK;
+}
+
+static fst_status check_second(const fst_branch_options *o, fst_error *error)
+{
+    if (!isfinite(o->second_from) || !isfinite(o->second_to) || o->second_from == o->second_to)
+        WRONG("second_from", "the second parameter needs a range with two different ends, not %g to %g",
+              o->second_from, o->second_to);
+    if ((unsigned)o->special > FST_SPECIAL_ORIGIN_CROSSING)
+        WRONG("special", "curves of %s points are not followed over two parameters",
+              fst_special_name(o->special));
+    if (strcmp(o->second_key, o->key) == 0)
+        WRONG("second_key", "the second parameter must not be %s again", o->key);
+    return check_key("fst_branch_options.second_key", o->second_key, o->second_from, o->second_to, error);
+}
+
 static fst_status check(const fst_branch_options *o, fst_error *error)
 {
-    const char *where = "fst_branch_follow";
     if (o->cookie != FST_BRANCH_OPTIONS_COOKIE)
-        return fst_fail(error, FST_BAD_INPUT, where,
+        return fst_fail(error, FST_BAD_INPUT, "fst_branch_follow",
                         "the options were not made by fst_default_branch_options()");
     if (!isfinite(o->from) || !isfinite(o->to) || o->from == o->to)
-        return fst_fail(error, FST_BAD_INPUT, where,
-                        "a branch needs a range with two different ends, not %g to %g", o->from, o->to);
+        WRONG("from", "a branch needs a range with two different ends, not %g to %g", o->from, o->to);
     if (!(o->tolerance >= 1e-14 && o->tolerance <= 1e-6))
-        return fst_fail(error, FST_BAD_INPUT, where, "tolerance = %g is out of range: 1e-14 to 1e-6",
-                        o->tolerance);
-    if (o->second_key &&
-        (!isfinite(o->second_from) || !isfinite(o->second_to) || o->second_from == o->second_to))
-        return fst_fail(error, FST_BAD_INPUT, where,
-                        "the second parameter needs a range with two different ends, not %g to %g",
-                        o->second_from, o->second_to);
-    if (o->second_key && (unsigned)o->special > FST_SPECIAL_ORIGIN_CROSSING)
-        return fst_fail(error, FST_BAD_INPUT, where, "curves of %s points are not followed over two parameters",
-                        fst_special_name(o->special));
-    if (o->second_key && strcmp(o->second_key, o->key) == 0)
-        return fst_fail(error, FST_BAD_INPUT, where, "the second parameter must not be %s again", o->key);
+        WRONG("tolerance", "%g is out of range: 1e-14 to 1e-6", o->tolerance);
     if (!(o->longest_step > 1e-5))
-        return fst_fail(error, FST_BAD_INPUT, where, "longest_step = %g must be at least 1e-5",
-                        o->longest_step);
-    return FST_OK;
+        WRONG("longest_step", "%g is out of range: it must be greater than 1e-5", o->longest_step);
+    const fst_status status = check_key("fst_branch_options.key", o->key, o->from, o->to, error);
+    return status == FST_OK && o->second_key ? check_second(o, error) : status;
 }
 
 /* Over two parameters the branches over the first are followed for their special points alone: of these, which
@@ -112,7 +157,7 @@ static fst_status follow_specials(fst_tracer *t, const fst_params *params, fst_e
 }
 
 /* Curves over two parameters begin at the scene's value of the second, *at: it must lie within its range. */
-static fst_status check_second(const fst_params *params, const fst_branch_options *o, double *at,
+static fst_status begin_second(const fst_params *params, const fst_branch_options *o, double *at,
                                fst_error *error)
 {
     fst_family second;
@@ -124,10 +169,9 @@ static fst_status check_second(const fst_params *params, const fst_branch_option
         return status;
     *at = fst_family_value(&second);
     if (*at < fmin(o->second_from, o->second_to) || *at > fmax(o->second_from, o->second_to))
-        return fst_fail(
-            error, FST_BAD_INPUT, "fst_branch_follow",
-            "the curves begin at the scene's %s = %.10g, which must lie within the range %.10g to %.10g",
-            o->second_key, *at, o->second_from, o->second_to);
+        WRONG("second_from",
+              "the curves begin at the scene's %s = %.10g, which must lie within the range %.10g to %.10g",
+              o->second_key, *at, o->second_from, o->second_to);
     return FST_OK;
 }
 
@@ -138,7 +182,7 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     double second_at;
     fst_status status = check(options, error);
     if (status == FST_OK)
-        status = check_second(params, options, &second_at, error);
+        status = begin_second(params, options, &second_at, error);
     if (status != FST_OK)
         return status;
     fst_tracer *t = calloc(1, sizeof *t);

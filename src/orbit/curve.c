@@ -1,4 +1,22 @@
-/* curve.c - pseudo-arclength continuation. */
+/* curve.c - following a curve of equilibria or orbits over a parameter ("pseudo-arclength continuation").
+ *
+ * The solutions over a parameter p form curves.  Stepping in p would fail at a fold, where the curve turns
+ * back.  So a step goes a length h along the curve's tangent, in the space of states, period and p together,
+ * and Newton's method brings the guess back to the curve across that direction:
+ *
+ *       state |        guess
+ *             |  here *--h--->.               a fold is passed      .--*--.
+ *             |     .'        | Newton        like any other place:        \
+ *             |   .'          * next                                        * p falls again
+ *             | .'            |                                            /
+ *             +------------------- p                                  *---'
+ *
+ * The guess is bent by as much as the tangent turned in the step before.  Families may lie close together, and
+ * a step must not jump from one to another: it is taken only if Newton's method ended near the guess and the
+ * tangent turned by little; otherwise h is halved.  Easy steps make h grow, hard ones make it shrink.  A step
+ * that leaves the range of p is cut where it crosses the border, and the last point lies on the border exactly.
+ * After each step special.c looks at what happened on the way.
+ */
 #include "orbit/curve.h"
 
 #include <string.h>

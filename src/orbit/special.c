@@ -1,4 +1,29 @@
-/* special.c - finding what happens between two nodes of a curve. */
+/* special.c - what happens between two neighbouring points of a curve.
+ *
+ * At a special point the number of unstable directions changes, or the curve turns, or another one leaves it:
+ *
+ *        fold            pitchfork         transcritical       Hopf
+ *                             ___
+ *          .---            .-'               \    .-            an equilibrium loses its stability, and
+ *         (           -----+ - - -            \ .'              small orbits about it are born, of the
+ *          '- - -          '-___               X                frequency of the pair of eigenvalues
+ *                                           .-' \               that crosses the imaginary axis
+ *                                         .'     \
+ *
+ * (full lines attract, broken ones do not).  Orbits have the same with multipliers instead of eigenvalues: +1
+ * is a fold, -1 a pitchfork of a symmetric orbit (its half map) or a period doubling of another, a pair on the
+ * unit circle a Neimark-Sacker point.  Where an orbit passes through the axis r = 0 nothing happens to it but
+ * that it ceases to turn round the axis; that is told too (origin-crossing).
+ *
+ * Each of these is the zero of one test (special_test.c): where a test has different signs at the two points,
+ * the zero between is located, named, and the first point of the branch that is born there is sought
+ * (switching.c).  Two zeros of one test in one step would go unseen, so the step is halved where more
+ * directions became unstable than the tests account for.
+ *
+ * Some curves end.  Orbits without the symmetry meet the branch of symmetric ones, orbits shrink to an
+ * equilibrium at its Hopf point, equilibria meet a branch of higher symmetry: beyond, the curve would only come
+ * back as its own mirror image, so each turn of the parameter is looked at for that before it is called a fold.
+ */
 #include "orbit/special.h"
 
 #include <stdio.h>
