@@ -6,9 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "app/film_present.h"
-#include "app/ranks.h"
-#include "io/hdf5_present.h"
+#include "io/module.h"
 
 /* Whether a program is found along PATH. */
 static int program_present(const char *name)
@@ -54,6 +52,8 @@ const char *fst_tools_components(void)
 #undef MPI
 #undef LAPACK
     };
-    return texts[program_present("gnuplot")][fst_hdf5_present()][fst_film_present()][fst_mpi_present()]
-                [fst_lapack_present()][program_present("ffmpeg")];
+    const int gnuplot = program_present("gnuplot"), ffmpeg = program_present("ffmpeg");
+    const int hdf5 = fst_module_present(FST_HDF5_MODULE), cairo = fst_module_present(FST_CAIRO_MODULE);
+    const int mpi = fst_module_present(FST_MPI_MODULE);
+    return texts[gnuplot][hdf5][cairo][mpi][fst_lapack_present()][ffmpeg];
 }

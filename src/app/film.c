@@ -1,7 +1,6 @@
 /* film.c - fst_film(): a trajectory as a film, frame by frame. */
 #include "app/collect.h"
 #include "app/film_motion.h"
-#include "app/film_present.h"
 #include "base/error.h"
 #include "base/number.h"
 #include "base/whole_file.h"
@@ -17,7 +16,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define MODULE_FILE "festoon-cairo.so"
 #define MAGNET_THICKNESS 9.0 /* mm; the paper's magnet (section 2): the model's lines have none */
 
 enum {
@@ -59,16 +57,16 @@ typedef struct film {
 static fst_status load_module(const fst_film_module_table **module, fst_error *error)
 {
     int found;
-    *module = fst_module_table(MODULE_FILE, FST_FILM_MODULE_SYMBOL, &found);
+    *module = fst_module_table(FST_CAIRO_MODULE, FST_FILM_MODULE_SYMBOL, &found);
     if (!*module)
         return fst_fail(
             error, FST_UNAVAILABLE, "film",
             "this festoon cannot paint films (%s cannot be loaded): install libcairo2-dev and build "
             "festoon again",
-            MODULE_FILE);
+            FST_CAIRO_MODULE);
     if (strcmp((*module)->version, fst_version()) != 0)
         return fst_fail(error, FST_UNAVAILABLE, "film",
-                        "%s belongs to festoon %s, not to %s: install festoon again", MODULE_FILE,
+                        "%s belongs to festoon %s, not to %s: install festoon again", FST_CAIRO_MODULE,
                         (*module)->version, fst_version());
     return FST_OK;
 }
@@ -328,9 +326,4 @@ fst_status fst_film(const fst_table *table, const char *out, const fst_film_opti
     free(f.trail);
     fst_c_locale_leave(locale);
     return status;
-}
-
-int fst_film_present(void)
-{
-    return fst_module_present(MODULE_FILE);
 }

@@ -7,8 +7,6 @@
 #include "base/error.h"
 #include "io/module.h"
 
-#define MODULE_FILE "festoon-mpi.so"
-
 static int number_in(const char *variable)
 {
     const char *text = getenv(variable);
@@ -31,16 +29,16 @@ static int started_together(int *by_mpi)
 static fst_status load(fst_ranks *ranks, int processes, fst_error *error)
 {
     int found;
-    ranks->mpi = fst_module_table(MODULE_FILE, FST_MPI_MODULE_SYMBOL, &found);
+    ranks->mpi = fst_module_table(FST_MPI_MODULE, FST_MPI_MODULE_SYMBOL, &found);
     if (!ranks->mpi)
         return fst_fail(
             error, FST_UNAVAILABLE, "MPI",
             "this is one of %d processes that were started together, but this festoon has no MPI (%s): "
             "start it alone, or install libopenmpi-dev and build festoon again",
-            processes, found ? MODULE_FILE " is no module of festoon" : MODULE_FILE " cannot be loaded");
+            processes, found ? FST_MPI_MODULE " is no module of festoon" : FST_MPI_MODULE " cannot be loaded");
     if (strcmp(ranks->mpi->version, fst_version()) != 0)
         return fst_fail(error, FST_UNAVAILABLE, "MPI",
-                        "%s belongs to festoon %s, not to %s: install festoon again", MODULE_FILE,
+                        "%s belongs to festoon %s, not to %s: install festoon again", FST_MPI_MODULE,
                         ranks->mpi->version, fst_version());
     return FST_OK;
 }
@@ -75,11 +73,6 @@ void fst_ranks_close(fst_ranks *ranks, int together)
     if (ranks->link)
         ranks->mpi->close(ranks->link, together);
     ranks->link = NULL;
-}
-
-int fst_mpi_present(void)
-{
-    return fst_module_present(MODULE_FILE);
 }
 
 fst_status fst_ranks_share_start(const fst_ranks *ranks, fst_ranks_start *start, fst_error *error)

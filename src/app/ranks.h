@@ -21,9 +21,6 @@ typedef struct fst_ranks {
 fst_status fst_ranks_open(fst_ranks *ranks, fst_error *error);
 void fst_ranks_close(fst_ranks *ranks, int together);
 
-/* Whether the module for MPI lies where it would be loaded from. */
-int fst_mpi_present(void);
-
 /* What the leader decides for all: whether the sweep begins, in which arithmetic, and what it is. */
 typedef struct fst_ranks_start {
     fst_status status;
