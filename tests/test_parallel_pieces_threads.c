@@ -6,8 +6,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "app/parallel.h"
 #include "base/error.h"
+#include "host/parallel.h"
 
 typedef struct meeting {
     pthread_mutex_t lock;

@@ -7,13 +7,13 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/whole_file.h"
+#include "host/module.h"
+#include "host/regular_file.h"
+#include "host/whole_file.h"
 #include "io/columns.h"
 #include "io/csv.h"
 #include "io/hdf5_module.h"
 #include "io/json.h"
-#include "io/module.h"
-#include "io/regular_file.h"
 #include "io/trajectory_module.h"
 
 struct fst_trajectory {
