@@ -14,12 +14,11 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "model/params.h"
 #include "sweep/checkpoints.h"
 #include "sweep/ranks.h"
 #include "sweep/workers.h"
 
-enum { COMMIT_ROWS = 256 };
+enum { OPTIONS_COOKIE = 0x53574550, COMMIT_ROWS = 256 };
 static const double COMMIT_SECONDS = 0.5;
 static const double WAIT_SECONDS = 0.05, WAIT_SECONDS_RANKS = 0.002; /* for rows; between looks for messages */
 static const double FAREWELL_SECONDS = 10.0;                         /* for followers that were told to stop */
@@ -45,7 +44,7 @@ fst_sweep_options fst_default_sweep_options(void)
 {
     fst_sweep_options o;
     memset(&o, 0, sizeof o);
-    o.cookie = FST_SWEEP_OPTIONS_COOKIE;
+    o.cookie = OPTIONS_COOKIE;
     o.arithmetic = fst_best_arithmetic();
     o.checkpoint_seconds = 3.0;
     return o;
@@ -431,7 +430,7 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
                      fst_sweep_progress *result, fst_error *error)
 {
     memset(result, 0, sizeof *result);
-    if (options->cookie != FST_SWEEP_OPTIONS_COOKIE)
+    if (options->cookie != OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep",
                         "the options were not made by fst_default_sweep_options()");
     fst_grid *grid;
