@@ -1,7 +1,7 @@
 /* ranks.h - the processes that mpirun or srun started together, and what they say to each other.
  *
  * Rank 0 leads: it alone knows the database, hands out tasks and writes rows.  The others follow: they ask for
- * tasks, compute, and send rows.  Every rank, the leader too, computes with a crew of threads of its own.
+ * tasks, compute, and send rows.  Every rank, the leader too, computes with workers of its own.
  */
 #ifndef FST_SWEEP_RANKS_H
 #define FST_SWEEP_RANKS_H
@@ -34,10 +34,11 @@ fst_status fst_ranks_share_start(const fst_ranks *ranks, fst_ranks_start *start,
 typedef struct fst_leader fst_leader;
 fst_status fst_leader_new(const fst_ranks *ranks, fst_leader **leader, fst_error *error);
 
-/* Attend to messages until one has brought rows (room for FST_CREW_ROWS), or there is none; images that come
- * are added to *images, and tasks that are asked for taken from `crew`.  FST_OK, or what failed at a follower.
+/* Attend to messages until one has brought rows (room for FST_WORKERS_ROWS), or there is none; images that come
+ * are added to *images, and tasks that are asked for taken from `workers`.  FST_OK, or what failed at a
+ * follower.
  */
-fst_status fst_leader_attend(fst_leader *leader, fst_crew *crew, fst_sweep_record *rows, int *count,
+fst_status fst_leader_attend(fst_leader *leader, fst_workers *workers, fst_sweep_record *rows, int *count,
                              fst_image **images, fst_error *error);
 
 /* Tell the followers to stop. */
@@ -52,7 +53,7 @@ void fst_leader_free(fst_leader *leader);
 /* Compute what the leader hands out until there is no more.  `progress` (may be NULL) is called now and then;
  * FST_INTERRUPTED when it says so.  With `failed` other than FST_OK, only tell the leader that. */
 fst_status fst_follow(const fst_ranks *ranks, const fst_sweep_identity *identity,
-                      const fst_sweep_options *options, const fst_crew_plan *plan, fst_status failed,
+                      const fst_sweep_options *options, const fst_workers_plan *plan, fst_status failed,
                       fst_error *error);
 
 #endif

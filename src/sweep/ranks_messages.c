@@ -96,10 +96,11 @@ void fst_leader_stop(fst_leader *leader)
 }
 
 /* The images of tasks that leave this process go with them. */
-static void hand_out_images(const fst_ranks *r, fst_crew *crew, int to, const fst_sweep_task *tasks, int count)
+static void hand_out_images(const fst_ranks *r, fst_workers *workers, int to, const fst_sweep_task *tasks,
+                            int count)
 {
     for (int i = 0; i < count; ++i) {
-        fst_image *image = fst_crew_withdraw_image(crew, tasks[i].point);
+        fst_image *image = fst_workers_withdraw_image(workers, tasks[i].point);
         if (image)
             post_image(r, to, image);
         free(image);
@@ -107,7 +108,7 @@ static void hand_out_images(const fst_ranks *r, fst_crew *crew, int to, const fs
 }
 
 /* Hand tasks to those who wait for them. */
-static fst_status hand_out(fst_leader *leader, fst_crew *crew, fst_error *error)
+static fst_status hand_out(fst_leader *leader, fst_workers *workers, fst_error *error)
 {
     const fst_ranks *r = leader->ranks;
     fst_sweep_task tasks[FOLLOWER_TASKS];
@@ -116,11 +117,11 @@ static fst_status hand_out(fst_leader *leader, fst_crew *crew, fst_error *error)
         if (leader->room[to] == 0)
             continue;
         const int most = leader->room[to] < FOLLOWER_TASKS ? leader->room[to] : FOLLOWER_TASKS;
-        const int count = fst_crew_withdraw(crew, tasks, most, 2 * r->count, &over);
+        const int count = fst_workers_withdraw(workers, tasks, most, 2 * r->count, &over);
         if (count == 0 && !over)
             continue; /* the leader looks for more before it attends again */
         leader->room[to] = 0;
-        hand_out_images(r, crew, to, tasks, count);
+        hand_out_images(r, workers, to, tasks, count);
         if (!r->mpi->post(r->link, to, TAG_TASKS, tasks, (size_t)count * sizeof *tasks))
             return fst_fail(error, FST_IO, "MPI", "rank %d cannot be reached", to);
     }
@@ -140,7 +141,7 @@ static fst_status hear_farewell(fst_leader *leader, int from, const farewell *la
                     last->error.sentence);
 }
 
-fst_status fst_leader_attend(fst_leader *leader, fst_crew *crew, fst_sweep_record *rows, int *count,
+fst_status fst_leader_attend(fst_leader *leader, fst_workers *workers, fst_sweep_record *rows, int *count,
                              fst_image **images, fst_error *error)
 {
     const fst_ranks *r = leader->ranks;
@@ -161,7 +162,7 @@ fst_status fst_leader_attend(fst_leader *leader, fst_crew *crew, fst_sweep_recor
         }
         void *into = tag == TAG_ASK ? (void *)&room : tag == TAG_ROWS ? (void *)rows : (void *)&last;
         const size_t most = tag == TAG_ASK    ? sizeof room
-                            : tag == TAG_ROWS ? FST_CREW_ROWS * sizeof *rows
+                            : tag == TAG_ROWS ? FST_WORKERS_ROWS * sizeof *rows
                                               : sizeof last;
         if (size > most || !r->mpi->receive(r->link, from, tag, into, size))
             return fst_fail(error, FST_IO, "MPI", "rank %d sent what nobody understands", from);
@@ -172,13 +173,13 @@ fst_status fst_leader_attend(fst_leader *leader, fst_crew *crew, fst_sweep_recor
         else
             status = hear_farewell(leader, from, &last, error);
     }
-    return status == FST_OK ? hand_out(leader, crew, error) : status;
+    return status == FST_OK ? hand_out(leader, workers, error) : status;
 }
 
 /* ------------------------------------------------------------------ a follower's side */
 
 /* Hear the leader; *over becomes 1 at BYE. */
-static void hear_leader(const fst_ranks *r, fst_crew *crew, int *over)
+static void hear_leader(const fst_ranks *r, fst_workers *workers, int *over)
 {
     int from, tag;
     size_t size;
@@ -189,8 +190,8 @@ static void hear_leader(const fst_ranks *r, fst_crew *crew, int *over)
             fst_image *image = receive_image(r, from, size, &received);
             if (!received)
                 return;
-            if (image && crew)
-                fst_crew_give_image(crew, image);
+            if (image && workers)
+                fst_workers_give_image(workers, image);
             else
                 free(image);
             continue;
@@ -198,35 +199,35 @@ static void hear_leader(const fst_ranks *r, fst_crew *crew, int *over)
         if (size > sizeof tasks || !r->mpi->receive(r->link, from, tag, tasks, size))
             return;
         *over = tag == TAG_BYE;
-        if (crew && tag == TAG_TASKS)
-            fst_crew_give(crew, tasks, (int)(size / sizeof *tasks));
-        if (crew && tag == TAG_STOP)
-            fst_crew_stop(crew, 0);
+        if (workers && tag == TAG_TASKS)
+            fst_workers_give(workers, tasks, (int)(size / sizeof *tasks));
+        if (workers && tag == TAG_STOP)
+            fst_workers_stop(workers, 0);
     }
 }
 
-/* Speak with the leader until the crew has nothing more to do. */
-static fst_status serve(const fst_ranks *r, fst_crew *crew, fst_sweep_record *rows,
+/* Speak with the leader until the workers have nothing more to do. */
+static fst_status serve(const fst_ranks *r, fst_workers *workers, fst_sweep_record *rows,
                         const fst_sweep_options *options, fst_error *error)
 {
     fst_sweep_progress progress = {.rank = r->rank, .ranks = r->count};
     fst_status outcome = FST_OK;
     int busy = 1, over = 0;
     while (busy) {
-        const int room = fst_crew_room(crew);
+        const int room = fst_workers_room(workers);
         if (room > 0 && outcome == FST_OK) {
-            fst_crew_expect(crew);
+            fst_workers_expect(workers);
             (void)r->mpi->post(r->link, 0, TAG_ASK, &room, sizeof room);
         }
-        hear_leader(r, crew, &over);
+        hear_leader(r, workers, &over);
         const int letters = r->mpi->pending(r->link);
-        if (letters > MOST_LETTERS) { /* the leader is slower than the crew: let it wait */
+        if (letters > MOST_LETTERS) { /* the leader is slower than the workers: let it wait */
             wait_a_little();
         } else {
-            const int count = fst_crew_take(crew, rows, WAIT_SECONDS, &busy);
+            const int count = fst_workers_take(workers, rows, WAIT_SECONDS, &busy);
             if (count > 0)
                 (void)r->mpi->post(r->link, 0, TAG_ROWS, rows, (size_t)count * sizeof *rows);
-            fst_image *images = fst_crew_take_images(crew);
+            fst_image *images = fst_workers_take_images(workers);
             for (const fst_image *i = images; i; i = i->next)
                 post_image(r, 0, i);
             fst_images_free(images);
@@ -234,28 +235,28 @@ static fst_status serve(const fst_ranks *r, fst_crew *crew, fst_sweep_record *ro
         if (outcome == FST_OK && options->progress)
             outcome = options->progress(options->user, &progress, error);
         if (outcome != FST_OK)
-            fst_crew_stop(crew, 0);
+            fst_workers_stop(workers, 0);
     }
     return outcome;
 }
 
 fst_status fst_follow(const fst_ranks *r, const fst_sweep_identity *identity, const fst_sweep_options *options,
-                      const fst_crew_plan *plan, fst_status failed, fst_error *error)
+                      const fst_workers_plan *plan, fst_status failed, fst_error *error)
 {
     farewell last;
     memset(&last, 0, sizeof last);
-    fst_crew *crew = NULL;
-    fst_sweep_record *rows = malloc(FST_CREW_ROWS * sizeof *rows);
+    fst_workers *workers = NULL;
+    fst_sweep_record *rows = malloc(FST_WORKERS_ROWS * sizeof *rows);
     fst_status status = failed;
     if (status == FST_OK && !rows)
         status = fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
-    fst_crew_plan own = *plan;
+    fst_workers_plan own = *plan;
     own.depth = FOLLOWER_TASKS;
     if (status == FST_OK)
-        status = fst_crew_new(identity, &own, &crew, error);
+        status = fst_workers_new(identity, &own, &workers, error);
     if (status == FST_OK) {
-        const fst_status outcome = serve(r, crew, rows, options, error);
-        status = fst_crew_end(crew, error);
+        const fst_status outcome = serve(r, workers, rows, options, error);
+        status = fst_workers_end(workers, error);
         if (status == FST_OK)
             status = outcome;
     }

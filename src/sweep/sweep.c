@@ -1,7 +1,7 @@
-/* sweep.c - a sweep as a job: crews of threads compute rows, one thread of one process keeps the journal.
+/* sweep.c - a sweep as a job: threads compute rows, one thread of one process keeps the journal.
  *
- * That thread looks in the journal for points without a row, gives them to its own crew and, where mpirun
- * started several processes, to the crews of the others, and writes the rows that come back.
+ * That thread looks in the journal for points without a row, gives them to its own workers and, where mpirun
+ * started several processes, to those of the others, and writes the rows that come back.
  */
 #define _GNU_SOURCE /* sched_getaffinity() */
 #include "sweep/sweep.h"
@@ -30,7 +30,7 @@ typedef struct job {
     const fst_sweep_options *options;
     fst_ranks ranks;
     fst_leader *leader; /* NULL where there is one rank */
-    fst_crew *crew;
+    fst_workers *workers;
     int64_t next; /* point or chain from which on the journal is yet to be looked through */
     fst_sweep_progress progress;
     double started, committed;
@@ -96,7 +96,7 @@ static fst_status look_for_tasks(job *j, fst_sweep_task *fresh, int room, int *f
     fst_status status = FST_OK;
     *found = 0;
     if (j->identity.carry == FST_CARRY_NO) {
-        int64_t points[FST_CREW_TASKS];
+        int64_t points[FST_WORKERS_TASKS];
         status = fst_journal_missing(j->journal, &j->next, points, room, found, error);
         for (int i = 0; i < *found; ++i) {
             fresh[i].point = points[i];
@@ -112,7 +112,7 @@ static fst_status look_for_tasks(job *j, fst_sweep_task *fresh, int room, int *f
     return status;
 }
 
-/* The images of runs that were broken off go to the crew before their tasks. */
+/* The images of runs that were broken off go to the workers before their tasks. */
 static void find_images(job *j, const fst_sweep_task *tasks, int count)
 {
     for (int i = 0; i < count; ++i) {
@@ -120,15 +120,15 @@ static void find_images(job *j, const fst_sweep_task *tasks, int count)
         void *bytes = fst_checkpoints_get(j->checkpoints, tasks[i].point, &size);
         fst_image *image = bytes ? fst_image_new(tasks[i].point, bytes, size) : NULL;
         if (image)
-            fst_crew_give_image(j->crew, image);
+            fst_workers_give_image(j->workers, image);
         free(bytes);
     }
 }
 
-/* Fill the crew's queue of tasks up. */
+/* Fill the workers' queue of tasks up. */
 static fst_status refill(job *j, fst_error *error)
 {
-    const int room = fst_crew_room(j->crew);
+    const int room = fst_workers_room(j->workers);
     if (room == 0)
         return FST_OK;
     fst_sweep_task *fresh = malloc((size_t)room * sizeof *fresh);
@@ -138,7 +138,7 @@ static fst_status refill(job *j, fst_error *error)
     const fst_status status = look_for_tasks(j, fresh, room, &found, error);
     if (status == FST_OK) {
         find_images(j, fresh, found);
-        fst_crew_give(j->crew, fresh, found);
+        fst_workers_give(j->workers, fresh, found);
     }
     free(fresh);
     return status;
@@ -198,7 +198,7 @@ static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, 
     while (count > 0 && status == FST_OK) {
         fst_error trouble;
         fst_image *images = NULL;
-        const fst_status heard = fst_leader_attend(j->leader, j->crew, rows, &count, &images, &trouble);
+        const fst_status heard = fst_leader_attend(j->leader, j->workers, rows, &count, &images, &trouble);
         if (*outcome == FST_OK && heard != FST_OK) {
             *outcome = heard;
             if (error)
@@ -215,12 +215,12 @@ static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, 
     return status;
 }
 
-/* What the crew has done: rows for which it is waited so long, and images of runs that are not over. */
-static fst_status hear_crew(job *j, fst_sweep_record *rows, double seconds, int abandoned, int *busy,
-                            fst_error *error)
+/* What the workers have done: rows for which it is waited so long, and images of runs that are not over. */
+static fst_status hear_workers(job *j, fst_sweep_record *rows, double seconds, int abandoned, int *busy,
+                               fst_error *error)
 {
-    const int count = fst_crew_take(j->crew, rows, seconds, busy);
-    fst_image *images = fst_crew_take_images(j->crew);
+    const int count = fst_workers_take(j->workers, rows, seconds, busy);
+    fst_image *images = fst_workers_take_images(j->workers);
     if (abandoned) {
         fst_images_free(images);
         return FST_OK;
@@ -234,12 +234,12 @@ static fst_status hear_crew(job *j, fst_sweep_record *rows, double seconds, int 
 static fst_status stop(job *j, fst_sweep_record *rows, fst_status status, fst_error *error)
 {
     int busy;
-    fst_crew_stop(j->crew, status != FST_OK);
+    fst_workers_stop(j->workers, status != FST_OK);
     if (j->leader)
         fst_leader_stop(j->leader);
     j->stopping = 1;
     if (status == FST_OK)
-        status = hear_crew(j, rows, 0.0, 0, &busy, error);
+        status = hear_workers(j, rows, 0.0, 0, &busy, error);
     return status == FST_OK ? commit(j, error) : status;
 }
 
@@ -268,7 +268,7 @@ static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
         const int failed = status != FST_OK;
         const fst_status heard = hear_followers(j, rows, failed, &outcome, failed ? NULL : error);
         status = failed ? status : heard;
-        const fst_status taken = hear_crew(j, rows, seconds, status != FST_OK, &busy, error);
+        const fst_status taken = hear_workers(j, rows, seconds, status != FST_OK, &busy, error);
         status = status == FST_OK ? taken : status;
         read_clocks(j);
         if (status == FST_OK && outcome == FST_OK && j->options->progress)
@@ -305,30 +305,30 @@ static int thread_count(const job *j)
 }
 
 /* Images are written by one process: the more runs there are, the rarer each is saved. */
-static fst_crew_plan crew_plan(const job *j)
+static fst_workers_plan workers_plan(const job *j)
 {
     enum { THREADS_AT_FULL_RATE = 8 };
     const int threads = thread_count(j), all = threads * j->ranks.count;
     const double share = 1.0 + (double)((all - 1) / THREADS_AT_FULL_RATE);
-    return (fst_crew_plan){.threads = threads,
-                           .depth = FST_CREW_TASKS,
-                           .lanes = j->options->lanes,
-                           .checkpoint_seconds = share * j->options->checkpoint_seconds};
+    return (fst_workers_plan){.threads = threads,
+                              .depth = FST_WORKERS_TASKS,
+                              .lanes = j->options->lanes,
+                              .checkpoint_seconds = share * j->options->checkpoint_seconds};
 }
 
 static fst_status work(job *j, fst_error *error)
 {
-    const fst_crew_plan plan = crew_plan(j);
-    fst_sweep_record *rows = malloc(FST_CREW_ROWS * sizeof *rows);
+    const fst_workers_plan plan = workers_plan(j);
+    fst_sweep_record *rows = malloc(FST_WORKERS_ROWS * sizeof *rows);
     fst_status status = rows ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
     if (status == FST_OK && j->ranks.link)
         status = fst_leader_new(&j->ranks, &j->leader, error);
     if (status == FST_OK)
-        status = fst_crew_new(&j->identity, &plan, &j->crew, error);
+        status = fst_workers_new(&j->identity, &plan, &j->workers, error);
     if (status == FST_OK) {
         status = keep_journal(j, rows, error);
         fst_error own = {FST_OK, "", ""};
-        const fst_status computed = fst_crew_end(j->crew, &own);
+        const fst_status computed = fst_workers_end(j->workers, &own);
         if (status == FST_OK && computed != FST_OK) {
             status = computed;
             if (error)
@@ -405,7 +405,7 @@ static fst_status follow(job *j, fst_error *error)
             fst_fail(error, FST_BAD_INPUT, "fst_sweep",
                      "this rank would compute other rows than rank 0: its processor, its festoon, its scene or "
                      "its options differ");
-    const fst_crew_plan plan = crew_plan(j);
+    const fst_workers_plan plan = workers_plan(j);
     return fst_follow(&j->ranks, &j->identity, j->options, &plan, status, error);
 }
 
