@@ -1,14 +1,11 @@
 #include "host/parallel.h"
 
 #include "base/error.h"
+#include "host/threads.h"
 
-#include <pthread.h>
-#include <time.h>
-#include <unistd.h>
+static const double ASK_SECONDS = 0.02; /* between two calls of progress() */
 
-enum { MOST_THREADS = 64 };
-
-typedef struct crew {
+typedef struct pool {
     const fst_work *work;
     pthread_mutex_t lock; /* guards everything below */
     pthread_cond_t changed;
@@ -17,11 +14,11 @@ typedef struct crew {
     int failed_piece; /* lowest index that failed, or work->count */
     fst_status status;
     fst_error error;
-} crew;
+} pool;
 
 static void *labour(void *argument)
 {
-    crew *all = argument;
+    pool *all = argument;
     pthread_mutex_lock(&all->lock);
     while (!all->stopped && all->next < all->work->count) {
         int index = all->next++;
@@ -46,21 +43,8 @@ static void *labour(void *argument)
     return NULL;
 }
 
-/* Wait for the crew, but no longer than 20 ms: who is told wants to be asked too. */
-static void wait_a_little(crew *all)
-{
-    struct timespec until;
-    (void)clock_gettime(CLOCK_MONOTONIC, &until);
-    until.tv_nsec += 20000000;
-    if (until.tv_nsec >= 1000000000) {
-        until.tv_nsec -= 1000000000;
-        until.tv_sec++;
-    }
-    (void)pthread_cond_timedwait(&all->changed, &all->lock, &until);
-}
-
-/* Watch the crew and report, until nobody works any more; called with the lock held. */
-static fst_status watch(crew *all, fst_error *error)
+/* Watch the threads and report, until none of them works any more; called with the lock held. */
+static fst_status watch(pool *all, fst_error *error)
 {
     fst_status status = FST_OK;
     while (all->busy > 0) {
@@ -73,36 +57,25 @@ static fst_status watch(crew *all, fst_error *error)
                 all->stopped = 1;
         }
         if (all->busy > 0 && all->done == told) /* else it changed in the meantime */
-            wait_a_little(all);
+            fst_condition_wait(&all->changed, &all->lock, ASK_SECONDS);
     }
     return status;
 }
 
 fst_status fst_parallel(const fst_work *work, fst_error *error)
 {
-    crew all = {.work = work, .failed_piece = work->count, .status = FST_OK};
+    pool all = {.work = work, .failed_piece = work->count, .status = FST_OK};
     pthread_mutex_init(&all.lock, NULL);
-    pthread_condattr_t clock;
-    pthread_condattr_init(&clock);
-    pthread_condattr_setclock(&clock, CLOCK_MONOTONIC); /* which nobody sets */
-    pthread_cond_init(&all.changed, &clock);
-    pthread_condattr_destroy(&clock);
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int wanted = processors < 1 ? 1 : processors > MOST_THREADS ? MOST_THREADS : (int)processors;
-    if (wanted > work->count)
-        wanted = work->count;
+    fst_condition_init(&all.changed);
+    const int processors = fst_processors(1);
+    const int wanted = processors < work->count ? processors : work->count;
 
-    pthread_t threads[MOST_THREADS];
-    int started = 0;
+    fst_threads threads;
     pthread_mutex_lock(&all.lock);
-    while (started < wanted && pthread_create(&threads[started], NULL, labour, &all) == 0) {
-        started++;
-        all.busy++;
-    }
+    const int started = all.busy = fst_threads_start(&threads, wanted, labour, &all);
     fst_status status = watch(&all, error);
     pthread_mutex_unlock(&all.lock);
-    for (int i = 0; i < started; i++)
-        pthread_join(threads[i], NULL);
+    fst_threads_join(&threads);
     pthread_cond_destroy(&all.changed);
     pthread_mutex_destroy(&all.lock);
 

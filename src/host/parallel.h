@@ -15,8 +15,8 @@ typedef struct fst_work {
     fst_status (*progress)(void *user, int done, fst_error *error);
 } fst_work;
 
-/* Do all pieces on as many threads as there are processors, and wait for them.  If pieces fail, no new ones
- * begin, and the status and error are those of the failed piece with the lowest index. */
+/* Do all pieces on as many threads as there are processors for this process, and wait for them.  If pieces
+ * fail, no new ones begin, and the status and error are those of the failed piece with the lowest index. */
 fst_status fst_parallel(const fst_work *work, fst_error *error);
 
 #endif

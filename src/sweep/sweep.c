@@ -3,17 +3,15 @@
  * That thread looks in the journal for points without a row, gives them to its own workers and, where mpirun
  * started several processes, to those of the others, and writes the rows that come back.
  */
-#define _GNU_SOURCE /* sched_getaffinity() */
 #include "sweep/sweep.h"
 
-#include <sched.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "host/threads.h"
 #include "sweep/checkpoints.h"
 #include "sweep/ranks.h"
 #include "sweep/workers.h"
@@ -290,16 +288,7 @@ static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
 /* As many threads as this process has processors, or its share of them where it has neighbours. */
 static int thread_count(const job *j)
 {
-    cpu_set_t mine;
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    int wanted = j->options->threads;
-    if (wanted <= 0) {
-        wanted = processors > 0 ? (int)processors / j->ranks.neighbours : 1;
-        if (sched_getaffinity(0, sizeof mine, &mine) == 0 && CPU_COUNT(&mine) < wanted)
-            wanted = CPU_COUNT(&mine);
-        if (wanted < 1)
-            wanted = 1;
-    }
+    const int asked = j->options->threads, wanted = asked > 0 ? asked : fst_processors(j->ranks.neighbours);
     const int64_t tasks = fst_sweep_task_count(&j->identity);
     return wanted > tasks ? (int)tasks : wanted;
 }

@@ -3,17 +3,14 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "base/error.h"
-
-enum { MOST_THREADS = 256 };
+#include "host/threads.h"
 
 struct fst_workers {
     const fst_sweep_identity *identity;
     fst_workers_plan plan;
-    int started;
-    pthread_t threads[MOST_THREADS];
+    fst_threads threads;
 
     pthread_mutex_t lock; /* guards everything below */
     pthread_cond_t task_came, row_came, room_came;
@@ -230,23 +227,11 @@ fst_image *fst_workers_take_images(fst_workers *w)
     return images;
 }
 
-/* By the clock that nobody sets: that of the day may be set back by hours. */
-static struct timespec after(double seconds)
-{
-    struct timespec time;
-    (void)clock_gettime(CLOCK_MONOTONIC, &time);
-    time.tv_nsec += (long)(1e9 * seconds);
-    time.tv_sec += time.tv_nsec / 1000000000;
-    time.tv_nsec %= 1000000000;
-    return time;
-}
-
 int fst_workers_take(fst_workers *w, fst_sweep_record *rows, double seconds, int *busy)
 {
-    const struct timespec until = after(seconds);
     pthread_mutex_lock(&w->lock);
     if (w->row_count < FST_WORKERS_ROWS / 2 && w->busy > 0 && !is_hungry(w))
-        (void)pthread_cond_timedwait(&w->row_came, &w->lock, &until);
+        fst_condition_wait(&w->row_came, &w->lock, seconds);
     const int count = w->row_count;
     for (int i = 0; i < count; ++i)
         rows[i] = w->rows[(w->first_row + i) % FST_WORKERS_ROWS];
@@ -268,17 +253,12 @@ void fst_workers_stop(fst_workers *w, int abandon)
     pthread_mutex_unlock(&w->lock);
 }
 
-/* The locks and the conditions; the one that is waited for with a limit counts by the monotonic clock. */
 static void begin_locks(fst_workers *w)
 {
-    pthread_condattr_t monotonic;
-    pthread_condattr_init(&monotonic);
-    pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
     pthread_mutex_init(&w->lock, NULL);
     pthread_cond_init(&w->task_came, NULL);
-    pthread_cond_init(&w->row_came, &monotonic);
+    fst_condition_init(&w->row_came); /* which is waited for with a limit */
     pthread_cond_init(&w->room_came, NULL);
-    pthread_condattr_destroy(&monotonic);
 }
 
 fst_status fst_workers_new(const fst_sweep_identity *identity, const fst_workers_plan *plan,
@@ -292,14 +272,10 @@ fst_status fst_workers_new(const fst_sweep_identity *identity, const fst_workers
     w->plan = *plan;
     w->plan.depth = plan->depth < FST_WORKERS_TASKS ? plan->depth : FST_WORKERS_TASKS;
     begin_locks(w);
-    const int wanted = plan->threads < MOST_THREADS ? plan->threads : MOST_THREADS;
     pthread_mutex_lock(&w->lock);
-    while (w->started < wanted && pthread_create(&w->threads[w->started], NULL, labour, w) == 0) {
-        w->started += 1;
-        w->busy += 1;
-    }
+    const int started = w->busy = fst_threads_start(&w->threads, plan->threads, labour, w);
     pthread_mutex_unlock(&w->lock);
-    if (w->started > 0)
+    if (started > 0)
         return FST_OK;
     (void)fst_workers_end(w, NULL);
     *workers = NULL;
@@ -310,8 +286,7 @@ fst_status fst_workers_end(fst_workers *w, fst_error *error)
 {
     if (!w)
         return FST_OK;
-    for (int i = 0; i < w->started; ++i)
-        pthread_join(w->threads[i], NULL);
+    fst_threads_join(&w->threads);
     const fst_status status = w->status;
     if (status != FST_OK && error)
         *error = w->error;
