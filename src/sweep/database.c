@@ -1,0 +1,204 @@
+/* realpath() is an X/Open function. */
+#define _XOPEN_SOURCE 700
+#include "sweep/database.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "host/file_system.h"
+#include "host/regular_file.h"
+
+fst_status fst_database_fail(sqlite3 *database, const char *path, fst_error *error)
+{
+    const int code = database ? sqlite3_errcode(database) : SQLITE_NOMEM;
+    const char *detail = database ? sqlite3_errmsg(database) : "out of memory";
+    switch (code & 0xff) {
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB:
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "this sweep database is damaged (%s); nothing was changed: restore a copy, or choose another file",
+            detail);
+    case SQLITE_FULL:
+        return fst_fail(
+            error, FST_IO, path,
+            "the disk is full; every row committed so far is safe: make room and give the same command "
+            "again");
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_CANTOPEN:
+        return fst_fail(
+            error, FST_IO, path,
+            "no permission to write this database or beside it (%s); every row committed so far is safe",
+            detail);
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+        return fst_fail(error, FST_IO, path,
+                        "another program is writing this database: wait for it, or end it");
+    case SQLITE_NOMEM:
+        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    default:
+        return fst_fail(error, FST_IO, path, "the database failed: %s; every row committed so far is safe",
+                        detail);
+    }
+}
+
+int fst_database_is_damage(int code)
+{
+    return (code & 0xff) == SQLITE_CORRUPT || (code & 0xff) == SQLITE_NOTADB || code == SQLITE_IOERR_SHORT_READ;
+}
+
+fst_status fst_database_path(const char *path, char **absolute, fst_error *error)
+{
+    *absolute = realpath(path, NULL);
+    if (*absolute)
+        return FST_OK;
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    char *folder = slash == path ? strdup("/") : slash ? strndup(path, (size_t)(slash - path)) : strdup(".");
+    char *found = folder ? realpath(folder, NULL) : NULL;
+    const int reason = errno;
+    free(folder);
+    if (!found)
+        return fst_fail(error, FST_IO, path, "cannot write here: %s", strerror(reason));
+    const size_t size = strlen(found) + strlen(name) + 2;
+    *absolute = malloc(size);
+    if (*absolute)
+        (void)snprintf(*absolute, size, "%s/%s", found[1] ? found : "", name);
+    free(found);
+    struct stat there;
+    fst_status status = *absolute ? FST_OK : fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    if (status == FST_OK && !name[0])
+        status = fst_fail(error, FST_BAD_INPUT, path, "this is no name of a file");
+    else if (status == FST_OK && lstat(*absolute, &there) == 0 && S_ISLNK(there.st_mode))
+        status = fst_fail(error, FST_BAD_INPUT, path, "this symbolic link leads to nothing that can be read");
+    if (status != FST_OK) {
+        free(*absolute);
+        *absolute = NULL;
+    }
+    return status;
+}
+
+static uint32_t number_at(const unsigned char *bytes)
+{
+    return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
+}
+
+fst_status fst_database_head(int descriptor, const char *path, char mark[FST_MARK_SIZE], fst_error *error)
+{
+    enum { USER_VERSION = 60, APPLICATION = 68, HEAD = 100 };
+    unsigned char page[4096] = {0};
+    const ssize_t have = fst_read_at(descriptor, page, sizeof page, 0);
+    if (have < 0)
+        return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(errno));
+    mark[0] = '\0';
+    if (have < HEAD || memcmp(page, "SQLite format 3", 16) != 0 ||
+        number_at(page + APPLICATION) != FST_SWEEP_APPLICATION_ID)
+        return fst_fail(error, FST_BAD_INPUT, path,
+                        "this is no database of festoon sweep; it was left untouched: choose another name");
+    const uint32_t format = number_at(page + USER_VERSION);
+    if (format == 1)
+        return fst_fail(error, FST_BAD_INPUT, path,
+                        "this sweep was made by an older festoon, whose rows have no checksums; it was left "
+                        "untouched: choose another file, or use that festoon to export it");
+    if (format != FST_SWEEP_FORMAT)
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "this sweep database is of format %lu, and this festoon knows format %d: it was made by "
+            "a newer festoon, or is damaged; it was left untouched",
+            (unsigned long)format, FST_SWEEP_FORMAT);
+    (void)fst_mark_find(page, (size_t)have, mark);
+    return FST_OK;
+}
+
+/* ------------------------------------------------------------------ connecting */
+
+/* Text in the file can make SQLite run nothing: no triggers, no views, no functions, no extensions. */
+static void distrust(sqlite3 *database)
+{
+    (void)sqlite3_extended_result_codes(database, 1);
+    (void)sqlite3_busy_timeout(database, 5000);
+    (void)sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
+    (void)sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, NULL);
+    (void)sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_TRIGGER, 0, NULL);
+    (void)sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_VIEW, 0, NULL);
+    (void)sqlite3_db_config(database, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, NULL);
+    (void)sqlite3_limit(database, SQLITE_LIMIT_LENGTH, 1 << 26);
+    (void)sqlite3_wal_autocheckpoint(database, 0);
+    (void)sqlite3_exec(database, "PRAGMA cell_size_check = ON; PRAGMA mmap_size = 0", NULL, NULL, NULL);
+}
+
+void fst_database_allow_tidying(sqlite3 *database)
+{
+    (void)sqlite3_db_config(database, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, NULL);
+}
+
+/* `exclusive`: the log is read by this connection alone, for which it needs no memory shared by processes. */
+static fst_status connect_by(const char *name, int flags, const char *system, int exclusive, const char *path,
+                             sqlite3 **database, fst_error *error)
+{
+    if (sqlite3_open_v2(name, database, flags, system) != SQLITE_OK)
+        return fst_database_fail(*database, path, error);
+    distrust(*database);
+    if (exclusive)
+        (void)sqlite3_exec(*database, "PRAGMA locking_mode = EXCLUSIVE", NULL, NULL, NULL);
+    return fst_database_do(*database, path, "SELECT count(*) FROM sqlite_master", error);
+}
+
+/* A path as an address in which every byte stands for itself. */
+static char *immutable_address(const char *path)
+{
+    char *address = malloc(3 * strlen(path) + 32);
+    if (!address)
+        return NULL;
+    char *at = address + sprintf(address, "file:");
+    for (; *path; ++path)
+        at += *path == '/' ? sprintf(at, "/") : sprintf(at, "%%%02x", (unsigned)(unsigned char)*path);
+    (void)sprintf(at, "?immutable=1");
+    return address;
+}
+
+/* Where nothing may be written, SQLite reads a database with a log only if it needs no locks for it, and one
+ * without a log only if told that it never changes. */
+static fst_status connect_unwritable(const char *path, sqlite3 **database, fst_error *error)
+{
+    char log[FST_LOG_NAME_SIZE];
+    struct stat there;
+    (void)snprintf(log, sizeof log, "%s-wal", path);
+    if (stat(log, &there) == 0 && there.st_size > 0)
+        return connect_by(path, SQLITE_OPEN_READONLY, "unix-none", 1, path, database, error);
+    char *address = immutable_address(path);
+    const fst_status status =
+        address ? connect_by(address, SQLITE_OPEN_READONLY | SQLITE_OPEN_URI, NULL, 0, path, database, error)
+                : fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    free(address);
+    return status;
+}
+
+fst_status fst_database_connect(const char *path, int writable, sqlite3 **database, fst_error *error)
+{
+    *database = NULL;
+    /* Readers too ask for writing, so that the log beside the file is tidied up; SQLite does with less. */
+    fst_status status =
+        connect_by(path, SQLITE_OPEN_READWRITE, NULL, fst_on_network(path), path, database, error);
+    if (status == FST_IO && !writable) {
+        (void)sqlite3_close(*database);
+        *database = NULL;
+        status = connect_unwritable(path, database, error);
+    }
+    if (status != FST_OK) {
+        (void)sqlite3_close(*database);
+        *database = NULL;
+    }
+    return status;
+}
+
+fst_status fst_database_do(sqlite3 *database, const char *path, const char *statements, fst_error *error)
+{
+    return sqlite3_exec(database, statements, NULL, NULL, NULL) == SQLITE_OK
+               ? FST_OK
+               : fst_database_fail(database, path, error);
+}

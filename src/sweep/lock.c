@@ -1,0 +1,58 @@
+#include "sweep/lock.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "host/file_lock.h"
+
+/* Beside the lock itself, at FST_LOCK_SWEEP: one plus the number of the process, one for each letter of the
+ * host. */
+static const off_t PROCESS_PLACES = (off_t)1 << 32;
+static const off_t HOST_PLACES = (off_t)1 << 33; /* letter i: plus i * STRIDE + letter */
+enum { HOST_LETTERS = 64, HOST_STRIDE = 512 };   /* adjacent locks would merge */
+
+fst_lock_state fst_lock_take(int descriptor)
+{
+    if (fst_lock_byte(descriptor, FST_LOCK_SWEEP, 0) != 0)
+        return errno == EAGAIN || errno == EACCES ? FST_LOCK_TAKEN : FST_LOCK_IMPOSSIBLE;
+    char host[HOST_LETTERS + 1] = "";
+    (void)gethostname(host, sizeof host - 1);
+    (void)fst_lock_byte(descriptor, PROCESS_PLACES + getpid(), 0);
+    for (int i = 0; host[i]; ++i)
+        (void)fst_lock_byte(descriptor, HOST_PLACES + (off_t)i * HOST_STRIDE + (unsigned char)host[i], 0);
+    return FST_LOCK_MINE;
+}
+
+fst_lock_state fst_lock_look(int descriptor)
+{
+    return fst_locked_byte(descriptor, FST_LOCK_SWEEP, 1) < 0 ? FST_LOCK_FREE : FST_LOCK_TAKEN;
+}
+
+void fst_lock_owner(int descriptor, char owner[FST_LOCK_OWNER_SIZE])
+{
+    char host[HOST_LETTERS + 1] = "";
+    for (int i = 0; i < HOST_LETTERS; ++i) {
+        const off_t letter = fst_locked_byte(descriptor, HOST_PLACES + (off_t)i * HOST_STRIDE, 256);
+        host[i] = letter > ' ' && letter < 127 ? (char)letter : '\0';
+        if (!host[i])
+            break;
+    }
+    const off_t process = fst_locked_byte(descriptor, PROCESS_PLACES, (off_t)1 << 31);
+    if (process > 0)
+        (void)snprintf(owner, FST_LOCK_OWNER_SIZE, "process %ld on %s", (long)process,
+                       host[0] ? host : "another computer");
+    else
+        (void)snprintf(owner, FST_LOCK_OWNER_SIZE, "another command");
+}
+
+fst_status fst_lock_fail(int descriptor, const char *path, fst_error *error)
+{
+    char owner[FST_LOCK_OWNER_SIZE];
+    fst_lock_owner(descriptor, owner);
+    return fst_fail(error, FST_IO, path,
+                    "%s is at work on this sweep; nothing was changed: wait for it, end it, or choose another "
+                    "file",
+                    owner);
+}
