@@ -29,7 +29,8 @@ int fst_count_unstable_pairs(const fst_solution *s);
 fst_status fst_locate_special(const fst_family *family, const fst_node *a, const fst_node *b, int test,
                               fst_node *out, fst_error *error);
 
-/* The parameter's value at a pitchfork of equilibria, more exactly than the place `at` that was located. */
+/* The parameter's value where two curves of equilibria meet, more exactly than the place `at` that was located.
+ */
 double fst_pitchfork_value(const fst_family *family, const fst_node *a, const fst_node *b, const fst_node *at);
 
 #endif
