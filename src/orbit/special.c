@@ -68,7 +68,7 @@ static double greatest_difference(const double *a, const double *b)
     return greatest;
 }
 
-/* How an orbit differs from its image under S2. */
+/* How a solution differs from its image under S2. */
 static void asymmetry(const fst_solution *s, double difference[FST_STATE_SIZE])
 {
     double half[FST_STATE_SIZE];
@@ -78,13 +78,10 @@ static void asymmetry(const fst_solution *s, double difference[FST_STATE_SIZE])
         difference[k] -= s->y[0][k];
 }
 
-/* Whether a curve of orbits without the symmetry passes through one that has it: then it goes on as its own
- * image. */
-static int meets_symmetric(const fst_node *a, const fst_node *b)
+/* Whether a curve passes through a solution that is its own image: then it goes on as its own image. */
+static int becomes_its_image(const fst_node *a, const fst_node *b)
 {
     double at_a[FST_STATE_SIZE], at_b[FST_STATE_SIZE], product_ab = 0.0, size = 0.0;
-    if (a->s.segments < 2 || a->s.symmetric || a->seen.turns == 0)
-        return 0;
     asymmetry(&a->s, at_a);
     asymmetry(&b->s, at_b);
     for (int k = 0; k < FST_STATE_SIZE; ++k) {
@@ -92,6 +89,12 @@ static int meets_symmetric(const fst_node *a, const fst_node *b)
         size += at_a[k] * at_a[k] + at_b[k] * at_b[k];
     }
     return product_ab < -0.01 * size;
+}
+
+/* Whether a curve of orbits without the symmetry passes through one that has it. */
+static int meets_symmetric(const fst_node *a, const fst_node *b)
+{
+    return a->s.segments >= 2 && !a->s.symmetric && a->seen.turns != 0 && becomes_its_image(a, b);
 }
 
 /* Whether it is an equilibrium that S2 maps onto itself, on the axis: there the symmetry can break.  Elsewhere
@@ -282,7 +285,7 @@ static fst_status report_turn(const interval *i, fst_error *error)
             fst_curve_end_set(i->end, FST_END_OTHER_BRANCH, "it ends on another branch near %.6g", b->s.value);
         return FST_OK;
     }
-    if (at.s.segments == 0 && is_branch_point(i->family, &at.s)) {
+    if (at.s.segments == 0 && (becomes_its_image(a, b) || is_branch_point(i->family, &at.s))) {
         fst_curve_end_set(i->end, FST_END_HIGHER_SYMMETRY, "it ends on a branch of higher symmetry at %.12g",
                           at.s.value);
         return FST_OK;
