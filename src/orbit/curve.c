@@ -98,11 +98,16 @@ static fst_status land_on(const fst_curve *curve, const fst_node *here, double b
             inside = x;
     }
     s.value = border;
+    const fst_solution guess = s;
     memset(&keep, 0, sizeof keep);
     keep.value = curve->family->scale;
     fst_status status = fst_solution_correct(curve->family, &s, &keep, error);
     if (status != FST_OK)
         return status;
+    fst_direction_between(&guess, &s, &way);
+    if (length_of(curve->family, &s, &way) > 0.25 * past.length)
+        return fst_fail(error, FST_NO_CONVERGENCE, "continuation", "a step to the border was too long at %.10g",
+                        here->s.value);
     fst_direction_between(&here->s, &s, &way);
     if (fst_direction_product(curve->family, &s, &s.tangent, &way) < 0.0)
         combine(&s.tangent, -1.0, &s.tangent, 0.0, &way);
@@ -143,12 +148,17 @@ static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *he
     return 1;
 }
 
-/* The next node, the step halved until it is found; 0 where none is. */
-static int next_node(fst_curve *curve, const fst_node *last, const fst_node *here, double *h, fst_node *next)
+/* The next node, on the border if the step left the range (*left); the step is halved until it is found.  0
+ * where none is. */
+static int next_node(fst_curve *curve, const fst_node *last, const fst_node *here, double *h, fst_node *next,
+                     int *left)
 {
     fst_error why;
     for (;;) {
-        const fst_status status = try_step(curve, last, here, *h, next, &why);
+        fst_status status = try_step(curve, last, here, *h, next, &why);
+        *left = status == FST_OK && (next->s.value > curve->to || next->s.value < curve->from);
+        if (*left)
+            status = land_on(curve, here, next->s.value > curve->to ? curve->to : curve->from, next, &why);
         if (status == FST_OK)
             return 1;
         *h *= 0.5;
@@ -170,15 +180,12 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
     combine(&here.s.tangent, sign, &start->s.tangent, 0.0, &start->s.tangent);
     here.length = 0.0;
     for (;;) {
-        if (!next_node(curve, nodes > 0 ? &last : NULL, &here, &h, &next))
+        int left;
+        if (!next_node(curve, nodes > 0 ? &last : NULL, &here, &h, &next, &left))
             return nodes > 0 && here.s.segments > 0
                        ? fst_look_for_hopf_end(curve->family, &curve->sink, &last, &here, &curve->end, error)
                        : FST_OK;
-        const double border = next.s.value > curve->to ? curve->to : curve->from;
-        const int left = next.s.value > curve->to || next.s.value < curve->from;
-        fst_status status = left ? land_on(curve, &here, border, &next, error) : FST_OK;
-        if (status == FST_OK)
-            status = fst_specials_between(curve->family, &curve->sink, &here, &next, &curve->end, error);
+        fst_status status = fst_specials_between(curve->family, &curve->sink, &here, &next, &curve->end, error);
         if (status == FST_OK && curve->end.type == FST_END_NONE)
             status = curve->sink.node(curve->sink.user, &next, error);
         if (status != FST_OK || curve->end.type != FST_END_NONE)

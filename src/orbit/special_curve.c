@@ -383,8 +383,14 @@ static fst_status walk_on(walk *w, int branch, fst_branch *out, fst_error *error
                 return fst_watch_ask(w->watch, error);
             }
         const int left = excess(w, &next, &key) > 0;
-        if (left && !land(w, h, &next))
+        if (left && !land(w, h, &next)) { /* the border is nearer to a smaller step */
+            if ((h *= 0.5) >= SHORTEST_STEP)
+                continue;
+            fst_curve_end_set(&w->end, FST_END_LOST,
+                              "the border of the range could not be reached from %.10g, %.10g",
+                              w->past[0].s.value, w->past[0].second);
             return fst_watch_ask(w->watch, error);
+        }
         remember(w, &next);
         fst_status status = report(w, &next, branch, out, error);
         fst_watch_reach(w->watch, places / (places + 20.0));
