@@ -187,7 +187,10 @@ FST_API fst_sweep_options fst_default_sweep_options(void);
  * parameters and the form of arithmetic; killed at any moment, the file keeps what was committed, and the same
  * call goes on. FST_BAD_INPUT: axes; a foreign or differently made file, or one that is damaged beyond repair,
  * which is left untouched.  FST_IO: full disk, no permission; another command is at work on the file; it was
- * deleted or renamed under way.  FST_INTERRUPTED: from `progress`. */
+ * deleted or renamed under way.  FST_INTERRUPTED: from `progress`.
+ *
+ * While this call is at work on a file, the same process must not open that file by itself: closing it would end
+ * SQLite's locks.  Further calls of fst_sweep() and of the readers below for that file end with FST_IO. */
 FST_API fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
                              fst_sweep_progress *result, fst_error *error);
 
@@ -224,7 +227,8 @@ typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED } fst_shown_u
 FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, fst_shown_units units,
                                     const char *out, fst_error *error);
 
-/* Whether a file begins like a sweep's database. */
+/* Whether a file begins like a sweep's database, as any database of SQLite does; fst_sweep_read_grid() tells
+ * whether it is one. */
 FST_API int fst_is_sweep(const char *path);
 
 /* ------------------------------------------------------------------ films */
