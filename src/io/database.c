@@ -194,7 +194,8 @@ fst_status fst_database_head(int descriptor, const char *path, int writable, cha
 
 /* ------------------------------------------------------------------ connecting */
 
-/* Text in the file can make SQLite run nothing: no triggers, no views, no functions, no extensions. */
+/* SQLite runs nothing that the file contains: no triggers, no views, no functions of its schema, no extensions.
+ */
 static void distrust(sqlite3 *database)
 {
     (void)sqlite3_extended_result_codes(database, 1);
@@ -214,7 +215,7 @@ void fst_database_allow_tidying(sqlite3 *database)
     (void)sqlite3_db_config(database, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, NULL);
 }
 
-/* `exclusive`: the log is read by this connection alone, for which it needs no memory shared by processes. */
+/* With `exclusive` this connection alone reads the log, so that SQLite needs no memory that processes share. */
 static fst_status connect_by(const char *name, int flags, const char *system, int exclusive, const char *path,
                              sqlite3 **database, fst_error *error)
 {
@@ -226,7 +227,7 @@ static fst_status connect_by(const char *name, int flags, const char *system, in
     return fst_database_do(*database, path, "SELECT count(*) FROM sqlite_master", error);
 }
 
-/* A path as an address in which every byte stands for itself. */
+/* A path as an address (URI) in which every byte but "/" is escaped, so that none has a meaning of its own. */
 static char *immutable_address(const char *path)
 {
     char *address = malloc(3 * strlen(path) + 32);
@@ -239,8 +240,8 @@ static char *immutable_address(const char *path)
     return address;
 }
 
-/* Where nothing may be written, SQLite reads a database with a log only if it needs no locks for it, and one
- * without a log only if told that it never changes. */
+/* Where nothing may be written, SQLite can make neither its locks nor its shared memory.  A database with a log
+ * is read without locks then, and one without a log as a file that never changes. */
 static fst_status connect_unwritable(const char *path, sqlite3 **database, fst_error *error)
 {
     char log[FST_LOG_NAME_SIZE];
@@ -259,7 +260,8 @@ static fst_status connect_unwritable(const char *path, sqlite3 **database, fst_e
 fst_status fst_database_connect(const char *path, int writable, sqlite3 **database, fst_error *error)
 {
     *database = NULL;
-    /* Readers too ask for writing, so that the log beside the file is tidied up; SQLite does with less. */
+    /* Readers ask for writing too, so that SQLite can move the log into the file; where that is not allowed, it
+     * opens the file for reading only. */
     fst_status status =
         connect_by(path, SQLITE_OPEN_READWRITE, NULL, fst_on_network(path), path, database, error);
     if (status == FST_IO && !writable) {
