@@ -12,7 +12,7 @@
 
 #include "io/columns.h"
 #include "io/csv.h"
-#include "io/hdf5_present.h"
+#include "host/module.h"
 #include "io/trajectory_module.h"
 
 static char directory[] = "/tmp/festoon-trajectory-XXXXXX";
@@ -319,7 +319,7 @@ static void numbers_that_are_not_finite(void **state)
 {
     (void)state;
     const double odd[] = {NAN, INFINITY, -INFINITY};
-    const int hdf5_too = fst_hdf5_present();
+    const int hdf5_too = fst_module_present(FST_HDF5_MODULE);
     for (int i = 0; i < fst_column_count(); i++)
         for (int e = hdf5_too ? 0 : 1; e < 2; e++) {
             const char *path = path_of("t", endings[e]), *name = fst_column_at(i)->name;

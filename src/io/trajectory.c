@@ -7,17 +7,14 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/whole_file.h"
+#include "host/module.h"
+#include "host/regular_file.h"
+#include "host/whole_file.h"
 #include "io/columns.h"
 #include "io/csv.h"
 #include "io/hdf5_module.h"
-#include "io/hdf5_present.h"
 #include "io/json.h"
-#include "io/module.h"
-#include "io/regular_file.h"
 #include "io/trajectory_module.h"
-
-#define MODULE_FILE "festoon-hdf5.so"
 
 struct fst_trajectory {
     fst_params params;
@@ -30,25 +27,19 @@ struct fst_trajectory {
 fst_status fst_load_hdf5_module(const fst_hdf5_module_table **module, const char *path, fst_error *error)
 {
     int found;
-    *module = fst_module_table(MODULE_FILE, FST_HDF5_MODULE_SYMBOL, &found);
+    *module = fst_module_table(FST_HDF5_MODULE, FST_HDF5_MODULE_SYMBOL, &found);
     fst_status status = FST_OK;
     if (!*module)
         status =
             fst_fail(error, FST_UNAVAILABLE, path,
                      "this festoon has no HDF5 (%s): install libhdf5-dev and build festoon again, or give the "
                      "file a name that ends in .csv",
-                     found ? MODULE_FILE " is no module of festoon" : MODULE_FILE " cannot be loaded");
+                     found ? FST_HDF5_MODULE " is no module of festoon" : FST_HDF5_MODULE " cannot be loaded");
     else if (strcmp((*module)->version, fst_version()) != 0)
         status =
             fst_fail(error, FST_UNAVAILABLE, path, "%s belongs to festoon %s, not to %s: install festoon again",
-                     MODULE_FILE, (*module)->version, fst_version());
+                     FST_HDF5_MODULE, (*module)->version, fst_version());
     return status;
-}
-
-/* Asking for the version must not cost the time of loading HDF5. */
-int fst_hdf5_present(void)
-{
-    return fst_module_present(MODULE_FILE);
 }
 
 static int ends_in(const char *path, const char *ending)
