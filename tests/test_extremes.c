@@ -3,17 +3,16 @@
 
 #include "study/quadrature.h"
 
-#include "ode/dop853_tableau.h"
-#include "ode/path_stages.h"
-#include "ode/summit.inl"
+#include "ode/peak.inl"
 
 static void test_nodes(void **state)
 {
     (void)state;
-    static const double nodes[FST_PATH_STAGES] = {0.0,    DOP_C7,  DOP_C8, DOP_C6, DOP_C10,
-                                                  DOP_C9, DOP_C11, 1.0,    1.0};
-    for (int i = 0; i < FST_PATH_STAGES; ++i) {
-        assert_true(FST_PATH_NODE[i] == nodes[i]);
+    static const double nodes[FST_DENSE_POINTS] = {0.0,     DOP_C7, DOP_C8, DOP_C6,  DOP_C10, DOP_C9,
+                                                   DOP_C11, 1.0,    1.0,    DOP_C14, DOP_C15, DOP_C16};
+    for (int i = 0; i < FST_DENSE_POINTS; ++i)
+        assert_true(FST_POINT_NODE[i] == nodes[i]);
+    for (int i = 0; i < FST_PATH_POINTS; ++i) {
         const int at_end = i >= 7,
                   first = i == 0   ? 1
                           : at_end ? 6
@@ -21,7 +20,7 @@ static void test_nodes(void **state)
                   second = i == 0   ? 2
                            : at_end ? 5
                                     : i + 1;
-        CHECK_CLOSE(FST_PATH_RATIO[i], (nodes[first] - nodes[i]) / (nodes[second] - nodes[i]), 1e-14);
+        CHECK_CLOSE(FST_POINT_RATIO[i], (nodes[first] - nodes[i]) / (nodes[second] - nodes[i]), 1e-14);
     }
 }
 
@@ -32,27 +31,27 @@ static void test_parabolas(void **state)
     (void)state;
     for (int i = -400; i <= 1400; ++i) {
         const double top = i / 1000.0;
-        double values[FST_PATH_STAGES];
-        for (int j = 0; j < FST_PATH_STAGES; ++j)
-            values[j] = 5.0 - 3.0 * (FST_PATH_NODE[j] - top) * (FST_PATH_NODE[j] - top);
+        double values[FST_PATH_POINTS];
+        for (int j = 0; j < FST_PATH_POINTS; ++j)
+            values[j] = 5.0 - 3.0 * (FST_POINT_NODE[j] - top) * (FST_POINT_NODE[j] - top);
         const double peak = top < 0.0 ? values[0] : top > 1.0 ? values[8] : 5.0;
-        const fst_summit_double s = fst_find_summit_double(values, 1, 1.0);
+        const fst_peak_double s = fst_find_peak_double(values, 1, 1.0);
         CHECK_CLOSE(s.best + s.rise_over / s.per, peak, 1e-12);
         if (top > 0.0 && top < 1.0)
             assert_true(s.before < top && top < s.after);
         assert_true(fst_may_exceed_double(&s, peak - 1e-12) > 0.0);
         /* As much as the margins are: no more steps than these are looked at. */
-        const double bound = s.best + SUMMIT_RISES * (s.rise_over / s.per) + SUMMIT_FALL * s.fall;
+        const double bound = s.best + PEAK_RISES * (s.rise_over / s.per) + PEAK_FALL * s.fall;
         assert_true(fst_may_exceed_double(&s, bound + 1e-12) <= 0.0);
     }
 }
 
-static const double EQUAL[FST_PATH_STAGES] = {2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0};
+static const double EQUAL[FST_PATH_POINTS] = {2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0};
 
 static void test_constants(void **state)
 {
     (void)state;
-    const fst_summit_double s = fst_find_summit_double(EQUAL, 1, -1.0);
+    const fst_peak_double s = fst_find_peak_double(EQUAL, 1, -1.0);
     assert_true(fst_may_exceed_double(&s, -2.0) <= 0.0);
     assert_true(fst_may_exceed_double(&s, -2.0 - 1e-15) > 0.0);
     assert_true(fst_may_exceed_double(&s, -INFINITY) > 0.0);
@@ -192,7 +191,7 @@ static void test_the_end_of_a_step_counts(void **state)
                 q.extreme[i] = (fst_extreme){INFINITY, -INFINITY};
             fst_quadrature_track(&q, flow, 0.0);
             for (int i = 0; i < FST_TRACK_COUNT; ++i) {
-                const double end = q.tracked[FST_PATH_STAGES - 1][i];
+                const double end = q.tracked[FST_END_POINT][i];
                 assert_true(q.extreme[i].greatest >= end);
                 if (i != FST_TRACK_GAP && i != FST_TRACK_SLIP)
                     assert_true(q.extreme[i].least <= end);

@@ -101,8 +101,9 @@ static fst_run_result decide(const made_up *m)
     if (m->full_before_last > 0)
         run->section_marks.kept[m->blocks - 1].full_distance = m->full_before_last;
     run->flow->t.high = m->blocks * step;
-    memset(run->flow->step.k[12], 0, sizeof run->flow->step.k[12]);
-    run->flow->step.k[12][FST_X] = m->speed_at_end;
+    double *slope = FST_POINT_SLOPE(&run->flow->step, FST_END_POINT);
+    memset(slope, 0, FST_STATE_SIZE * sizeof *slope);
+    slope[FST_X] = m->speed_at_end;
     run->returns.crossings = m->turns ? m->crossings : 0;
     run->returns.since_break = run->returns.crossings;
     run->least_phi = 0.0;

@@ -1,30 +1,30 @@
-/* lane_observables.inl - a part of lanes.inl: integrands at the stages of a step, their integrals, and whether
- * a tracked quantity may have passed an extreme.
+/* lane_observables.inl - a part of lanes.inl: integrands at the points of a step's path (ode/path.h), their
+ * integrals, and whether a tracked quantity may have passed an extreme.
  */
 /* fst_twofold_add() of the last increments, in the lanes of `mask`. */
 static void add_increments(batch *b, fst_wide_mask mask)
 {
     for (int i = 0; i < FST_Q_COUNT; ++i) {
-        REAL high = b->total_high[i], low = b->total_low[i];
-        add_twofold(&high, &low, b->increment[i]);
-        b->total_low[i] = fst_wide_select(mask, low, b->total_low[i]);
-        b->total_high[i] = fst_wide_select(mask, high, b->total_high[i]);
+        const FN(twofold) total = {b->total_high[i], b->total_low[i]};
+        const FN(twofold) sum = FN(twofold_add)(total, b->increment[i]);
+        b->total_low[i] = fst_wide_select(mask, sum.low, b->total_low[i]);
+        b->total_high[i] = fst_wide_select(mask, sum.high, b->total_high[i]);
     }
 }
 
-static void see_stage(batch *b, int n, fst_wide_mask renew)
+static void see_point(batch *b, int n, fst_wide_mask renew)
 {
     const FN(bead_step) *s = &b->step;
     const FN(coefficients) *c = &s->context.coefficients;
-    const int j = FST_PATH_STAGE[n];
+    const REAL *state = FST_POINT_STATE(s, n);
+    const FN(pull) *pull = FST_POINT_PULL(s, n);
     FN(seen) seen;
-    FN(see)(c, s->omega, s->stage[j], &s->context.pull[j], &seen);
+    FN(see)(c, s->omega, state, pull, &seen); /* the drive does not change in lanes */
     if (n == 0) {
         b->r_reference = fst_wide_select(renew, seen.r, b->r_reference);
         b->b_reference = fst_wide_select(renew, seen.b_norm, b->b_reference);
     }
-    FN(integrands)
-    (c, s->stage[j], &s->context.pull[j], &seen, b->r_reference, b->b_reference, b->integrands[n]);
+    FN(integrands)(c, state, pull, &seen, b->r_reference, b->b_reference, b->integrands[n]);
     b->tracked[n][FST_TRACK_R] = seen.r;
     b->tracked[n][FST_TRACK_B] = seen.b_norm;
     b->tracked[n][FST_TRACK_GAP] = seen.gap2;
@@ -33,12 +33,12 @@ static void see_stage(batch *b, int n, fst_wide_mask renew)
 }
 
 /* The references of the lanes before their window are renewed; where the integrands at the start of the step
- * are known, that is all there is to do for this stage. */
+ * are known, that is all there is to do for this point. */
 static void see_start(batch *b, unsigned accepted, unsigned before_window)
 {
     const fst_wide_mask renew = fst_wide_mask_of(before_window);
     if (accepted & ~b->known) {
-        see_stage(b, 0, renew);
+        see_point(b, 0, renew);
         return;
     }
     if (!before_window)
@@ -50,16 +50,11 @@ static void see_start(batch *b, unsigned accepted, unsigned before_window)
     q[FST_Q_B2] = fst_wide_select(renew, R(0.0), q[FST_Q_B2]);
 }
 
-/* h times the weighted sum of the integrands, in the order of the stages. */
 static void integrate(batch *b, fst_wide_mask mask)
 {
-    const REAL weight[8] = {DOP_B1, DOP_B6, DOP_B7, DOP_B8, DOP_B9, DOP_B10, DOP_B11, DOP_B12};
-    static const int place[8] = {0, 3, 1, 2, 5, 4, 6, 7}; /* of the stages 1, 6, 7, ... 12 in FST_PATH_STAGE */
     for (int i = 0; i < FST_Q_COUNT; ++i) {
-        REAL sum = R(0.0);
-        for (int j = 0; j < 8; ++j)
-            sum = REAL_MULADD(weight[j], b->integrands[place[j]][i], sum);
-        b->increment[i] = fst_wide_select(mask, b->step.h * sum, b->increment[i]);
+        const REAL mean = FN(path_mean)(&b->integrands[0][i], FST_Q_COUNT);
+        b->increment[i] = fst_wide_select(mask, b->step.h * mean, b->increment[i]);
     }
 }
 
@@ -78,16 +73,16 @@ static REAL to_beat(REAL record)
 static void find_beaten(batch *b, unsigned tracked, unsigned beaten[FST_RECORD_COUNT])
 {
     for (int i = 0; i < FST_RECORD_COUNT; ++i) {
-        const FN(summit) top =
-            FN(find_summit)(&b->tracked[0][FST_RECORD_TRACKS[i]], FST_TRACK_COUNT, REAL_OF(fst_record_sign(i)));
+        const FN(peak) top =
+            FN(find_peak)(&b->tracked[0][FST_RECORD_TRACKS[i]], FST_TRACK_COUNT, REAL_OF(fst_record_sign(i)));
         const REAL more = FN(may_exceed)(&top, to_beat(b->records[i]));
         beaten[i] = tracked & fst_wide_lanes_of(WIDE_LESS(R(0.0), more));
 #ifdef FST_FUSED
-        b->summit_from[i] = top.before;
-        b->summit_to[i] = top.after;
-        /* The end of a step lies on the trajectory; the stages within it do so but roughly, and a record that
+        b->peak_from[i] = top.before;
+        b->peak_to[i] = top.after;
+        /* The end of a step lies on the trajectory; the points within it do so only roughly, and a record that
          * one of them overshot would hide the ones to come. */
-        const REAL end = REAL_OF(fst_record_sign(i)) * b->tracked[FST_PATH_STAGES - 1][FST_RECORD_TRACKS[i]];
+        const REAL end = REAL_OF(fst_record_sign(i)) * b->tracked[FST_END_POINT][FST_RECORD_TRACKS[i]];
         const fst_wide_mask counts = fst_wide_mask_of(tracked);
         b->records[i] = fst_wide_select(counts, REAL_MAX(end, b->records[i]), b->records[i]);
 #endif
@@ -101,8 +96,8 @@ static void observe(void *memory, unsigned accepted, unsigned in_window, unsigne
     const fst_wide_mask mask = fst_wide_mask_of(accepted);
     add_increments(b, mask);
     see_start(b, accepted, accepted & ~in_window);
-    for (int n = 1; n < FST_PATH_STAGES; ++n)
-        see_stage(b, n, fst_wide_mask_of(0));
+    for (int n = 1; n < FST_PATH_POINTS; ++n)
+        see_point(b, n, fst_wide_mask_of(0));
     integrate(b, mask);
     if (accepted & tracked)
         find_beaten(b, accepted & tracked, beaten);

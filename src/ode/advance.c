@@ -115,7 +115,7 @@ fst_flow_info fst_flow_get(const fst_flow *flow)
     double whole, rest;
     fst_flow_drive_turns(&copy, t, &whole, &rest);
     info.omega = fst_flow_omega(&copy, t);
-    info.step = copy.h_next;
+    info.step = copy.control.proposal;
     info.phi = fst_winding_angle(&phi);
     info.drive_turns = whole + rest;
     info.alpha = info.phi + TWO_PI * (whole + rest);

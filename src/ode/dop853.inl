@@ -18,6 +18,9 @@
  * next.  Zeros of the tableau are left out; every sum has one order: what the older stages add to the next one
  * is summed before the newest derivative is evaluated, so that a processor can do both at once.
  */
+#ifdef STEP_RHS
+#define STEP_DERIVATIVES(s, drive, j) STEP_RHS(&(s)->context, drive, (s)->stage[(j)-1], (s)->k[(j)-1])
+#endif
 #ifdef STEP_DERIVATIVES
 #define STEP_KINEMATICS(s, drive, j) ((void)0)
 #define STEP_FORCES(s, j) ((void)0)
@@ -135,12 +138,13 @@ static inline REAL STEP_NAME(step_error)(const STEP_NAME(step) * s, REAL rtol, c
     return REAL_OVER_SQRT(REAL_ABS(s->h) * sum5, REAL_OF(STEP_DIM) * denominator + R(1e-290));
 }
 
-/* Coefficients of the dense output over a whole step of size h: from y0 to y1 with the derivatives k[0..15]
- * (stages 1 to 16) of `dim` components lying `stride` apart. */
+/* Coefficients of the dense output over a whole step of size h, from y0 to y1, of `dim` components.  The
+ * derivatives at stage j + 1 are row[j] of k_flat; rows lie `stride` apart. */
 static inline void STEP_NAME(dense_coefficients)(int dim, REAL h, const REAL *y0, const REAL *y1,
-                                                 const REAL *k_flat, int stride, REAL *c_flat)
+                                                 const REAL *k_flat, const int row[16], int stride,
+                                                 REAL *c_flat)
 {
-#define SLOPE(j) k_flat[(j)*stride + i]
+#define SLOPE(j) k_flat[row[j] * stride + i]
 #define TERM(j) c_flat[(j)*stride + i]
     for (int i = 0; i < dim; ++i) {
         const REAL difference = y1[i] - y0[i], bend = h * SLOPE(0) - difference;
@@ -190,7 +194,8 @@ static inline void STEP_NAME(make_dense)(STEP_NAME(step) * s)
     GO_ON(16, DOP_C15, DOP_A16_15);
     STEP_KINEMATICS(s, DRIVE(DOP_C16), 16);
     STEP_DYNAMICS(s, DRIVE(DOP_C16), 16);
-    STEP_NAME(dense_coefficients)(STEP_DIM, h, s->y, s->end, &s->k[0][0], STEP_DIM, &s->dense[0][0]);
+    static const int row[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
+    STEP_NAME(dense_coefficients)(STEP_DIM, h, s->y, s->end, &s->k[0][0], row, STEP_DIM, &s->dense[0][0]);
 }
 
 /* The dense output at the fraction x of the step, of `dim` components. */
@@ -210,6 +215,14 @@ static inline void STEP_NAME(evaluate_dense)(int dim, const REAL *c_flat, int st
 #undef TERM
 }
 
+#ifdef STEP_RHS
+/* The first stage of a step from s->y. */
+static inline void STEP_NAME(begin)(STEP_NAME(step) * s)
+{
+    STEP_RHS(&s->context, s->omega, s->y, s->k[0]);
+}
+#endif
+
 #undef K
 #undef STATE
 #undef EACH_KNOWN
@@ -219,6 +232,7 @@ static inline void STEP_NAME(evaluate_dense)(int dim, const REAL *c_flat, int st
 #undef STEP_DIM
 #undef STEP_CONTEXT
 #undef STEP_NAME
+#undef STEP_RHS
 #undef STEP_DERIVATIVES
 #undef STEP_KNOWN
 #undef STEP_KINEMATICS

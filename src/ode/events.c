@@ -26,7 +26,7 @@ double fst_load_function(const fst_flow *flow, const double *state, const fst_pu
 double fst_flow_function_at(fst_flow *flow, double x, fst_state_function function)
 {
     if (x == 1.0)
-        return function(flow, flow->step.end, &flow->step.context.pull[12]);
+        return function(flow, flow->step.end, FST_POINT_PULL(&flow->step, FST_END_POINT));
     double state[FST_STATE_SIZE];
     if (function == fst_section_function) { /* all that it looks at; n need not be normalised for that */
         fst_flow_make_dense(flow);
@@ -39,15 +39,13 @@ double fst_flow_function_at(fst_flow *flow, double x, fst_state_function functio
     return function(flow, state, &p);
 }
 
-void fst_flow_stage_range(const fst_flow *flow, fst_state_function function, double *least, double *greatest)
+void fst_flow_path_range(const fst_flow *flow, fst_state_function function, double *least, double *greatest)
 {
-    /* Stages 1, 6 to 12 and 13 approximate the trajectory well enough to see where an extreme may lie. */
-    static const int stages[] = {0, 5, 6, 7, 8, 9, 10, 11, 12};
     *least = INFINITY;
     *greatest = -INFINITY;
-    for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i) {
-        const int j = stages[i];
-        const double value = function(flow, flow->step.stage[j], &flow->step.context.pull[j]);
+    for (int point = 0; point < FST_PATH_POINTS; ++point) {
+        const double value =
+            function(flow, FST_POINT_STATE(&flow->step, point), FST_POINT_PULL(&flow->step, point));
         *least = value < *least ? value : *least;
         *greatest = value > *greatest ? value : *greatest;
     }
@@ -153,7 +151,7 @@ static double state_function_at(fst_flow *flow, double x, const void *function)
 int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double lo, double *x)
 {
     double least, greatest;
-    fst_flow_stage_range(flow, function, &least, &greatest);
+    fst_flow_path_range(flow, function, &least, &greatest);
     if (least - 0.5 * (greatest - least) > 0)
         return 0;
     enum { PIECES = 16 };

@@ -8,7 +8,7 @@
 #define STEP_DIM (2 * FST_STATE_SIZE)
 #define STEP_NAME(name) FN(tangent_##name)
 #define STEP_CONTEXT FN(coefficients)
-#define STEP_DERIVATIVES(s, drive, j) FN(tangent_rhs)(&(s)->context, drive, (s)->stage[(j)-1], (s)->k[(j)-1])
+#define STEP_RHS(c, drive, y, dy) FN(tangent_rhs)(c, drive, y, dy)
 
 RHS_KIND void FN(tangent_rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy)
 {

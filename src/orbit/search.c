@@ -250,7 +250,7 @@ static double speed_of(const search *s)
 {
     double greatest = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
-        greatest = fmax(greatest, fabs(s->flow->step.k[12][i]));
+        greatest = fmax(greatest, fabs(FST_POINT_SLOPE(&s->flow->step, FST_END_POINT)[i]));
     return greatest;
 }
 

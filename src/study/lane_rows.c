@@ -368,7 +368,7 @@ static fst_crew *make_crew(const fst_row_work *work, const fst_row_images *image
     c->work = work;
     c->images = fst_run_images_possible() ? images : NULL;
     c->engine = engine;
-    const size_t bytes = (engine->slots_bytes + 63) / 64 * 64;
+    const size_t bytes = (engine->waiting_bytes + 63) / 64 * 64;
     c->slots = bytes > 0 ? aligned_alloc(64, bytes) : NULL;
     if (c->slots)
         memset(c->slots, 0, bytes);

@@ -1,7 +1,6 @@
 /* lane_watch.c - what the steps of runs in lanes hold, looked at by the code of fst_run(). */
 #include <math.h>
 
-#include "ode/path_stages.h"
 #include "study/lane_crew.h"
 
 #define TWO_PI 6.283185307179586476925287
@@ -34,9 +33,9 @@ static void extract_quadrature(const fst_crew *c, int l, fst_quadrature *q)
     }
     q->r_reference = v->r_reference[l];
     q->b_reference = v->b_reference[l];
-    for (int n = 0; n < FST_PATH_STAGES; ++n) {
+    for (int n = 0; n < FST_PATH_POINTS; ++n) {
         for (int i = 0; i < FST_Q_COUNT; ++i)
-            q->stage[FST_PATH_STAGE[n]][i] = v->integrands[(n * FST_Q_COUNT + i) * width + l];
+            q->integrands[n][i] = v->integrands[(n * FST_Q_COUNT + i) * width + l];
         for (int i = 0; i < FST_TRACK_COUNT; ++i)
             q->tracked[n][i] = v->tracked[(n * FST_TRACK_COUNT + i) * width + l];
     }
@@ -127,7 +126,7 @@ void fst_crew_extract_step(const fst_crew *c, const fst_squad *s, int l)
 /* Whether a step that may end a run does. */
 int fst_crew_ends_run(const fst_crew *c, const fst_squad *s, int l)
 {
-    c->engine->extract_stages(s->batch, l, &s->lanes[l].run->flow->step);
+    c->engine->extract_path(s->batch, l, &s->lanes[l].run->flow->step);
     return fst_run_watch_end(s->lanes[l].run);
 }
 

@@ -2,27 +2,22 @@
 
 #include <string.h>
 
-#include "ode/dop853_tableau.h"
-#include "ode/path_stages.h"
-#include "ode/summit.inl"
+#include "ode/peak.inl"
 
-static void see_stage(const fst_flow *flow, int stage, fst_seen_double *seen)
+static void see_point(const fst_flow *flow, int point, fst_seen_double *seen)
 {
     const fst_bead_step_double *s = &flow->step;
-    static const double node[16] = {
-        [5] = DOP_C6, [6] = DOP_C7, [7] = DOP_C8,   [8] = DOP_C9,   [9] = DOP_C10, [10] = DOP_C11,
-        [11] = 1.0,   [12] = 1.0,   [13] = DOP_C14, [14] = DOP_C15, [15] = DOP_C16};
-    const double omega = s->omega + (s->h * node[stage]) * s->ramp;
-    fst_see_double(&s->context.coefficients, omega, s->stage[stage], &s->context.pull[stage], seen);
+    fst_see_double(&s->context.coefficients, fst_point_omega_double(s, point), FST_POINT_STATE(s, point),
+                   FST_POINT_PULL(s, point), seen);
 }
 
-static void fill_stage(fst_quadrature *q, const fst_flow *flow, int stage, double *tracked)
+static void fill_point(fst_quadrature *q, const fst_flow *flow, int point, double *tracked)
 {
+    const fst_bead_step_double *s = &flow->step;
     fst_seen_double seen;
-    see_stage(flow, stage, &seen);
-    fst_integrands_double(&flow->step.context.coefficients, flow->step.stage[stage],
-                          &flow->step.context.pull[stage], &seen, q->r_reference, q->b_reference,
-                          q->stage[stage]);
+    see_point(flow, point, &seen);
+    fst_integrands_double(&s->context.coefficients, FST_POINT_STATE(s, point), FST_POINT_PULL(s, point), &seen,
+                          q->r_reference, q->b_reference, q->integrands[point]);
     if (!tracked)
         return;
     tracked[FST_TRACK_R] = seen.r;
@@ -88,26 +83,19 @@ void fst_quadrature_follow(fst_quadrature *q, fst_flow *flow, const double *end)
 void fst_quadrature_set_references(fst_quadrature *q, const fst_flow *flow)
 {
     fst_seen_double seen;
-    see_stage(flow, 0, &seen);
+    see_point(flow, FST_START_POINT, &seen);
     q->r_reference = seen.r;
     q->b_reference = seen.b_norm;
 }
 
 void fst_quadrature_step(fst_quadrature *q, fst_flow *flow)
 {
-    static const double weight[12] = {[0] = DOP_B1, [5] = DOP_B6,  [6] = DOP_B7,   [7] = DOP_B8,
-                                      [8] = DOP_B9, [9] = DOP_B10, [10] = DOP_B11, [11] = DOP_B12};
     for (int i = 0; i < FST_Q_COUNT; ++i)
         q->total[i] = fst_twofold_add(q->total[i], q->increment[i]);
-    for (int i = 0; i < FST_PATH_STAGES; ++i)
-        fill_stage(q, flow, FST_PATH_STAGE[i], q->tracked[i]);
-    for (int i = 0; i < FST_Q_COUNT; ++i) {
-        double sum = 0.0;
-        for (int j = 0; j < 12; ++j)
-            if (weight[j] != 0.0)
-                sum += weight[j] * q->stage[j][i];
-        q->increment[i] = flow->step.h * sum;
-    }
+    for (int point = 0; point < FST_PATH_POINTS; ++point)
+        fill_point(q, flow, point, q->tracked[point]);
+    for (int i = 0; i < FST_Q_COUNT; ++i)
+        q->increment[i] = flow->step.h * fst_path_mean_double(&q->integrands[0][i], FST_Q_COUNT);
     q->has_dense = 0;
     fst_quadrature_follow(q, flow, flow->step.end);
 }
@@ -122,10 +110,10 @@ void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integ
         if (!q->has_dense) {
             static const double zero[FST_Q_COUNT];
             fst_flow_make_dense(flow);
-            for (int stage = 13; stage < 16; ++stage)
-                fill_stage(q, flow, stage, NULL);
-            fst_bead_dense_coefficients_double(FST_Q_COUNT, flow->step.h, zero, q->increment, &q->stage[0][0],
-                                               FST_Q_COUNT, &q->dense[0][0]);
+            for (int point = FST_PATH_POINTS; point < FST_DENSE_POINTS; ++point)
+                fill_point(q, flow, point, NULL);
+            fst_path_dense_double(FST_Q_COUNT, flow->step.h, zero, q->increment, &q->integrands[0][0],
+                                  &q->dense[0][0]);
             q->has_dense = 1;
         }
         fst_bead_evaluate_dense_double(FST_Q_COUNT, &q->dense[0][0], FST_Q_COUNT, x, part);
@@ -183,11 +171,10 @@ static double tracked_at(fst_flow *flow, double x, const void *what)
 /* The greatest sign * value of one quantity in the last step, if it may beat the record. */
 static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record)
 {
-    const double end =
-        sign * q->tracked[FST_PATH_STAGES - 1][which]; /* the end lies on the trajectory exactly */
+    const double end = sign * q->tracked[FST_END_POINT][which]; /* the end lies on the trajectory exactly */
     if (end > record)
         record = end;
-    const fst_summit_double top = fst_find_summit_double(&q->tracked[0][which], FST_TRACK_COUNT, sign);
+    const fst_peak_double top = fst_find_peak_double(&q->tracked[0][which], FST_TRACK_COUNT, sign);
     if (!(fst_may_exceed_double(&top, record) > 0.0))
         return record;
     double value;
@@ -199,9 +186,9 @@ static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, d
 static double best_in_rest(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record,
                            double from)
 {
-    double best = fmax(sign * q->tracked[FST_PATH_STAGES - 1][which], sign * tracked_at(flow, from, &which));
-    for (int n = 1; n < FST_PATH_STAGES - 1; ++n) {
-        const double before = fmax(FST_PATH_NODE[n - 1], from), after = FST_PATH_NODE[n + 1];
+    double best = fmax(sign * q->tracked[FST_END_POINT][which], sign * tracked_at(flow, from, &which));
+    for (int n = 1; n < FST_END_POINT; ++n) {
+        const double before = fmax(FST_POINT_NODE[n - 1], from), after = FST_POINT_NODE[n + 1];
         double value;
         if (!(before < after))
             continue;

@@ -12,10 +12,10 @@ typedef struct fst_quadrature {
     fst_twofold total[FST_Q_COUNT];  /* integrals up to the start of the last step */
     double increment[FST_Q_COUNT];   /* and over it */
     double r_reference, b_reference; /* r and |B| when the window began: deviations are taken from them */
-    double stage[16][FST_Q_COUNT];   /* integrands at the stages */
+    double integrands[FST_DENSE_POINTS][FST_Q_COUNT]; /* at the points of the path (ode/path.h) */
     double dense[8][FST_Q_COUNT];
     int has_dense;
-    double tracked[9][FST_TRACK_COUNT]; /* tracked quantities at the stages that lie on the trajectory */
+    double tracked[FST_PATH_POINTS][FST_TRACK_COUNT];
     fst_extreme extreme[FST_TRACK_COUNT];
     fst_winding small_phi_start, small_phi; /* phi = atan2(n_alpha, -n_z), unwrapped */
 } fst_quadrature;

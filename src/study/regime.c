@@ -324,7 +324,7 @@ static double speed_at_end(const fst_run_state *run)
     const int n_is_free = c->hard == 0.0 && c->twice_b == 0.0;
     double speed = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        const double component = fabs(run->flow->step.k[12][i]);
+        const double component = fabs(FST_POINT_SLOPE(&run->flow->step, FST_END_POINT)[i]);
         if (component > speed && !(n_is_free && i >= FST_NX && i <= FST_NZ))
             speed = component;
     }

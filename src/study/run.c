@@ -194,7 +194,7 @@ void fst_run_watch_step(fst_run_state *run)
     run->window_from = 0.0;
     fst_run_mark_periods(run);
     fst_returns_step(run);
-    const double *k = run->flow->step.k[12];
+    const double *k = FST_POINT_SLOPE(&run->flow->step, FST_END_POINT);
     double activity = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         activity = fabs(k[i]) > activity ? fabs(k[i]) : activity;
