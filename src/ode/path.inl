@@ -13,7 +13,7 @@ static inline REAL FN(point_omega)(const FN(bead_step) * s, int point)
 
 /* The mean over a step of what has these values at its points, by the method's weights.  Do not reorder: the
  * sum runs over the stages in their order, and this order defines the published bits. */
-static inline REAL FN(path_mean)(const REAL *values, int stride)
+static inline __attribute__((always_inline)) REAL FN(path_mean)(const REAL *values, int stride)
 {
     const REAL weight[] = {DOP_B1, DOP_B6, DOP_B7, DOP_B8, DOP_B9, DOP_B10, DOP_B11, DOP_B12};
     static const int point[] = {0, 3, 1, 2, 5, 4, 6, 7}; /* the stages 1, 6, 7, ... 12 */
