@@ -221,6 +221,22 @@ static inline void STEP_NAME(begin)(STEP_NAME(step) * s)
 {
     STEP_RHS(&s->context, s->omega, s->y, s->k[0]);
 }
+
+/* The last stage of an accepted step, of which nothing is projected; and the end as the start of the next. */
+static inline REAL STEP_NAME(finish)(STEP_NAME(step) * s)
+{
+    STEP_RHS(&s->context, s->omega + s->h * s->ramp, s->end, s->k[12]);
+    return R(0.0);
+}
+
+static inline void STEP_NAME(next)(STEP_NAME(step) * s, REAL omega)
+{
+    s->omega = omega;
+    for (int i = 0; i < STEP_DIM; ++i) {
+        s->y[i] = s->end[i];
+        s->k[0][i] = s->k[12][i];
+    }
+}
 #endif
 
 #undef K

@@ -100,7 +100,7 @@ static inline void FLOW_NAME(begin)(FLOW_NAME(type) * flow, REAL first_size, REA
     FLOW_NAME(stand)(flow);
     memcpy(s->end, s->y, sizeof s->end);
     flow->control = FN(begin_control)(first_size > 0 ? first_size : FLOW_NAME(choose_first_size)(flow),
-                                      greatest_size > 0 ? greatest_size : R(INFINITY));
+                                      greatest_size > 0 ? greatest_size : REAL_OF(INFINITY));
 }
 
 /* The end of the last step becomes a start, at which the first stage is evaluated anew. */

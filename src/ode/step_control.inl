@@ -120,16 +120,17 @@ static inline void FN(accept_step)(FN(step_control) * c, REAL_MASK mask, REAL fa
  * it has become too small or was tried too often, else 0. */
 static inline REAL FN(reject_step)(FN(step_control) * c, REAL_MASK mask, REAL error, REAL factor, REAL time)
 {
-    const REAL one = R(1.0), zero = R(0.0), infinity = R(INFINITY);
+    const REAL one = R(1.0), zero = R(0.0), infinity = REAL_OF(INFINITY);
     const REAL_MASK finite = REAL_LESS(REAL_ABS(error), infinity);
     const REAL size = c->size * REAL_SELECT(finite, factor, R(0.1));
     c->rejections = REAL_SELECT(mask, c->rejections + one, c->rejections);
     c->worst_error = REAL_SELECT(mask, REAL_SELECT(finite, error, infinity), c->worst_error);
     c->size = REAL_SELECT(mask, size, c->size);
     c->lands = REAL_SELECT(mask, zero, c->lands);
-    const REAL least = R(STEP_LEAST) * (one + REAL_ABS(time));
+    const REAL least = REAL_OF(STEP_LEAST) * (one + REAL_ABS(time));
     const REAL too_small = REAL_SELECT(REAL_LESS_EQUAL(least, REAL_ABS(size)), zero, one);
-    const REAL given_up = REAL_SELECT(REAL_LESS_EQUAL(c->rejections, R(STEP_MOST_REJECTIONS)), too_small, one);
+    const REAL given_up =
+        REAL_SELECT(REAL_LESS_EQUAL(c->rejections, REAL_OF(STEP_MOST_REJECTIONS)), too_small, one);
     return REAL_SELECT(mask, given_up, zero);
 }
 
