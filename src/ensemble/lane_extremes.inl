@@ -5,11 +5,11 @@
  * So it is copied aside, with the name of the quantity, until there are as many as lanes; then all are located
  * at once:
  *
- *     batch      lane 0   lane 1   lane 2   lane 3
- *     moment 1     .     r, step     .        .     ---.
- *     moment 2     .        .        .     load, step --+--->   waiting   place 0: r of lane 1
- *     moment 3   |B|, step  .        .     r, step ----'                  place 1: load of lane 3 ... ->
- * locate()
+ *               lane 0  lane 1  lane 2  lane 3
+ *     moment 1     .       r       .       .    --.     waiting, place 0: r, of lane 1
+ *     moment 2     .       .       .      load  --+-->           place 1: load, of lane 3
+ *     moment 3    |B|      .       .       r    --'              place 2: |B|, of lane 0
+ *                                                                place 3: r, of lane 3  ---> locate()
  */
 typedef struct waiting {
     FN(bead_step) step;

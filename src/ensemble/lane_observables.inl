@@ -58,8 +58,9 @@ static void integrate(batch *b, fst_wide_mask mask)
     }
 }
 
-/* What a record must be beaten by: in the fast form by what counts, 1e-9 of it (and, for the squares of an
- * angle and of a slip, those of 1e-8), so that a bead at rest is not looked at for its rounding errors. */
+/* What a value must exceed to count as a new record.  In the fast form that is a little more than the record:
+ * 1e-9 of it, and 1e-16 for the squares of an angle and of a slip, so that a bead at rest is not searched for
+ * extremes of its rounding errors. */
 static REAL to_beat(REAL record)
 {
 #ifdef FST_FUSED

@@ -81,8 +81,8 @@ typedef struct fst_lane_engine {
     void (*extract)(const void *batch, int lane, fst_bead_step_double *step);
     void (*extract_path)(const void *batch, int lane, fst_bead_step_double *step);
 
-    /* The fast form locates extremes in lanes too: a step that may hold one waits in a place of its own, and when
-     * all places are taken, sign times the extreme of each is found. */
+    /* The fast form locates extremes in lanes too: a step that may hold one waits in a place of its own, and
+     * when all places are taken, sign times the extreme of each is found. */
     size_t waiting_bytes;
     void (*set_aside)(const void *batch, int lane, int record, void *waiting, int place);
     void (*locate)(void *waiting, double *values);

@@ -1,4 +1,41 @@
-/* lanes.inl - the engine of a width and form: the model's and the integrator's bodies over lanes.
+/* lanes.inl - the engine of lanes: four or eight runs make their steps at the same time.
+ *
+ * A processor's wide registers hold 4 (AVX2) or 8 (AVX-512) doubles, and one instruction works on all of them.
+ * So the model's and the integrator's bodies are compiled once more with a REAL that is such a register, and
+ * each of its lanes belongs to another run, with its own parameters, time and step size:
+ *
+ *     lane          0         1         2         3
+ *     run          17        18        23        20
+ *     t            5.21      1.07      0.02      9.96
+ *     step size    0.031     0.044     0.028     0.009
+ *                  `------- one try_step() -------'
+ *     error        0.4       0.7       1.9       0.2
+ *                 accept    accept    reject    accept, at its end: observed, unloaded, replaced by run 21
+ *
+ * All lanes do the same, always; where they differ, both outcomes are computed and a mask selects.  A lane
+ * whose try was rejected tries again with a smaller step while its neighbours make their next one: nobody
+ * waits.  A lane without a run goes on with steps of size 0.  What the lanes of a batch must share are the
+ * integers of the model (number of lines, material, dynamics), because a branch is taken by all lanes or by
+ * none.
+ *
+ * What a lane computes depends on nothing in the other lanes: no instruction works across lanes.  So a run has
+ * the same bits in any lane, beside any neighbours.  There are two forms of arithmetic.  The portable form
+ * makes the operations of the scalar code in its order, and so has the bits of fst_run().  The fast form
+ * (FST_FUSED) fuses multiplications with additions, takes reciprocal roots from estimates, and damps the step
+ * control; its rows name it.
+ *
+ * A round of a batch is
+ *
+ *     try_steps()   a try in every lane, accepted or rejected
+ *     watch()       may the step hold an end of the run, a mark, a doubtful angle?
+ *     observe()     integrals over the step; may it hold a new extreme?
+ *     ---           the caller looks closely at the few lanes for which the answer is yes
+ *     advance()     the end of the step is the start of the next
+ *
+ * watch() and observe() err towards yes: every test has a margin.  For a close look extract() takes the step
+ * out of its lane as a scalar step, and the code of single runs looks at it.  A mode of contact (ode/flow.inl)
+ * would change in the same place: its event makes the step worth a close look, the scalar flow is cut there,
+ * and is loaded into its lane again.
  *
  * The including file brings base/wide.h and defines ENGINE (the table's symbol), ENGINE_NAME and ENGINE_FUSED.
  */

@@ -1,4 +1,9 @@
-/* advance.c - the public way along a trajectory: to a time or the first event. */
+/* advance.c - the public way along a trajectory: to a time or the first event.
+ *
+ * The flow makes whole steps; the caller of fst_flow_advance() stops anywhere.  So the flow keeps a cursor, the
+ * fraction of the last step at which the caller stands: the next call first looks through the rest of that
+ * step.
+ */
 #include "ode/flow.h"
 
 #include <string.h>

@@ -1,4 +1,16 @@
-/* events.c - zeros and extremes of functions of the state on the dense output. */
+/* events.c - where in the last step something happens: zeros and extremes of functions of the state.
+ *
+ * An event is a sign change of a function along the trajectory: X on the section, plate radius minus r at the
+ * edge, the normal load where the bead lifts off.  Its place is the fraction x of the step, 0 to 1, found on
+ * the dense output to rounding.  A function that has one sign at both ends of the step may still dip below zero
+ * in between:
+ *
+ *       f                      The values at the points of the path (path.h), which cost nothing, tell most
+ *       |o               o     steps that hold no dip: those whose least value lies above zero by half of the
+ *       |  o           o       spread or more.  In the others the function is sampled at 16 places, and the
+ *     --|------o---o------x    neighbourhood of each low one is searched.
+ *       |        v
+ */
 #include "ode/flow.h"
 
 #include "base/bracket.h"

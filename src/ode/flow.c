@@ -1,4 +1,25 @@
-/* flow.c - one trajectory of the bead: adaptive steps, time, Phi. */
+/* flow.c - one trajectory of the bead.
+ *
+ * The steps themselves are the body's (flow.inl).  This file adds what is a bead's own:
+ *
+ * The drive.  The magnet turns at omega, or from ramp_start on at omega_start + ramp (t - ramp_start).  Its
+ * angle is the integral of that, kept to twice the digits of a double, because laboratory positions after a
+ * million turns need the fraction of a turn.
+ *
+ * Phi, the bead's direction in the turning frame, counted past full turns.  It is never summed up: it is the
+ * angle of the last position plus 2 pi times a whole number, which changes where the path crosses the half-axis
+ * Y = 0, X < 0.  A straight line from one step's end to the next decides that, unless it passes close to the
+ * axis, where the curved path may pass on the other side:
+ *
+ *               end o---___
+ *                  (       ---o start      the straight line passes above the axis
+ *                   (  + axis  )
+ *                     (______)             the path passes below it
+ *
+ * There the path is halved by the dense output, and halved again, until no piece is doubtful.
+ *
+ * Failures in words: where the bead was when its steps became too small or a number was not finite.
+ */
 #include "ode/flow.h"
 
 #include <stdio.h>

@@ -54,7 +54,7 @@ void fst_flow_follow(fst_flow *flow, const double *end);
 /* The failure after a step was given up; flow->step.y is where the bead was. */
 fst_status fst_flow_fail(const fst_flow *flow, fst_error *error);
 
-/* Form the dense output of the last step (three more evaluations), unless it is there. */
+/* Form the dense output of the last step (three more evaluations), unless that is done. */
 void fst_flow_make_dense(fst_flow *flow);
 
 /* The state at the fraction x of the last step, n renormalised; makes the dense output. */

@@ -21,8 +21,7 @@
  * - FLOW_TAG, the tag of the struct, and FLOW_NAME(name), how functions are named;
  * - FLOW_STEP(name), how the step's body names what it defines (STEP_NAME there);
  * - FLOW_BEGIN(s): evaluate the first stage at s->y;
- * - FLOW_FINISH(s): project the end of an accepted step, evaluate its last stage, return how far the end was
- * off;
+ * - FLOW_FINISH(s): project the end of an accepted step, evaluate its last stage, return how far it was off;
  * - FLOW_NEXT(s, omega): make the end the start of the next step, where the drive is omega;
  * - FLOW_PROJECT(y): put a state of the dense output back to where states lie;
  * - FLOW_DERIVATIVE(s, y, dy): the right-hand side at a state, outside any step;
@@ -33,8 +32,14 @@
  * slides) belongs there.  It changes like this: the event's function of the state is watched from step to step;
  * where it changes sign, its zero x in the last step is located; cut(x) ends that step there and forgets the
  * rest; the mode in step.context is changed; restart() evaluates the first stage anew under the new mode.
- * (cut() restarts by itself, under the old one.)  Smooth variables of a law join the state: they raise
- * FLOW_DIM.
+ *
+ *     step.y o-----___            mode 0
+ *                     ---o        <- zero at x: cut(x), change the mode, restart()
+ *                        :`.
+ *                  mode 1:  ` . . . step.end, forgotten
+ *                         \
+ *
+ * Smooth variables of a law join the state: they raise FLOW_DIM.
  */
 typedef struct FLOW_TAG {
     FLOW_STEP(step) step; /* the last accepted step, from step.y to step.end */
@@ -153,12 +158,13 @@ static inline int FLOW_NAME(go)(FLOW_NAME(type) * flow, REAL t_limit)
     return 0;
 }
 
-/* Form the dense output of the last step, unless it is there. */
+/* Form the dense output of the last step, unless that is done. */
 static inline void FLOW_NAME(form_dense)(FLOW_NAME(type) * flow)
 {
     if (flow->has_dense)
         return;
-    FLOW_STEP(make_dense)(&flow->step); /* not counted: who looks on does not make the method work more */
+    FLOW_STEP(make_dense)
+    (&flow->step); /* its evaluations are not counted: they belong to what watches the flow */
     flow->has_dense = 1;
 }
 
@@ -176,16 +182,15 @@ static inline FN(twofold) FLOW_NAME(time_at)(const FLOW_NAME(type) * flow, REAL 
     return x == R(1.0) ? flow->t : FN(twofold_add)(flow->t_start, x * flow->step.h);
 }
 
-/* End the last step at its fraction x, and stand there. */
+/* End the last step at its fraction x; restart() must follow. */
 static inline void FLOW_NAME(cut)(FLOW_NAME(type) * flow, REAL x)
 {
-    if (x < R(1.0)) {
-        REAL state[FLOW_DIM];
-        FLOW_NAME(state_at)(flow, x, state);
-        flow->t = FLOW_NAME(time_at)(flow, x);
-        memcpy(flow->step.end, state, sizeof state);
-    }
-    FLOW_NAME(restart)(flow);
+    if (x == R(1.0))
+        return;
+    REAL state[FLOW_DIM];
+    FLOW_NAME(state_at)(flow, x, state);
+    flow->t = FLOW_NAME(time_at)(flow, x);
+    memcpy(flow->step.end, state, sizeof state);
 }
 
 #undef FLOW_DIM

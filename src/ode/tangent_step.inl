@@ -1,7 +1,9 @@
-/* tangent_step.inl - the integrator's step applied to the bead and one tangent vector, over REAL; the including
- * file brings the bodies coefficients.inl, field.inl and rhs.inl, and bead_step.inl for what follows a step.
+/* tangent_step.inl - the integrator's step applied to the bead and one tangent vector, over REAL.
  *
- * The state comes first, the tangent vector after it; its derivative is that of the right-hand side along it.
+ * A tangent vector is an infinitesimal difference of two states; it changes by the derivative of the right-hand
+ * side along it.  Both are integrated as one state of twice the length, the bead's state first, so that the
+ * tangent belongs to exactly the trajectory that was computed.  The including file brings the bodies of the
+ * model.
  */
 #include "model/tangent.inl"
 
