@@ -32,8 +32,8 @@ static void set_aside(const void *memory, int lane, int record, void *to_memory,
         for (int j = 0; j < 9; ++j)
             to->step.k[needed[j]][i][slot] = from->k[needed[j]][i][lane];
     }
-    to->from[slot] = b->summit_from[record][lane];
-    to->to[slot] = b->summit_to[record][lane];
+    to->from[slot] = b->peak_from[record][lane];
+    to->to[slot] = b->peak_to[record][lane];
     for (int i = 0; i < FST_TRACK_COUNT; ++i)
         to->weight[i][slot] = i == FST_RECORD_TRACKS[record] ? fst_record_sign(record) : 0.0;
 }

@@ -10,8 +10,10 @@
 #include "model/rhs.inl"
 #include "model/observe.inl"
 #include "ode/bead_step.inl"
-#include "ode/summit.inl"
+#include "ode/path.inl"
 #include "ode/tangent_step.inl"
+#include "observe/integrals.inl"
+#include "observe/peaks.inl"
 
 typedef struct batch {
     FN(bead_step) step;
@@ -25,12 +27,9 @@ typedef struct batch {
     /* what is watched */
     REAL plate_radius, next_mark, activity;
     REAL turns[2], turns_before[2], phi_least[2], phi_most[2];
-    REAL total_high[FST_Q_COUNT], total_low[FST_Q_COUNT], increment[FST_Q_COUNT];
-    REAL r_reference, b_reference;
-    REAL integrands[FST_PATH_STAGES][FST_Q_COUNT], tracked[FST_PATH_STAGES][FST_TRACK_COUNT];
+    FN(integrals) sums;
     REAL records[FST_RECORD_COUNT];
-    /* between which nodes the step's extreme lies */
-    REAL summit_from[FST_RECORD_COUNT], summit_to[FST_RECORD_COUNT];
+    REAL peak_from[FST_RECORD_COUNT], peak_to[FST_RECORD_COUNT]; /* the nodes between which the extreme lies */
     /* No REAL below this line: save() and restore() take all that are above it. */
     unsigned in_use;
     unsigned observed; /* the lanes whose last step was */
@@ -57,13 +56,8 @@ static void view(void *memory, fst_lane_view *v)
     v->next_mark = lanes_of(&b->next_mark);
     v->phi_least = lanes_of(b->phi_least);
     v->phi_most = lanes_of(b->phi_most);
-    v->total_high = lanes_of(b->total_high);
-    v->total_low = lanes_of(b->total_low);
-    v->increment = lanes_of(b->increment);
-    v->r_reference = lanes_of(&b->r_reference);
-    v->b_reference = lanes_of(&b->b_reference);
-    v->integrands = lanes_of(b->integrands);
-    v->tracked = lanes_of(b->tracked);
+    v->r_reference = lanes_of(&b->sums.r_reference);
+    v->b_reference = lanes_of(&b->sums.b_reference);
     v->records = lanes_of(b->records);
 }
 
@@ -160,8 +154,8 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     for (int i = 0; i < 2; ++i)
         b->phi_least[i][lane] = b->phi_most[i][lane] = 0.0;
     for (int i = 0; i < FST_Q_COUNT; ++i)
-        b->total_high[i][lane] = b->total_low[i][lane] = b->increment[i][lane] = 0.0;
-    b->r_reference[lane] = b->b_reference[lane] = 0.0;
+        b->sums.total_high[i][lane] = b->sums.total_low[i][lane] = b->sums.increment[i][lane] = 0.0;
+    b->sums.r_reference[lane] = b->sums.b_reference[lane] = 0.0;
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
         b->records[i][lane] = -1e300;
     b->in_use |= 1u << lane;
@@ -246,6 +240,14 @@ static void extract_stages(const void *memory, int lane, fst_bead_step_double *t
     }
 }
 
+static void extract_integrals(const void *memory, int lane, fst_integrals_double *to)
+{
+    const REAL *from = (const REAL *)&((const batch *)memory)->sums;
+    double *numbers = (double *)to;
+    for (size_t i = 0; i < sizeof *to / sizeof *numbers; ++i)
+        numbers[i] = from[i][lane];
+}
+
 /* ------------------------------------------------------------------ steps */
 
 /* fst_flow_plan() */
@@ -259,16 +261,6 @@ static void plan(batch *b, fst_wide_mask mask)
     b->lands = fst_wide_select(mask, fst_wide_select(lands, R(1.0), zero), b->lands);
     b->rejections = fst_wide_select(mask, zero, b->rejections);
     b->worst_error = fst_wide_select(mask, zero, b->worst_error);
-}
-
-/* fst_twofold_add() */
-static void add_twofold(REAL *high, REAL *low, REAL x)
-{
-    const REAL old = *high, sum = old + x, part = sum - old;
-    const REAL error = (old - (sum - part)) + (x - part);
-    const REAL all_low = *low + error;
-    *high = sum + all_low;
-    *low = all_low - (*high - sum);
 }
 
 #ifdef FST_FUSED
@@ -295,7 +287,7 @@ static void accept(batch *b, fst_wide_mask mask, REAL factor)
     b->t_start_high = fst_wide_select(mask, b->t_high, b->t_start_high);
     b->t_start_low = fst_wide_select(mask, b->t_low, b->t_start_low);
     REAL high = b->t_high, low = b->t_low;
-    add_twofold(&high, &low, attempt);
+    FN(grow_twofold)(&high, &low, attempt);
     const fst_wide_mask lands = WIDE_LESS(zero, b->lands);
     b->t_high = fst_wide_select(mask, fst_wide_select(lands, b->t_limit, high), b->t_high);
     b->t_low = fst_wide_select(mask, fst_wide_select(lands, zero, low), b->t_low);
@@ -354,10 +346,11 @@ static void keep_integrands(batch *b, unsigned accepted)
     const unsigned kept = accepted & b->observed;
     const fst_wide_mask mask = fst_wide_mask_of(kept);
     enum { LAST = FST_PATH_STAGES - 1 };
+    FN(integrals) *q = &b->sums;
     for (int i = 0; kept && i < FST_Q_COUNT; ++i)
-        b->integrands[0][i] = fst_wide_select(mask, b->integrands[LAST][i], b->integrands[0][i]);
+        q->integrands[0][i] = fst_wide_select(mask, q->integrands[LAST][i], q->integrands[0][i]);
     for (int i = 0; kept && i < FST_TRACK_COUNT; ++i)
-        b->tracked[0][i] = fst_wide_select(mask, b->tracked[LAST][i], b->tracked[0][i]);
+        q->tracked[0][i] = fst_wide_select(mask, q->tracked[LAST][i], q->tracked[0][i]);
     b->known = (b->known & ~accepted) | kept;
     b->observed = 0;
 }
@@ -432,13 +425,6 @@ static unsigned wind(REAL *turns, REAL x0, REAL y0, REAL x, REAL y)
     return ~an_end & fst_wide_lanes_of(WIDE_LESS(R(16.0) * (cross * cross), length2 * length2));
 }
 
-/* The plane in which phi turns, as in the quadrature. */
-static void small_phi_point(const REAL *y, REAL *u, REAL *w)
-{
-    *u = -y[FST_NZ] * REAL_SQRT(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y]);
-    *w = y[FST_X] * y[FST_NY] - y[FST_Y] * y[FST_NX];
-}
-
 static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed, unsigned in_window)
 {
     batch *b = memory;
@@ -456,8 +442,8 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     close |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
     if (observed) {
         REAL u0, w0, u, w;
-        small_phi_point(y, &u0, &w0);
-        small_phi_point(end, &u, &w);
+        FN(small_phi_point)(y, &u0, &w0);
+        FN(small_phi_point)(end, &u, &w);
         close |= wind(&b->turns[1], u0, w0, u, w) & observed;
         b->turns[1] = fst_wide_select(fst_wide_mask_of(observed), b->turns[1], b->turns_before[1]);
     }
@@ -498,6 +484,7 @@ const fst_lane_engine ENGINE = {
     .extract = extract,
     .extract_stages = extract_stages,
     .extract_clock = extract_clock,
+    .extract_integrals = extract_integrals,
     .tangents = TANGENT_ENGINE,
 #ifdef FST_FUSED
     .slots_bytes = sizeof(slots),

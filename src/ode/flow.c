@@ -290,6 +290,20 @@ void fst_flow_at(fst_flow *flow, double x, double state[FST_STATE_SIZE])
     (void)fst_renormalise_double(state);
 }
 
+const double *fst_flow_slope(const fst_flow *flow)
+{
+    return flow->step.k[12];
+}
+
+double fst_flow_speed(const fst_flow *flow)
+{
+    const double *slope = fst_flow_slope(flow);
+    double greatest = 0.0;
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        greatest = fabs(slope[i]) > greatest ? fabs(slope[i]) : greatest;
+    return greatest;
+}
+
 double fst_flow_fraction(const fst_flow *flow, fst_twofold t)
 {
     return fst_twofold_difference(t, flow->t_start) / flow->step.h;

@@ -9,7 +9,7 @@
 #include "ode/flow.h"
 #include "orbit/departure.h"
 #include "orbit/describe.h"
-#include "study/run_state.h"
+#include "study/conclude.h"
 
 #define TWO_PI 6.283185307179586476925287
 
