@@ -1,18 +1,19 @@
 /* Which steps are looked at for extremes: none that holds a new one is left out. */
 #include "physics.h"
 
-#include "study/quadrature.h"
+#include "observe/extremes.h"
 
-#include "ode/peak.inl"
+#include "ode/dop853_tableau.h"
+#include "observe/peaks.inl"
 
 static void test_nodes(void **state)
 {
     (void)state;
-    static const double nodes[FST_DENSE_POINTS] = {0.0,     DOP_C7, DOP_C8, DOP_C6,  DOP_C10, DOP_C9,
+    static const double nodes[FST_DENSE_PLACES] = {0.0,     DOP_C7, DOP_C8, DOP_C6,  DOP_C10, DOP_C9,
                                                    DOP_C11, 1.0,    1.0,    DOP_C14, DOP_C15, DOP_C16};
-    for (int i = 0; i < FST_DENSE_POINTS; ++i)
-        assert_true(FST_POINT_NODE[i] == nodes[i]);
-    for (int i = 0; i < FST_PATH_POINTS; ++i) {
+    for (int i = 0; i < FST_DENSE_PLACES; ++i)
+        assert_true(FST_PATH_NODE[i] == nodes[i]);
+    for (int i = 0; i < FST_PATH_PLACES; ++i) {
         const int at_end = i >= 7,
                   first = i == 0   ? 1
                           : at_end ? 6
@@ -20,7 +21,7 @@ static void test_nodes(void **state)
                   second = i == 0   ? 2
                            : at_end ? 5
                                     : i + 1;
-        CHECK_CLOSE(FST_POINT_RATIO[i], (nodes[first] - nodes[i]) / (nodes[second] - nodes[i]), 1e-14);
+        CHECK_CLOSE(FST_PATH_RATIO[i], (nodes[first] - nodes[i]) / (nodes[second] - nodes[i]), 1e-14);
     }
 }
 
@@ -31,9 +32,9 @@ static void test_parabolas(void **state)
     (void)state;
     for (int i = -400; i <= 1400; ++i) {
         const double top = i / 1000.0;
-        double values[FST_PATH_POINTS];
-        for (int j = 0; j < FST_PATH_POINTS; ++j)
-            values[j] = 5.0 - 3.0 * (FST_POINT_NODE[j] - top) * (FST_POINT_NODE[j] - top);
+        double values[FST_PATH_PLACES];
+        for (int j = 0; j < FST_PATH_PLACES; ++j)
+            values[j] = 5.0 - 3.0 * (FST_PATH_NODE[j] - top) * (FST_PATH_NODE[j] - top);
         const double peak = top < 0.0 ? values[0] : top > 1.0 ? values[8] : 5.0;
         const fst_peak_double s = fst_find_peak_double(values, 1, 1.0);
         CHECK_CLOSE(s.best + s.rise_over / s.per, peak, 1e-12);
@@ -46,7 +47,7 @@ static void test_parabolas(void **state)
     }
 }
 
-static const double EQUAL[FST_PATH_POINTS] = {2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0};
+static const double EQUAL[FST_PATH_PLACES] = {2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0};
 
 static void test_constants(void **state)
 {
@@ -133,25 +134,27 @@ static int check_bead(int which, double tolerance)
     start_of(&p, model, start);
     fst_flow *flow = flow_of(model, tolerance, start);
     fst_quadrature q;
+    fst_extreme extremes[FST_TRACK_COUNT];
     watched w;
     for (int i = 0; i < FST_TRACK_COUNT; ++i) {
         w.least[i] = INFINITY;
         w.greatest[i] = -INFINITY;
     }
     fst_quadrature_begin(&q, flow);
+    fst_extremes_begin(extremes);
     const double period = TWO_PI / fst_model_groups(model).omega;
     while (flow->t.high < 10.0 * period && hypot(flow->step.end[FST_X], flow->step.end[FST_Y]) < 2.0) {
         assert_int_equal(fst_flow_step(flow, INFINITY, NULL), FST_OK);
-        fst_quadrature_step(&q, flow);
+        fst_quadrature_step(&q, flow, 0);
         if (flow->t.high < 2.0 * period)
             continue;
-        fst_quadrature_track(&q, flow, 0.0);
+        fst_extremes_step(extremes, &q, flow, 0.0);
         sample_step(flow, &w);
     }
     for (int i = 0; i < FST_TRACK_COUNT; ++i) {
-        check_extreme(q.extreme[i].greatest, w.greatest[i], tolerance);
+        check_extreme(extremes[i].greatest, w.greatest[i], tolerance);
         if (i != FST_TRACK_GAP && i != FST_TRACK_SLIP)
-            check_extreme(-q.extreme[i].least, -w.least[i], tolerance);
+            check_extreme(-extremes[i].least, -w.least[i], tolerance);
     }
     fst_flow_free(flow);
     fst_model_free(model);
@@ -183,18 +186,19 @@ static void test_the_end_of_a_step_counts(void **state)
         start_of(&p, model, start);
         fst_flow *flow = flow_of(model, 1e-8, start);
         fst_quadrature q;
+        fst_extreme extremes[FST_TRACK_COUNT];
         fst_quadrature_begin(&q, flow);
         for (int step = 0; step < 50; ++step) {
             assert_int_equal(fst_flow_step(flow, INFINITY, NULL), FST_OK);
-            fst_quadrature_step(&q, flow);
+            fst_quadrature_step(&q, flow, 0);
             for (int i = 0; i < FST_TRACK_COUNT; ++i)
-                q.extreme[i] = (fst_extreme){INFINITY, -INFINITY};
-            fst_quadrature_track(&q, flow, 0.0);
+                extremes[i] = (fst_extreme){INFINITY, -INFINITY};
+            fst_extremes_step(extremes, &q, flow, 0.0);
             for (int i = 0; i < FST_TRACK_COUNT; ++i) {
-                const double end = q.tracked[FST_END_POINT][i];
-                assert_true(q.extreme[i].greatest >= end);
+                const double end = q.sums.tracked[FST_STEP_END][i];
+                assert_true(extremes[i].greatest >= end);
                 if (i != FST_TRACK_GAP && i != FST_TRACK_SLIP)
-                    assert_true(q.extreme[i].least <= end);
+                    assert_true(extremes[i].least <= end);
             }
         }
         fst_flow_free(flow);

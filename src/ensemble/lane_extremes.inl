@@ -35,8 +35,8 @@ static void set_aside(const void *memory, int lane, int record, void *to_memory,
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
         to->step.y[i][place] = from->y[i][lane];
         to->step.end[i][place] = from->end[i][lane];
-        for (int point = 0; point < FST_PATH_POINTS; ++point)
-            FST_POINT_SLOPE(&to->step, point)[i][place] = FST_POINT_SLOPE(from, point)[i][lane];
+        for (int n = 0; n < FST_PATH_PLACES; ++n)
+            FST_PATH_SLOPE(&to->step, n)[i][place] = FST_PATH_SLOPE(from, n)[i][lane];
     }
     to->from[place] = b->peak_from[record][lane];
     to->to[place] = b->peak_to[record][lane];

@@ -8,6 +8,7 @@
 #define FST_ENSEMBLE_LANES_H
 
 #include "ensemble/tangents.h"
+#include "observe/quadrature.h"
 #include "ode/flow.h"
 
 enum { FST_MOST_LANES = 8 };
@@ -21,11 +22,8 @@ typedef struct fst_lane_view {
     const double *speed;           /* and that at the end */
     double *next_mark;             /* time of the next mark; the step that reaches it is eventful */
     double *phi_least, *phi_most; /* directions between which Phi has stayed, two numbers; 0: to be asked for */
-    double *total_high, *total_low; /* integrals up to the start of the last observed step, FST_Q_COUNT */
-    double *increment;              /* and over it */
-    double *r_reference, *b_reference;
-    double *integrands, *tracked; /* at the path's points: FST_PATH_POINTS times FST_Q_COUNT, FST_TRACK_COUNT */
-    double *records;              /* of the tracked quantities, times their signs, FST_RECORD_COUNT */
+    double *r_reference, *b_reference; /* from where deviations are taken */
+    double *records;                   /* of the tracked quantities, times their signs, FST_RECORD_COUNT */
 } fst_lane_view;
 
 /* Lanes, one bit each: what is to be done after an accepted step. */
@@ -77,9 +75,12 @@ typedef struct fst_lane_engine {
     void (*advance)(void *batch, unsigned accepted);
 
     /* The last step of a lane as the scalar step, with the derivatives that the dense output needs; and the
-     * states and pulls at the points of its path. */
+     * states and pulls at the places of its path. */
     void (*extract)(const void *batch, int lane, fst_bead_step_double *step);
     void (*extract_path)(const void *batch, int lane, fst_bead_step_double *step);
+
+    /* The integrals of a lane up to the last observed step and over it, as those of one run. */
+    void (*extract_integrals)(const void *batch, int lane, fst_integrals_double *to);
 
     /* The fast form locates extremes in lanes too: a step that may hold one waits in a place of its own, and
      * when all places are taken, sign times the extreme of each is found. */

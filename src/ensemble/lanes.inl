@@ -49,9 +49,10 @@
 #include "base/twofold.inl"
 #include "ode/bead_step.inl"
 #include "ode/path.inl"
-#include "ode/peak.inl"
 #include "ode/step_control.inl"
 #include "ode/tangent_step.inl"
+#include "observe/integrals.inl"
+#include "observe/peaks.inl"
 
 typedef struct batch {
     FN(bead_step) step;
@@ -65,12 +66,9 @@ typedef struct batch {
     /* what is watched */
     REAL plate_radius, next_mark, activity;
     REAL turns[2], turns_before[2], phi_least[2], phi_most[2];
-    REAL total_high[FST_Q_COUNT], total_low[FST_Q_COUNT], increment[FST_Q_COUNT];
-    REAL r_reference, b_reference;
-    REAL integrands[FST_PATH_POINTS][FST_Q_COUNT], tracked[FST_PATH_POINTS][FST_TRACK_COUNT];
+    FN(integrals) sums;
     REAL records[FST_RECORD_COUNT];
-    /* between which nodes the step's extreme lies */
-    REAL peak_from[FST_RECORD_COUNT], peak_to[FST_RECORD_COUNT];
+    REAL peak_from[FST_RECORD_COUNT], peak_to[FST_RECORD_COUNT]; /* the nodes between which the extreme lies */
     /* No REAL below this line: save() and restore() take all that are above it. */
     unsigned in_use;
     unsigned observed; /* the lanes whose last step was */
@@ -97,13 +95,8 @@ static void view(void *memory, fst_lane_view *v)
     v->next_mark = lanes_of(&b->next_mark);
     v->phi_least = lanes_of(b->phi_least);
     v->phi_most = lanes_of(b->phi_most);
-    v->total_high = lanes_of(b->total_high);
-    v->total_low = lanes_of(b->total_low);
-    v->increment = lanes_of(b->increment);
-    v->r_reference = lanes_of(&b->r_reference);
-    v->b_reference = lanes_of(&b->b_reference);
-    v->integrands = lanes_of(b->integrands);
-    v->tracked = lanes_of(b->tracked);
+    v->r_reference = lanes_of(&b->sums.r_reference);
+    v->b_reference = lanes_of(&b->sums.b_reference);
     v->records = lanes_of(b->records);
 }
 
@@ -135,7 +128,7 @@ static void load_coefficients(FN(coefficients) * to, int lane, const fst_coeffic
 
 static void load_pull(FN(pull) * to, int lane, const fst_flow *flow)
 {
-    const fst_pull_double *from = FST_POINT_PULL(&flow->step, FST_START_POINT);
+    const fst_pull_double *from = FST_PATH_PULL(&flow->step, FST_STEP_START);
     for (int i = 0; i < 3; ++i) {
         to->b[i][lane] = from->b[i];
         to->force[i][lane] = from->force[i];
@@ -184,12 +177,12 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     batch *b = memory;
     const fst_bead_step_double *from = &flow->step;
     load_coefficients(&b->step.context.coefficients, lane, &from->context.coefficients);
-    load_pull(FST_POINT_PULL(&b->step, FST_START_POINT), lane, flow);
+    load_pull(FST_PATH_PULL(&b->step, FST_STEP_START), lane, flow);
     b->step.omega[lane] = from->omega;
     b->step.ramp[lane] = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        b->step.y[i][lane] = FST_POINT_STATE(&b->step, FST_START_POINT)[i][lane] = from->y[i];
-        FST_POINT_SLOPE(&b->step, FST_START_POINT)[i][lane] = FST_POINT_SLOPE(from, FST_START_POINT)[i];
+        b->step.y[i][lane] = FST_PATH_STATE(&b->step, FST_STEP_START)[i][lane] = from->y[i];
+        FST_PATH_SLOPE(&b->step, FST_STEP_START)[i][lane] = FST_PATH_SLOPE(from, FST_STEP_START)[i];
     }
     load_clock(b, lane, flow, t_limit);
     b->plate_radius[lane] = flow->groups.plate_radius;
@@ -200,8 +193,8 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     for (int i = 0; i < 2; ++i)
         b->phi_least[i][lane] = b->phi_most[i][lane] = 0.0;
     for (int i = 0; i < FST_Q_COUNT; ++i)
-        b->total_high[i][lane] = b->total_low[i][lane] = b->increment[i][lane] = 0.0;
-    b->r_reference[lane] = b->b_reference[lane] = 0.0;
+        b->sums.total_high[i][lane] = b->sums.total_low[i][lane] = b->sums.increment[i][lane] = 0.0;
+    b->sums.r_reference[lane] = b->sums.b_reference[lane] = 0.0;
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
         b->records[i][lane] = -1e300;
     b->in_use |= 1u << lane;
@@ -270,19 +263,27 @@ static void extract(const void *memory, int lane, fst_bead_step_double *to)
         to->y[i] = from->y[i][lane];
         to->end[i] = from->end[i][lane];
     }
-    for (int point = 0; point < FST_PATH_POINTS; ++point)
+    for (int n = 0; n < FST_PATH_PLACES; ++n)
         for (int i = 0; i < FST_STATE_SIZE; ++i)
-            FST_POINT_SLOPE(to, point)[i] = FST_POINT_SLOPE(from, point)[i][lane];
+            FST_PATH_SLOPE(to, n)[i] = FST_PATH_SLOPE(from, n)[i][lane];
 }
 
 static void extract_path(const void *memory, int lane, fst_bead_step_double *to)
 {
     const FN(bead_step) *from = &((const batch *)memory)->step;
-    for (int point = 0; point < FST_PATH_POINTS; ++point) {
+    for (int n = 0; n < FST_PATH_PLACES; ++n) {
         for (int i = 0; i < FST_STATE_SIZE; ++i)
-            FST_POINT_STATE(to, point)[i] = FST_POINT_STATE(from, point)[i][lane];
-        extract_pull(FST_POINT_PULL(from, point), lane, FST_POINT_PULL(to, point));
+            FST_PATH_STATE(to, n)[i] = FST_PATH_STATE(from, n)[i][lane];
+        extract_pull(FST_PATH_PULL(from, n), lane, FST_PATH_PULL(to, n));
     }
+}
+
+static void extract_integrals(const void *memory, int lane, fst_integrals_double *to)
+{
+    const REAL *from = (const REAL *)&((const batch *)memory)->sums;
+    double *numbers = (double *)to;
+    for (size_t i = 0; i < sizeof *to / sizeof *numbers; ++i)
+        numbers[i] = from[i][lane];
 }
 
 /* ------------------------------------------------------------------ steps */
@@ -343,10 +344,11 @@ static void keep_integrands(batch *b, unsigned accepted)
 {
     const unsigned kept = accepted & b->observed;
     const fst_wide_mask mask = fst_wide_mask_of(kept);
+    FN(integrals) *q = &b->sums;
     for (int i = 0; kept && i < FST_Q_COUNT; ++i)
-        b->integrands[0][i] = fst_wide_select(mask, b->integrands[FST_END_POINT][i], b->integrands[0][i]);
+        q->integrands[0][i] = fst_wide_select(mask, q->integrands[FST_STEP_END][i], q->integrands[0][i]);
     for (int i = 0; kept && i < FST_TRACK_COUNT; ++i)
-        b->tracked[0][i] = fst_wide_select(mask, b->tracked[FST_END_POINT][i], b->tracked[0][i]);
+        q->tracked[0][i] = fst_wide_select(mask, q->tracked[FST_STEP_END][i], q->tracked[0][i]);
     b->known = (b->known & ~accepted) | kept;
     b->observed = 0;
 }
@@ -362,7 +364,7 @@ static void advance(void *memory, unsigned accepted)
     plan(b, mask);
 }
 
-/* An event function f may cross zero in a step where its least value at the points of its path minus half their
+/* An event function f may cross zero in a step where its least value at the places of its path minus half their
  * spread is not positive (fst_flow_first_negative); for the edge, f = edge - r, the spread is taken at its
  * greatest, r.
  */
@@ -371,9 +373,9 @@ static unsigned may_end(const batch *b)
     const FN(bead_step) *s = &b->step;
     const REAL edge = b->plate_radius;
     REAL least = R(INFINITY), greatest = R(-INFINITY), farthest2 = R(0.0);
-    for (int point = 0; point < FST_PATH_POINTS; ++point) {
-        const REAL load = s->context.coefficients.gravity - FST_POINT_PULL(s, point)->force[2];
-        const REAL *y = FST_POINT_STATE(s, point);
+    for (int n = 0; n < FST_PATH_PLACES; ++n) {
+        const REAL load = s->context.coefficients.gravity - FST_PATH_PULL(s, n)->force[2];
+        const REAL *y = FST_PATH_STATE(s, n);
         least = -REAL_MAX(-load, -least);
         greatest = REAL_MAX(load, greatest);
         farthest2 = REAL_MAX(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y], farthest2);
@@ -403,18 +405,11 @@ static unsigned wind(REAL *turns, REAL x0, REAL y0, REAL x, REAL y)
     return ~an_end & fst_wide_lanes_of(WIDE_LESS(R(16.0) * (cross * cross), length2 * length2));
 }
 
-/* The plane in which phi turns, as in the quadrature. */
-static void small_phi_point(const REAL *y, REAL *u, REAL *w)
-{
-    *u = -y[FST_NZ] * REAL_SQRT(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y]);
-    *w = y[FST_X] * y[FST_NY] - y[FST_Y] * y[FST_NX];
-}
-
 static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed, unsigned in_window)
 {
     batch *b = memory;
     const REAL *y = b->step.y, *end = b->step.end, zero = R(0.0);
-    const REAL *slope = FST_POINT_SLOPE(&b->step, FST_END_POINT);
+    const REAL *slope = FST_PATH_SLOPE(&b->step, FST_STEP_END);
     REAL speed = REAL_ABS(slope[0]);
     for (int i = 1; i < FST_STATE_SIZE; ++i)
         speed = REAL_MAX(REAL_ABS(slope[i]), speed);
@@ -428,8 +423,8 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     close |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
     if (observed) {
         REAL u0, w0, u, w;
-        small_phi_point(y, &u0, &w0);
-        small_phi_point(end, &u, &w);
+        FN(small_phi_point)(y, &u0, &w0);
+        FN(small_phi_point)(end, &u, &w);
         close |= wind(&b->turns[1], u0, w0, u, w) & observed;
         b->turns[1] = fst_wide_select(fst_wide_mask_of(observed), b->turns[1], b->turns_before[1]);
     }
@@ -470,6 +465,7 @@ const fst_lane_engine ENGINE = {
     .extract = extract,
     .extract_path = extract_path,
     .extract_clock = extract_clock,
+    .extract_integrals = extract_integrals,
     .tangents = TANGENT_ENGINE,
 #ifdef FST_FUSED
     .waiting_bytes = sizeof(waiting),

@@ -167,13 +167,12 @@ static inline REAL STEP_NAME(step_error)(const STEP_NAME(step) * s, REAL rtol, c
     return REAL_OVER_SQRT(REAL_ABS(s->h) * sum5, REAL_OF(STEP_DIM) * denominator + R(1e-290));
 }
 
-/* Coefficients of the dense output over a whole step of size h, from y0 to y1, of `dim` components.  The
- * derivatives at stage j + 1 are row[j] of k_flat; rows lie `stride` apart. */
+/* Coefficients of the dense output over a whole step of size h: from y0 to y1 with the derivatives k[0..15]
+ * (stages 1 to 16) of `dim` components lying `stride` apart. */
 static inline void STEP_NAME(dense_coefficients)(int dim, REAL h, const REAL *y0, const REAL *y1,
-                                                 const REAL *k_flat, const int row[16], int stride,
-                                                 REAL *c_flat)
+                                                 const REAL *k_flat, int stride, REAL *c_flat)
 {
-#define SLOPE(j) k_flat[row[j] * stride + i]
+#define SLOPE(j) k_flat[(j)*stride + i]
 #define TERM(j) c_flat[(j)*stride + i]
     for (int i = 0; i < dim; ++i) {
         const REAL difference = y1[i] - y0[i], bend = h * SLOPE(0) - difference;
@@ -223,8 +222,7 @@ static inline void STEP_NAME(make_dense)(STEP_NAME(step) * s)
     GO_ON(16, DOP_C15, DOP_A16_15);
     STEP_KINEMATICS(s, DRIVE(DOP_C16), 16);
     STEP_DYNAMICS(s, DRIVE(DOP_C16), 16);
-    static const int row[16] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    STEP_NAME(dense_coefficients)(STEP_DIM, h, s->y, s->end, &s->k[0][0], row, STEP_DIM, &s->dense[0][0]);
+    STEP_NAME(dense_coefficients)(STEP_DIM, h, s->y, s->end, &s->k[0][0], STEP_DIM, &s->dense[0][0]);
 }
 
 /* The dense output at the fraction x of the step, of `dim` components. */

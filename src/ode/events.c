@@ -5,7 +5,7 @@
  * the dense output to rounding.  A function that has one sign at both ends of the step may still dip below zero
  * in between:
  *
- *       f                      The values at the points of the path (path.h), which cost nothing, tell most
+ *       f                      The values at the places of the path (path.h), which cost nothing, tell most
  *       |o               o     steps that hold no dip: those whose least value lies above zero by half of the
  *       |  o           o       spread or more.  In the others the function is sampled at 16 places, and the
  *     --|------o---o------x    neighbourhood of each low one is searched.
@@ -38,7 +38,7 @@ double fst_load_function(const fst_flow *flow, const double *state, const fst_pu
 double fst_flow_function_at(fst_flow *flow, double x, fst_state_function function)
 {
     if (x == 1.0)
-        return function(flow, flow->step.end, FST_POINT_PULL(&flow->step, FST_END_POINT));
+        return function(flow, flow->step.end, FST_PATH_PULL(&flow->step, FST_STEP_END));
     double state[FST_STATE_SIZE];
     if (function == fst_section_function) { /* all that it looks at; n need not be normalised for that */
         fst_flow_make_dense(flow);
@@ -55,9 +55,8 @@ void fst_flow_path_range(const fst_flow *flow, fst_state_function function, doub
 {
     *least = INFINITY;
     *greatest = -INFINITY;
-    for (int point = 0; point < FST_PATH_POINTS; ++point) {
-        const double value =
-            function(flow, FST_POINT_STATE(&flow->step, point), FST_POINT_PULL(&flow->step, point));
+    for (int n = 0; n < FST_PATH_PLACES; ++n) {
+        const double value = function(flow, FST_PATH_STATE(&flow->step, n), FST_PATH_PULL(&flow->step, n));
         *least = value < *least ? value : *least;
         *greatest = value > *greatest ? value : *greatest;
     }

@@ -196,6 +196,20 @@ void fst_flow_at(fst_flow *flow, double x, double state[FST_STATE_SIZE])
     fst_bead_flow_state_at(flow, x, state);
 }
 
+const double *fst_flow_slope(const fst_flow *flow)
+{
+    return FST_PATH_SLOPE(&flow->step, FST_STEP_END);
+}
+
+double fst_flow_speed(const fst_flow *flow)
+{
+    const double *slope = fst_flow_slope(flow);
+    double greatest = 0.0;
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        greatest = fabs(slope[i]) > greatest ? fabs(slope[i]) : greatest;
+    return greatest;
+}
+
 double fst_flow_fraction(const fst_flow *flow, fst_twofold t)
 {
     return fst_twofold_difference(t, flow->t_start) / flow->step.h;

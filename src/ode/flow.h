@@ -63,6 +63,12 @@ void fst_flow_at(fst_flow *flow, double x, double state[FST_STATE_SIZE]);
 /* Phi at the fraction x of the last step. */
 fst_winding fst_flow_phi(fst_flow *flow, double x);
 
+/* Greatest component of |d(state)/dt| at the end of the last step. */
+double fst_flow_speed(const fst_flow *flow);
+
+/* d(state)/dt at the end of the last step. */
+const double *fst_flow_slope(const fst_flow *flow);
+
 /* The fraction of the last step at which the time t lies, and the time at a fraction. */
 double fst_flow_fraction(const fst_flow *flow, fst_twofold t);
 fst_twofold fst_flow_time(const fst_flow *flow, double x);
