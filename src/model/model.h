@@ -4,12 +4,8 @@
 
 #include <festoon/festoon.h>
 #include "base/real_double.h"
-#include "model/quantities.h"
 
-#include "model/coefficients.inl"
-#include "model/field.inl"
-#include "model/rhs.inl"
-#include "model/observe.inl"
+#include "model/bodies.inl"
 
 struct fst_model {
     fst_groups groups;
