@@ -43,7 +43,7 @@ extern "C" {
 
 /* Changes when the same parameters give other bits than before: a sweep begun by another version is not
  * continued. */
-#define FST_RESULTS_VERSION 5
+#define FST_RESULTS_VERSION 6
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
