@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "app/film_motion.h"
-#include "draw/film_file.h"
+#include "film/file.h"
+#include "film/motion.h"
 
 #include <festoon/festoon_tools.h>
 

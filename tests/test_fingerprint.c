@@ -2,7 +2,7 @@
  * of lanes, and another one for each form whose results differ in their last bits. */
 #include "physics.h"
 
-#include "app/sweep.h"
+#include "sweep/sweep.h"
 
 /* 0 where this processor has no such lanes. */
 static uint64_t fingerprint(fst_arithmetic arithmetic, int lanes)

@@ -4,8 +4,8 @@
 
 #include <stdlib.h>
 
-#include "app/measures.h"
-#include "app/paper.h"
+#include "paper/measures.h"
+#include "paper/paper.h"
 
 enum { ROWS = 20000 };
 

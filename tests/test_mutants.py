@@ -12,7 +12,8 @@ sys.path.insert(0, os.path.join(SOURCE, "tests", "mutants"))
 import entries as listed  # noqa: E402
 
 LEAST = 150
-ROOMS = {"base", "model", "ode", "ensemble", "study", "orbit", "io", "draw", "app", "cli", "tables"}
+ROOMS = {"base", "host", "model", "ode", "ensemble", "study", "orbit", "io", "sweep", "draw", "film", "paper", "cli",
+         "tables"}
 PHYSICS = {"model", "ode", "ensemble", "study", "orbit"}
 OTHER_TESTS = {"includes", "headers", "exports", "installed"}
 

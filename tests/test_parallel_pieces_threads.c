@@ -1,13 +1,15 @@
-/* Pieces of work side by side: they are at work at the same time, and of two that fail the first one in their
- * order is told. */
+/* Pieces of work side by side: they are at work at the same time, of two that fail the first one in their order
+ * is told, and a process that was given one processor has one thread at work. */
+#define _GNU_SOURCE /* sched_setaffinity() */
 #include "numeric.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <time.h>
-#include <unistd.h>
 
-#include "app/parallel.h"
 #include "base/error.h"
+#include "host/parallel.h"
+#include "host/threads.h"
 
 typedef struct meeting {
     pthread_mutex_t lock;
@@ -73,7 +75,7 @@ static void pieces_are_at_work_together(void **state)
 {
     (void)state;
     fst_error error = {FST_OK, "", ""};
-    if (sysconf(_SC_NPROCESSORS_ONLN) < 2)
+    if (fst_processors(1) < 2)
         skip();
     if (work_of_two(piece_that_meets, &error) != FST_OK)
         fail_msg("%s", error.sentence);
@@ -83,10 +85,59 @@ static void the_first_failure_is_told(void **state)
 {
     (void)state;
     fst_error error = {FST_OK, "", ""};
-    if (sysconf(_SC_NPROCESSORS_ONLN) < 2)
+    if (fst_processors(1) < 2)
         skip();
     assert_int_equal(work_of_two(piece_that_fails, &error), FST_NOT_FINITE);
     assert_string_equal(error.sentence, "piece 0");
+}
+
+typedef struct company {
+    pthread_mutex_t lock;
+    int here, most; /* pieces at work now, and at any time */
+} company;
+
+/* Long enough for another thread to come. */
+static fst_status piece_that_counts(void *user, int index, fst_error *error)
+{
+    company *c = user;
+    (void)index;
+    (void)error;
+    pthread_mutex_lock(&c->lock);
+    c->here += 1;
+    c->most = c->here > c->most ? c->here : c->most;
+    pthread_mutex_unlock(&c->lock);
+    (void)nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
+    pthread_mutex_lock(&c->lock);
+    c->here -= 1;
+    pthread_mutex_unlock(&c->lock);
+    return FST_OK;
+}
+
+static void threads_keep_to_the_processors_they_were_given(void **state)
+{
+    (void)state;
+    cpu_set_t all, one;
+    if (sched_getaffinity(0, sizeof all, &all) != 0)
+        skip();
+    assert_int_equal(fst_processors(1000000), 1);
+    assert_true(fst_processors(1) <= CPU_COUNT(&all));
+    size_t first = 0;
+    while (!CPU_ISSET(first, &all))
+        ++first;
+    CPU_ZERO(&one);
+    CPU_SET(first, &one);
+    if (sched_setaffinity(0, sizeof one, &one) != 0)
+        skip();
+    company c = {.here = 0};
+    pthread_mutex_init(&c.lock, NULL);
+    const fst_work work = {.user = &c, .count = 20, .piece = piece_that_counts};
+    const int processors = fst_processors(1);
+    const fst_status status = fst_parallel(&work, NULL);
+    assert_int_equal(sched_setaffinity(0, sizeof all, &all), 0);
+    pthread_mutex_destroy(&c.lock);
+    assert_int_equal(status, FST_OK);
+    assert_int_equal(processors, 1);
+    assert_int_equal(c.most, 1);
 }
 
 int main(void)
@@ -94,6 +145,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pieces_are_at_work_together),
         cmocka_unit_test(the_first_failure_is_told),
+        cmocka_unit_test(threads_keep_to_the_processors_they_were_given),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
-#include "app/parallel.h"
 #include "base/error.h"
+#include "host/parallel.h"
 
 enum { PIECES = 500 };
 

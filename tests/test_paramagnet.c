@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "app/paper.h"
+#include "paper/paper.h"
 
 static fst_params bead(fst_material material, double kappa, double a, double b)
 {

@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "app/paramagnet.h"
-#include "app/parallel.h"
+#include "host/parallel.h"
+#include "paper/paramagnet.h"
 
 enum { STARTS = 3000 };
 

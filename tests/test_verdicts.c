@@ -2,7 +2,7 @@
  * rules are those that docs/paper.md prints. */
 #include "numeric.h"
 
-#include "app/paper.h"
+#include "paper/paper.h"
 
 /* A value on either side of a border of a rule. */
 typedef struct border {

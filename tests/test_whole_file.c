@@ -13,7 +13,7 @@
 
 #include <festoon/festoon.h>
 
-#include "base/whole_file.h"
+#include "host/whole_file.h"
 
 static char folder[] = "/tmp/festoon-whole-file-XXXXXX", path[64];
 

@@ -12,9 +12,9 @@
 
 #include <cmocka.h>
 
-#include "base/file_lock.h"
 #include "base/text.h"
-#include "base/whole_file.h"
+#include "host/file_lock.h"
+#include "host/whole_file.h"
 
 static char folder[64];
 

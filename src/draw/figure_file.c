@@ -1,8 +1,8 @@
 #include "draw/figure_file.h"
 
 #include "base/error.h"
-#include "base/whole_file.h"
 #include "draw/gnuplot.h"
+#include "host/whole_file.h"
 
 #include <errno.h>
 #include <stdlib.h>

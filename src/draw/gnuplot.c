@@ -5,7 +5,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/text.h"
-#include "draw/process.h"
+#include "host/process.h"
 
 #include <errno.h>
 #include <fcntl.h>

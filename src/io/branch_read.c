@@ -12,8 +12,8 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "host/regular_file.h"
 #include "io/json_parts.h"
-#include "io/regular_file.h"
 
 enum { MOST_BRANCHES = 1000000 };
 

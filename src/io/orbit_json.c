@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "base/whole_file.h"
+#include "host/regular_file.h"
+#include "host/whole_file.h"
 #include "io/json_parts.h"
-#include "io/regular_file.h"
 
 enum { INDENT = 2 };
 

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/regular_file.h"
+#include "host/regular_file.h"
 
 /* What a scene said so far.  Values are kept until the end, because the order in which they are applied is
  * not the order in which people write them. */

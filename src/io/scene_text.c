@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "base/whole_file.h"
+#include "host/whole_file.h"
 
 /* Columns of a comment line. */
 #define WIDTH 100

@@ -7,17 +7,14 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "base/whole_file.h"
+#include "host/module.h"
+#include "host/regular_file.h"
+#include "host/whole_file.h"
 #include "io/columns.h"
 #include "io/csv.h"
 #include "io/hdf5_module.h"
-#include "io/hdf5_present.h"
 #include "io/json.h"
-#include "io/module.h"
-#include "io/regular_file.h"
 #include "io/trajectory_module.h"
-
-#define MODULE_FILE "festoon-hdf5.so"
 
 struct fst_trajectory {
     fst_params params;
@@ -30,25 +27,19 @@ struct fst_trajectory {
 fst_status fst_load_hdf5_module(const fst_hdf5_module_table **module, const char *path, fst_error *error)
 {
     int found;
-    *module = fst_module_table(MODULE_FILE, FST_HDF5_MODULE_SYMBOL, &found);
+    *module = fst_module_table(FST_HDF5_MODULE, FST_HDF5_MODULE_SYMBOL, &found);
     fst_status status = FST_OK;
     if (!*module)
         status =
             fst_fail(error, FST_UNAVAILABLE, path,
                      "this festoon has no HDF5 (%s): install libhdf5-dev and build festoon again, or give the "
                      "file a name that ends in .csv",
-                     found ? MODULE_FILE " is no module of festoon" : MODULE_FILE " cannot be loaded");
+                     found ? FST_HDF5_MODULE " is no module of festoon" : FST_HDF5_MODULE " cannot be loaded");
     else if (strcmp((*module)->version, fst_version()) != 0)
         status =
             fst_fail(error, FST_UNAVAILABLE, path, "%s belongs to festoon %s, not to %s: install festoon again",
-                     MODULE_FILE, (*module)->version, fst_version());
+                     FST_HDF5_MODULE, (*module)->version, fst_version());
     return status;
-}
-
-/* Asking for the version must not cost the time of loading HDF5. */
-int fst_hdf5_present(void)
-{
-    return fst_module_present(MODULE_FILE);
 }
 
 static int ends_in(const char *path, const char *ending)
@@ -115,6 +106,12 @@ fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *s
 {
     double values[FST_COLUMN_COUNT];
     fst_column_values(sample, values);
+    /* Such a file could not be read back. */
+    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+        if (!isfinite(values[i]))
+            return fst_fail(error, FST_BAD_INPUT, trajectory->file.path,
+                            "this sample is not written: its %s is %g, and a trajectory holds finite numbers",
+                            fst_column_at(i)->name, values[i]);
     if (trajectory->writer)
         return trajectory->module->row(trajectory->writer, values, error);
     fst_csv_row(trajectory->file.stream, values);
@@ -182,6 +179,20 @@ static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error
     return status;
 }
 
+/* Every quantity of a trajectory is a finite number: "nan" and "inf" come from another program, or from damage.
+ * (A CSV file was read with a check of its own, which names the line.) */
+static fst_status check_numbers(const char *path, const fst_table *table, fst_error *error)
+{
+    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+        for (size_t row = 0; row < table->rows; row++)
+            if (!isfinite(table->columns[i][row]))
+                return fst_fail(error, FST_BAD_INPUT, path,
+                                "row %zu: the column %s holds \"%g\", which is not finite: every number of a "
+                                "trajectory is",
+                                row + 1, fst_column_at(i)->name, table->columns[i][row]);
+    return FST_OK;
+}
+
 /* Times and turns of the drive rise: figures and films count on it. */
 static fst_status check_order(const char *path, const fst_table *table, fst_error *error)
 {
@@ -213,6 +224,8 @@ fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *er
         status = read_hdf5(path, table, error);
     else
         status = fst_csv_read(in, path, table, error);
+    if (status == FST_OK)
+        status = check_numbers(path, table, error);
     if (status == FST_OK)
         status = check_order(path, table, error);
     if (in)

@@ -36,7 +36,7 @@ static const double MATTERS =
 static const double ALIASED = 0.1;       /* part of the swing that a block shows when it ends within one */
 static const double SWING_MATTERS = 0.1; /* relative change of the swing of a bead that librates */
 static const double SWING_SEEN = 1e-7;   /* a swing below this part of <r> is rounding */
-static const double HIDES = 0.1;         /* a drift of this part of a mean must be seen, where there is one */
+static const double HIDES = 0.02;        /* a drift of this part of a mean must be seen, where there is one */
 static const double LEAVES = 0.3; /* growth of the logarithm of a bead's speed that leaves a state of rest */
 enum { LEAST_BLOCKS = 4 };        /* for a line and its scatter */
 
@@ -102,6 +102,14 @@ static line line_through(const double *values, int count)
     return found;
 }
 
+static line line_through_logarithms(const double *values, int count)
+{
+    double logarithms[FST_MARKS];
+    for (int i = 0; i < count; ++i)
+        logarithms[i] = log(fmax(values[i], 1e-300));
+    return line_through(logarithms, count);
+}
+
 /* Keep the worst: `least` is the least change that matters. */
 static void compare(fst_drift *worst, double *greatest, const char *what, const line *l, double least)
 {
@@ -141,10 +149,7 @@ fst_drift fst_drift_of(const fst_run_state *run)
     compare(&worst, &greatest, "<r>", &r, fmax(least, cut_off));
     compare(&worst, &greatest, "delta r", &swing, fmax(least, cut_off));
     /* What dies out or grows does so exponentially: its logarithm follows the line. */
-    double logarithms[FST_MARKS];
-    for (int i = 0; i < b.count; ++i)
-        logarithms[i] = log(fmax(b.swing[i], 1e-300));
-    const line growth = line_through(logarithms, b.count);
+    const line growth = line_through_logarithms(b.swing, b.count);
     if (swing.mean > SWING_SEEN * r.mean)
         compare(&worst, &greatest, "the logarithm of delta r", &growth, SWING_MATTERS);
     return worst;
@@ -158,14 +163,18 @@ fst_drift fst_hidden_drift_of(const fst_run_state *run)
     found.turns = b.turns;
     if (b.count < LEAST_BLOCKS)
         return found;
+    /* What the line shows may be the swing's or a drift's, and a drift as large again may hide under the swing.
+     */
     const line r = line_through(b.r, b.count), alpha_dot = line_through(b.alpha_dot, b.count);
-    const int in_alpha_dot = alpha_dot.hidden * r.mean > r.hidden * fabs(alpha_dot.mean);
+    const double of_r = fabs(r.change) + r.hidden, of_alpha_dot = fabs(alpha_dot.change) + alpha_dot.hidden;
+    const int in_alpha_dot = of_alpha_dot * r.mean > of_r * fabs(alpha_dot.mean);
     const line *worst = in_alpha_dot ? &alpha_dot : &r;
-    if (!(worst->hidden > HIDES * fabs(worst->mean)))
+    const double possible = in_alpha_dot ? of_alpha_dot : of_r;
+    if (!(possible > HIDES * fabs(worst->mean)))
         return found;
     found.what = in_alpha_dot ? "<alpha'>" : "<r>";
     found.change = worst->change;
-    found.noise = worst->hidden;
+    found.noise = possible;
     found.mean = worst->mean;
     return found;
 }
@@ -178,9 +187,9 @@ int fst_speed_grows(const fst_run_state *run)
     const int from = 1 + (marks->count - 1) / 2, count = marks->count - from;
     if (count < 2 * LEAST_BLOCKS)
         return 0;
-    double logarithms[FST_MARKS];
+    double activity[FST_MARKS];
     for (int i = 0; i < count; ++i)
-        logarithms[i] = log(fmax(marks->kept[from + i].activity, 1e-300));
-    const line growth = line_through(logarithms, count);
+        activity[i] = marks->kept[from + i].activity;
+    const line growth = line_through_logarithms(activity, count);
     return growth.change > LEAVES && growth.change > STANDS_OUT * growth.noise;
 }

@@ -16,8 +16,9 @@ typedef struct fst_drift {
  * docs/regimes.md says by what test. */
 fst_drift fst_drift_of(const fst_run_state *run);
 
-/* Whether <r> or <alpha'> of a turning motion vary so slowly and so much that a drift of a tenth of them could
- * not be seen; then `what` is set, and `noise` is the change that could hide. */
+/* Whether a drift of <r> or <alpha'> of a turning motion by 2 % of them could not be seen: because the straight
+ * line shows as much, which may be a slow swing's, or because a slow swing could hide it.  Then `what` is set,
+ * and `noise` is the greatest change that a drift could have made. */
 fst_drift fst_hidden_drift_of(const fst_run_state *run);
 
 /* Whether the speed in the turning frame grows over the second half of the window as a straight line of its

@@ -179,10 +179,9 @@ static fst_status decide_open(fst_run_state *run, fst_run_result *result, double
         return status;
     const fst_drift hidden = fst_hidden_drift_of(run);
     if (hidden.what) {
-        REASON("may still drift: %s changed by %.2g over the window of %.4g turns (mean %.4g), and swings so "
-               "slowly that a "
-               "drift by %.2g could hide in it; raise run.periods and run.discard until the window holds many "
-               "swings",
+        REASON("may still drift: %s changed by %.2g over the window of %.4g turns (mean %.4g), and varies so "
+               "slowly that a drift by %.2g could be in it; raise run.periods and run.discard until the window "
+               "holds many swings",
                hidden.what, hidden.change, hidden.turns, hidden.mean, hidden.noise);
         return FST_OK;
     }

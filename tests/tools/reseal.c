@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/sweep_columns.h"
-#include "io/sweep_identity.h"
+#include "sweep/columns.h"
+#include "sweep/identity.h"
 
 static void stop(const char *what)
 {

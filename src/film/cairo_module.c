@@ -1,0 +1,319 @@
+/* cairo_module.c - festoon-cairo.so: paints the frames of films. */
+#include <cairo.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "base/error.h"
+#include "film/frame.h"
+
+#define PI 3.14159265358979323846
+
+struct fst_film_canvas {
+    cairo_surface_t *surface;
+    cairo_t *pen;
+};
+
+/* Colours as the figures have them (style.c): from light green to violet, and from blue over grey to vermilion.
+ */
+static const double line_palette[][4] = {{0.0, 0.659, 0.859, 0.204}, {0.2, 0.290, 0.757, 0.427},
+                                         {0.4, 0.122, 0.631, 0.529}, {0.6, 0.176, 0.439, 0.557},
+                                         {0.8, 0.255, 0.267, 0.529}, {1.0, 0.267, 0.004, 0.329}};
+static const double diverging_palette[][4] = {{0.0, 0.071, 0.247, 0.549},
+                                              {0.25, 0.310, 0.525, 0.812},
+                                              {0.5, 0.741, 0.741, 0.741},
+                                              {0.75, 0.910, 0.537, 0.290},
+                                              {1.0, 0.690, 0.188, 0.0}};
+static const double north[3] = {0.835, 0.369, 0.0}, south[3] = {0.0, 0.447, 0.698};
+
+static void set_shade(cairo_t *pen, int both_signs, double shade)
+{
+    const double(*palette)[4] = both_signs ? diverging_palette : line_palette;
+    int last = both_signs ? 4 : 5, i = 0;
+    shade = shade > 0.0 ? (shade < 1.0 ? shade : 1.0) : 0.0;
+    while (i < last - 1 && shade > palette[i + 1][0])
+        i++;
+    double part = (shade - palette[i][0]) / (palette[i + 1][0] - palette[i][0]), c[3];
+    for (int k = 0; k < 3; k++)
+        c[k] = palette[i][k + 1] + part * (palette[i + 1][k + 1] - palette[i][k + 1]);
+    cairo_set_source_rgb(pen, c[0], c[1], c[2]);
+}
+
+static void write_at(cairo_t *pen, double x, double y, double size, const char *text)
+{
+    cairo_set_font_size(pen, size);
+    cairo_move_to(pen, x, y);
+    cairo_show_text(pen, text);
+}
+
+/* ------------------------------------------------------------------ from above; the pen works in mm, y upwards
+ */
+
+static void paint_magnet(cairo_t *pen, const fst_film_stage *stage, double angle)
+{
+    double half = 0.5 * stage->magnet[0], across = 0.5 * stage->magnet[1];
+    cairo_save(pen);
+    cairo_rotate(pen, angle);
+    cairo_rectangle(pen, 0.0, -across, half, 2.0 * across);
+    cairo_set_source_rgba(pen, north[0], north[1], north[2], 0.22);
+    cairo_fill(pen);
+    cairo_rectangle(pen, -half, -across, half, 2.0 * across);
+    cairo_set_source_rgba(pen, south[0], south[1], south[2], 0.22);
+    cairo_fill(pen);
+    cairo_rectangle(pen, -half, -across, 2.0 * half, 2.0 * across);
+    cairo_set_source_rgb(pen, 0.6, 0.6, 0.6);
+    cairo_set_line_width(pen, 0.25);
+    cairo_stroke(pen);
+    cairo_restore(pen);
+}
+
+static void paint_trail(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame)
+{
+    cairo_set_line_width(pen, stage->reach / 90.0);
+    cairo_set_line_cap(pen, CAIRO_LINE_CAP_ROUND);
+    for (int i = 0; i + 1 < frame->trail; i++) {
+        set_shade(pen, stage->both_signs, frame->trail_shade[i]);
+        cairo_move_to(pen, frame->trail_x[i], frame->trail_y[i]);
+        cairo_line_to(pen, frame->trail_x[i + 1], frame->trail_y[i + 1]);
+        cairo_stroke(pen);
+    }
+}
+
+/* A vector of the bead's body as seen along the third axis of `turn`; `view` 0: from above, 1: from the front
+ * (against y, z upwards). */
+static void seen(const double turn[3][3], const double body[3], int view, double *x, double *y, double *towards)
+{
+    double v[3];
+    for (int i = 0; i < 3; i++)
+        v[i] = turn[i][0] * body[0] + turn[i][1] * body[1] + turn[i][2] * body[2];
+    *x = v[0];
+    *y = view == 0 ? v[1] : v[2];
+    *towards = view == 0 ? v[2] : -v[1];
+}
+
+/* The poles as caps, the equator as a line, and marks that lie at no symmetric place, where they face us. */
+static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, int view)
+{
+    static const double marks[][3] = {{0.85, 0.0, 0.527}, {-0.5, 0.7, 0.51},   {0.1, -0.9, 0.424},
+                                      {0.6, 0.62, -0.5},  {-0.8, -0.2, -0.57}, {0.3, -0.75, -0.59}};
+    double x, y, towards;
+    cairo_set_source_rgba(pen, 0.15, 0.15, 0.15, 0.8);
+    cairo_set_line_width(pen, 0.07 * radius);
+    int drawing = 0;
+    for (int i = 0; i <= 72; i++) {
+        double angle = 2.0 * PI * i / 72, body[3] = {cos(angle), sin(angle), 0.0};
+        seen(turn, body, view, &x, &y, &towards);
+        if (towards <= 0.0)
+            drawing = 0;
+        else if (drawing)
+            cairo_line_to(pen, radius * x, radius * y);
+        else {
+            cairo_move_to(pen, radius * x, radius * y);
+            drawing = 1;
+        }
+    }
+    cairo_stroke(pen);
+    for (size_t i = 0; i < sizeof marks / sizeof marks[0]; i++) {
+        seen(turn, marks[i], view, &x, &y, &towards);
+        if (towards <= 0.05)
+            continue;
+        cairo_arc(pen, radius * x, radius * y, 0.08 * radius, 0.0, 2.0 * PI);
+        cairo_fill(pen);
+    }
+    for (int sign = 1; sign >= -1; sign -= 2) {
+        double body[3] = {0.0, 0.0, sign};
+        seen(turn, body, view, &x, &y, &towards);
+        if (towards <= 0.0)
+            continue;
+        const double *colour = sign > 0 ? north : south;
+        cairo_save(pen);
+        cairo_translate(pen, radius * x, radius * y);
+        cairo_rotate(pen, atan2(y, x));
+        cairo_scale(pen, fmax(towards, 0.15), 1.0); /* a cap seen from its side is an ellipse */
+        cairo_arc(pen, 0.0, 0.0, 0.3 * radius, 0.0, 2.0 * PI);
+        cairo_restore(pen);
+        cairo_set_source_rgb(pen, colour[0], colour[1], colour[2]);
+        cairo_fill(pen);
+    }
+}
+
+static void paint_bead(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame, int view)
+{
+    double radius = stage->radius;
+    cairo_pattern_t *shade = cairo_pattern_create_radial(-0.35 * radius, 0.35 * radius, 0.05 * radius,
+                                                         -0.1 * radius, 0.1 * radius, 1.15 * radius);
+    cairo_pattern_add_color_stop_rgb(shade, 0.0, 1.0, 1.0, 1.0);
+    cairo_pattern_add_color_stop_rgb(shade, 0.5, 0.82, 0.83, 0.85);
+    cairo_pattern_add_color_stop_rgb(shade, 1.0, 0.40, 0.41, 0.44);
+    cairo_arc(pen, 0.0, 0.0, radius, 0.0, 2.0 * PI);
+    cairo_set_source(pen, shade);
+    cairo_fill_preserve(pen);
+    cairo_pattern_destroy(shade);
+    cairo_save(pen);
+    cairo_clip(pen);
+    paint_marks(pen, frame->turn, radius, view);
+    cairo_restore(pen);
+    cairo_arc(pen, 0.0, 0.0, radius, 0.0, 2.0 * PI);
+    cairo_set_source_rgb(pen, 0.2, 0.2, 0.2);
+    cairo_set_line_width(pen, 0.05 * radius);
+    cairo_stroke(pen);
+}
+
+static void paint_plate(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame, double scale)
+{
+    cairo_save(pen);
+    cairo_translate(pen, 0.5 * stage->width, 0.5 * stage->height);
+    cairo_scale(pen, scale, -scale);
+    paint_magnet(pen, stage, frame->magnet_angle);
+    cairo_arc(pen, 0.0, 0.0, stage->reach / 120.0, 0.0, 2.0 * PI);
+    cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);
+    cairo_fill(pen);
+    paint_trail(pen, stage, frame);
+    cairo_translate(pen, frame->x, frame->y);
+    paint_bead(pen, stage, frame, 0);
+    cairo_restore(pen);
+}
+
+/* ------------------------------------------------------------------ around it, in pixels */
+
+/* From the front: the plate, the magnet's slab below it, and the bead on it. */
+static void paint_side(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame)
+{
+    double width = 0.30 * stage->width, scale = width / (2.0 * stage->reach);
+    double left = 12.0, down = stage->depth + 0.8 * stage->magnet[2], up = 2.6 * stage->radius;
+    double height = scale * (up + down), top = stage->height - height - 12.0;
+    cairo_rectangle(pen, left, top, width, height);
+    cairo_set_source_rgba(pen, 1.0, 1.0, 1.0, 0.9);
+    cairo_fill_preserve(pen);
+    cairo_set_source_rgb(pen, 0.75, 0.75, 0.75);
+    cairo_set_line_width(pen, 1.0);
+    cairo_stroke(pen);
+    cairo_save(pen);
+    cairo_rectangle(pen, left, top, width, height);
+    cairo_clip(pen);
+    cairo_translate(pen, left + 0.5 * width, top + scale * up);
+    cairo_scale(pen, scale, -scale);
+    double c = cos(frame->magnet_angle), s = sin(frame->magnet_angle);
+    double half = 0.5 * (stage->magnet[0] * fabs(c) + stage->magnet[1] * fabs(s));
+    double bottom = -stage->depth - 0.5 * stage->magnet[2];
+    cairo_pattern_t *poles = cairo_pattern_create_linear(-half, 0.0, half, 0.0);
+    const double *right = c > 0.0 ? north : south, *other = c > 0.0 ? south : north;
+    cairo_pattern_add_color_stop_rgba(poles, 0.0, other[0], other[1], other[2], 0.15 + 0.4 * fabs(c));
+    cairo_pattern_add_color_stop_rgba(poles, 1.0, right[0], right[1], right[2], 0.15 + 0.4 * fabs(c));
+    cairo_rectangle(pen, -half, bottom, 2.0 * half, stage->magnet[2]);
+    cairo_set_source(pen, poles);
+    cairo_fill(pen);
+    cairo_pattern_destroy(poles);
+    cairo_move_to(pen, -stage->reach, 0.0);
+    cairo_line_to(pen, stage->reach, 0.0);
+    cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);
+    cairo_set_line_width(pen, 0.4);
+    cairo_stroke(pen);
+    cairo_translate(pen, frame->x, stage->radius);
+    paint_bead(pen, stage, frame, 1);
+    cairo_restore(pen);
+    cairo_set_source_rgb(pen, 0.35, 0.35, 0.35);
+    write_at(pen, left + 6.0, top - 6.0, 0.018 * stage->height, "from the front");
+}
+
+static void paint_scale_bar(cairo_t *pen, const fst_film_stage *stage, double scale)
+{
+    double length = 10.0 * scale, x = stage->width - 24.0 - length, y = stage->height - 24.0;
+    cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
+    cairo_set_line_width(pen, 3.0);
+    cairo_move_to(pen, x, y);
+    cairo_line_to(pen, x + length, y);
+    cairo_stroke(pen);
+    write_at(pen, x, y - 8.0, 0.022 * stage->height, "10 mm");
+}
+
+static void paint_colour_bar(cairo_t *pen, const fst_film_stage *stage)
+{
+    enum { STEPS = 64 };
+    double width = 0.3 * stage->width, x = stage->width - width - 24.0, y = 16.0, size = 0.020 * stage->height;
+    for (int i = 0; i < STEPS; i++) {
+        set_shade(pen, stage->both_signs, (i + 0.5) / STEPS);
+        cairo_rectangle(pen, x + i * width / STEPS, y, width / STEPS + 1.0, 10.0);
+        cairo_fill(pen);
+    }
+    char low[32], high[32];
+    cairo_text_extents_t extents;
+    (void)snprintf(low, sizeof low, "%.3g", stage->colour_low);
+    (void)snprintf(high, sizeof high, "%.3g", stage->colour_high);
+    cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
+    write_at(pen, x, y + 14.0 + size, size, low);
+    cairo_text_extents(pen, high, &extents);
+    write_at(pen, x + width - extents.x_advance, y + 14.0 + size, size, high);
+    cairo_text_extents(pen, stage->colour_label, &extents);
+    write_at(pen, x + 0.5 * (width - extents.x_advance), y + 14.0 + size, size, stage->colour_label);
+}
+
+/* ------------------------------------------------------------------ the table */
+
+static void close_canvas(fst_film_canvas *canvas)
+{
+    if (!canvas)
+        return;
+    cairo_destroy(canvas->pen);
+    cairo_surface_destroy(canvas->surface);
+    free(canvas);
+}
+
+static fst_status open_canvas(const fst_film_stage *stage, fst_film_canvas **out, fst_error *error)
+{
+    fst_film_canvas *canvas = malloc(sizeof *canvas);
+    if (!canvas)
+        return fst_fail(error, FST_NO_MEMORY, "film", "no memory for a frame");
+    canvas->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, stage->width, stage->height);
+    canvas->pen = cairo_create(canvas->surface);
+    if (cairo_status(canvas->pen) != CAIRO_STATUS_SUCCESS) {
+        close_canvas(canvas);
+        return fst_fail(error, FST_NO_MEMORY, "film", "no memory for frames of %d x %d pixels", stage->width,
+                        stage->height);
+    }
+    cairo_select_font_face(canvas->pen, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+    *out = canvas;
+    return FST_OK;
+}
+
+static void paint(fst_film_canvas *canvas, const fst_film_stage *stage, const fst_film_frame *frame)
+{
+    cairo_t *pen = canvas->pen;
+    int side = stage->width < stage->height ? stage->width : stage->height;
+    /* So small that the bead passes the view from the front without being hidden by it. */
+    double scale = 0.84 * side / (2.0 * stage->reach);
+    cairo_set_source_rgb(pen, 1.0, 1.0, 1.0);
+    cairo_paint(pen);
+    paint_plate(pen, stage, frame, scale);
+    paint_side(pen, stage, frame);
+    paint_scale_bar(pen, stage, scale);
+    paint_colour_bar(pen, stage);
+    cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
+    write_at(pen, 16.0, 14.0 + 0.026 * stage->height, 0.026 * stage->height, stage->title);
+    write_at(pen, 16.0, 22.0 + 0.050 * stage->height, 0.022 * stage->height, frame->clock);
+}
+
+static const unsigned char *pixels(fst_film_canvas *canvas, int *stride)
+{
+    cairo_surface_flush(canvas->surface);
+    *stride = cairo_image_surface_get_stride(canvas->surface);
+    return cairo_image_surface_get_data(canvas->surface);
+}
+
+static cairo_status_t write_bytes(void *out, const unsigned char *bytes, unsigned size)
+{
+    return fwrite(bytes, 1, size, out) == size ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+}
+
+static fst_status write_png(fst_film_canvas *canvas, FILE *out, fst_error *error)
+{
+    const cairo_status_t status = cairo_surface_write_to_png_stream(canvas->surface, write_bytes, out);
+    if (status == CAIRO_STATUS_SUCCESS || status == CAIRO_STATUS_WRITE_ERROR)
+        return FST_OK;
+    return fst_fail(error, status == CAIRO_STATUS_NO_MEMORY ? FST_NO_MEMORY : FST_IO, "film",
+                    "a frame cannot be painted: %s", cairo_status_to_string(status));
+}
+
+FST_API extern const fst_film_module_table fst_film_module;
+const fst_film_module_table fst_film_module = {FST_VERSION_STRING, open_canvas, paint, pixels,
+                                               write_png,          close_canvas};

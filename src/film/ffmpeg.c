@@ -1,0 +1,127 @@
+#define _GNU_SOURCE /* pipe2, strsignal */
+
+#include "film/ffmpeg.h"
+
+#include "base/error.h"
+#include "host/process.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { MOST_ARGUMENTS = 40 };
+
+fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps, const char *format,
+                            const char *out, const char *name, fst_error *error)
+{
+    film->name = name;
+    film->said_size = 0;
+    film->said[0] = '\0';
+    /* posix_spawn wants writable words, and touches none of them. */
+    char size[32], rate[32], file[4096], kind[8];
+    (void)snprintf(size, sizeof size, "%dx%d", width, height);
+    (void)snprintf(rate, sizeof rate, "%.6g", fps);
+    (void)snprintf(kind, sizeof kind, "%s", format);
+    if (snprintf(file, sizeof file, "file:%s", out) >= (int)sizeof file)
+        return fst_fail(error, FST_BAD_INPUT, name, "the file name is too long");
+    static const char *const mp4[] = {"-c:v",     "libx264", "-preset",   "veryfast",   "-crf", "20",
+                                      "-pix_fmt", "yuv420p", "-movflags", "+faststart", NULL};
+    static const char *const gif[] = {
+        "-vf", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=none", "-loop", "0", NULL};
+    const char *arguments[MOST_ARGUMENTS] = {
+        "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f",     "rawvideo", "-pix_fmt",
+        "bgr0",   "-s",       size,           "-r",        rate,    "-i", "pipe:0", "-threads", "2"};
+    int count = 18;
+    for (const char *const *word = strcmp(format, "gif") ? mp4 : gif; *word; word++)
+        arguments[count++] = *word;
+    arguments[count++] = "-f";
+    arguments[count++] = kind;
+    arguments[count] = file;
+    int input[2], words[2];
+    /* A socket, because send() can be told to raise no SIGPIPE when ffmpeg dies. */
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0)
+        return fst_fail(error, FST_IO, name, "no socket to ffmpeg: %s", strerror(errno));
+    if (pipe2(words, O_CLOEXEC) != 0) {
+        (void)close(input[0]);
+        (void)close(input[1]);
+        return fst_fail(error, FST_IO, name, "no pipe from ffmpeg: %s", strerror(errno));
+    }
+    char *writable[MOST_ARGUMENTS];
+    memcpy(writable, arguments, sizeof writable);
+    const fst_process ffmpeg = {"ffmpeg", writable, NULL, input[1], -1, words[1]};
+    int failed = fst_process_start(&ffmpeg, &film->child);
+    (void)close(input[1]);
+    (void)close(words[1]);
+    film->frames = input[0];
+    film->words = words[0];
+    if (!failed)
+        return FST_OK;
+    (void)close(input[0]);
+    (void)close(words[0]);
+    if (failed == ENOENT)
+        return fst_fail(error, FST_UNAVAILABLE, name,
+                        "films need ffmpeg, which is not installed: install the package ffmpeg");
+    return fst_fail(error, FST_IO, name, "cannot start ffmpeg: %s", strerror(failed));
+}
+
+/* Keep the beginning of what it says, on one line; 0 once it says no more. */
+static int hear(fst_ffmpeg *film)
+{
+    char piece[512];
+    const ssize_t got = read(film->words, piece, sizeof piece);
+    for (ssize_t i = 0; i < got && film->said_size + 1 < sizeof film->said; i++)
+        film->said[film->said_size++] = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
+    film->said[film->said_size] = '\0';
+    return got > 0 || (got < 0 && errno == EINTR);
+}
+
+fst_status fst_ffmpeg_frame(fst_ffmpeg *film, const unsigned char *bytes, size_t size, fst_error *error)
+{
+    /* It must be heard meanwhile: a process whose complaints nobody takes waits for ever. */
+    struct pollfd ends[2] = {{.fd = film->frames, .events = POLLOUT}, {.fd = film->words, .events = POLLIN}};
+    while (size > 0) {
+        if (poll(ends, 2, -1) < 0 && errno != EINTR)
+            return fst_fail(error, FST_IO, film->name, "cannot wait for ffmpeg: %s", strerror(errno));
+        if (ends[1].revents && !hear(film))
+            ends[1].fd = -1;
+        const ssize_t sent = ends[0].revents ? send(film->frames, bytes, size, MSG_NOSIGNAL | MSG_DONTWAIT) : 0;
+        if (sent < 0 && errno != EINTR && errno != EAGAIN)
+            return fst_fail(error, FST_IO, film->name, "ffmpeg takes no more frames: %s", strerror(errno));
+        if (sent > 0) {
+            bytes += sent;
+            size -= (size_t)sent;
+        }
+    }
+    return FST_OK;
+}
+
+fst_status fst_ffmpeg_end(fst_ffmpeg *film, int abandon, fst_error *error)
+{
+    const char *words = film->said;
+    if (abandon)
+        (void)kill(film->child, SIGKILL);
+    (void)close(film->frames);
+    while (hear(film))
+        continue;
+    (void)close(film->words);
+    int outcome = 0;
+    pid_t done;
+    do
+        done = waitpid(film->child, &outcome, 0);
+    while (done < 0 && errno == EINTR);
+    if (abandon)
+        return FST_OK;
+    /* Told to speak of errors only, it is silent when all is well; its status is 0 even on a full disk. */
+    if (done == film->child && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0 && !words[0])
+        return FST_OK;
+    if (done == film->child && WIFSIGNALED(outcome))
+        return fst_fail(error, FST_IO, film->name, "ffmpeg was ended by the signal %d (%s) %s",
+                        WTERMSIG(outcome), strsignal(WTERMSIG(outcome)), words);
+    return fst_fail(error, FST_IO, film->name, "ffmpeg failed: %s", words[0] ? words : "it said nothing");
+}

@@ -1,0 +1,22 @@
+/* parallel.h - independent pieces of work on several threads. */
+#ifndef FST_HOST_PARALLEL_H
+#define FST_HOST_PARALLEL_H
+
+#include <festoon/festoon.h>
+
+typedef struct fst_work {
+    void *user;
+    int count;
+    /* Do piece `index`.  Pieces may run at the same time and in any order, so each writes into its own place;
+     * then the results do not depend on the threads. */
+    fst_status (*piece)(void *user, int index, fst_error *error);
+    /* Called by the calling thread alone, every 20 ms and oftener, with the number of pieces done; may be NULL.
+     * Another status than FST_OK ends the work: no new pieces begin, and those at work should be told. */
+    fst_status (*progress)(void *user, int done, fst_error *error);
+} fst_work;
+
+/* Do all pieces on as many threads as there are processors for this process, and wait for them.  If pieces
+ * fail, no new ones begin, and the status and error are those of the failed piece with the lowest index. */
+fst_status fst_parallel(const fst_work *work, fst_error *error);
+
+#endif

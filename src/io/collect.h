@@ -1,0 +1,15 @@
+/* collect.h - a trajectory in memory: a run's samples as the table that figures are drawn from. */
+#ifndef FST_IO_COLLECT_H
+#define FST_IO_COLLECT_H
+
+#include <festoon/festoon_tools.h>
+
+/* Run `params` and keep the samples from the discard on; free the table with fst_table_free().  `progress` may
+ * be NULL. */
+fst_status fst_collect_run(const fst_params *params, const fst_progress *progress, fst_run_result *result,
+                           fst_table *table, fst_error *error);
+
+/* The column called `name`, which must be one of columns.def's. */
+const double *fst_collected(const fst_table *table, const char *name);
+
+#endif

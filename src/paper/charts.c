@@ -1,0 +1,365 @@
+/* charts.c - the paper's figures of curves over the drive. */
+#include "base/error.h"
+#include "draw/chart.h"
+#include "paper/paper.h"
+
+#include <stdlib.h>
+
+#define PI 3.14159265358979323846
+
+enum { MOST_CURVES = 16 };
+
+/* ------------------------------------------------------------------ curves out of runs */
+
+/* What a curve shows of a run; NAN breaks the line. */
+typedef double (*reading)(const fst_paper_run *run);
+
+/* The curves of one chart, with the memory that they point into. */
+typedef struct curves {
+    fst_chart_curve curve[MOST_CURVES];
+    double *memory[MOST_CURVES];
+    int count;
+    fst_status status;
+} curves;
+
+static void free_curves(curves *all)
+{
+    for (int i = 0; i < all->count; i++)
+        free(all->memory[i]);
+}
+
+/* Add the curve of `y` over `x` through the runs of one or two scans (the second may be FST_SCAN_COUNT: none).
+ */
+static void add(curves *all, const fst_paper_state *paper, const fst_scan through[2], fst_dynamics dynamics,
+                reading x, reading y, fst_chart_curve style)
+{
+    if (all->status != FST_OK || all->count == MOST_CURVES)
+        return;
+    size_t room = 0, used = 0;
+    for (int s = 0; s < 2; s++)
+        room += through[s] < FST_SCAN_COUNT ? (size_t)paper->counts[through[s]] : 0;
+    double *memory = malloc((2 * room + 1) * sizeof *memory);
+    if (!memory) {
+        all->status = FST_NO_MEMORY;
+        return;
+    }
+    for (int s = 0; s < 2; s++) {
+        for (int i = 0; through[s] < FST_SCAN_COUNT && i < paper->counts[through[s]]; i++) {
+            const fst_paper_run *run = &paper->scans[through[s]][dynamics][i];
+            memory[used] = x(run);
+            memory[room + used] = y(run);
+            used++;
+        }
+    }
+    style.x = memory;
+    style.y = memory + room;
+    style.count = used;
+    all->memory[all->count] = memory;
+    all->curve[all->count++] = style;
+}
+
+static fst_status draw_and_free(curves *all, const char *out, const fst_chart *chart, fst_error *error)
+{
+    fst_status status = all->status == FST_OK ? fst_figure_chart(out, chart, error)
+                                              : fst_fail(error, all->status, out, "no memory for the curves");
+    free_curves(all);
+    return status;
+}
+
+static double omega_of(const fst_paper_run *run)
+{
+    return run->result.omega;
+}
+
+static double hertz_of(const fst_paper_run *run)
+{
+    return run->result.frequency_hz;
+}
+
+#define REGULAR(name, value)                                                                                   \
+    static double name(const fst_paper_run *run)                                                               \
+    {                                                                                                          \
+        return fst_paper_counter_rotates(run) ? (value) : NAN;                                                 \
+    }
+
+static double eps_of(const fst_paper_run *run)
+{
+    return run->params.bead_radius / run->params.magnet_half_length;
+}
+
+/* ------------------------------------------------------------------ Fig. comparison */
+
+REGULAR(mean_r, run->result.mean_r)
+REGULAR(mean_alpha_dot, run->result.mean_alpha_dot)
+REGULAR(std_r, run->result.std_r)
+
+static const fst_scan comparison[2] = {FST_SCAN_COMPARISON, FST_SCAN_COUNT};
+static const fst_scan whole_range[2] = {FST_SCAN_COMPARISON, FST_SCAN_FAST};
+
+static const struct {
+    fst_dynamics dynamics;
+    fst_curve_style style;
+} two_dynamics[FST_PAPER_DYNAMICS] = {{FST_DYNAMICS_FARAGO2020, FST_CURVE_LINE},
+                                      {FST_DYNAMICS_RIGID, FST_CURVE_DASHED}};
+
+/* Their names and colours, for add_both(). */
+static const char *const both_names[FST_PAPER_DYNAMICS] = {"farago2020 (as printed)", "rigid (exact)"};
+static const fst_colour both_colours[FST_PAPER_DYNAMICS] = {FST_COLOUR_BLUE, FST_COLOUR_VERMILION};
+
+/* The curve of each dynamics through the runs of `through`, in the order of two_dynamics[]. */
+static const fst_chart_curve *add_both(curves *all, const fst_paper_state *paper, const fst_scan through[2],
+                                       reading x, reading y, const char *const titles[2],
+                                       const fst_colour colours[2], int right)
+{
+    int first = all->count;
+    for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
+        add(all, paper, through, two_dynamics[d].dynamics, x, y,
+            (fst_chart_curve){.title = titles ? titles[d] : NULL,
+                              .colour = colours[d],
+                              .style = two_dynamics[d].style,
+                              .right = right});
+    return all->curve + first;
+}
+
+/* As the paper has it: two ordinates, colours for the quantities, and the deviation as an inset. */
+fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_paper_figure *figure,
+                                     const char *out, fst_error *error)
+{
+    static const char *const of_r[] = {"⟨r⟩, farago2020", "⟨r⟩, rigid"};
+    static const char *const of_alpha[] = {"⟨α′⟩, farago2020", "⟨α′⟩, rigid"};
+    static const fst_colour blue[] = {FST_COLOUR_BLUE, FST_COLOUR_BLUE};
+    static const fst_colour red[] = {FST_COLOUR_VERMILION, FST_COLOUR_VERMILION};
+    static const fst_colour green[] = {FST_COLOUR_GREEN, FST_COLOUR_GREEN};
+    curves all = {.status = FST_OK};
+    const fst_chart_curve *both = add_both(&all, paper, comparison, omega_of, mean_r, of_r, blue, 0);
+    (void)add_both(&all, paper, comparison, omega_of, mean_alpha_dot, of_alpha, red, 1);
+    const fst_chart_curve *deviation = add_both(&all, paper, comparison, omega_of, std_r, NULL, green, 0);
+    const fst_chart_inset inset = {.left = 0.53,
+                                   .right = 0.95,
+                                   .bottom = 0.09,
+                                   .top = 0.33,
+                                   .x_low = 0.15,
+                                   .x_high = 0.5,
+                                   .low = 0.0,
+                                   .high = NAN,
+                                   .label = "δr (ℓ)",
+                                   .curves = deviation,
+                                   .curve_count = FST_PAPER_DYNAMICS};
+    const fst_chart_panel panel = {.left_label = "⟨r⟩ (ℓ), blue",
+                                   .right_label = "⟨α′⟩ (γ), orange",
+                                   .left_colour = FST_COLOUR_BLUE,
+                                   .right_colour = FST_COLOUR_VERMILION,
+                                   .low = 0.3,
+                                   .high = 1.1,
+                                   .right_low = -0.085,
+                                   .right_high = -0.045,
+                                   .key = "at graph 0.98, graph 0.93 right top maxrows 2",
+                                   .curves = both,
+                                   .curve_count = 2 * FST_PAPER_DYNAMICS,
+                                   .inset = &inset};
+    double per_hertz = 2.0 * PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma;
+    const fst_chart_mark marks[] = {{7.0 * per_hertz, "7 Hz: lets go"},
+                                    {10.7 * per_hertz, "10.7 Hz: 4 festoons"},
+                                    {16.0 * per_hertz, "16 Hz: slowest"},
+                                    {19.9 * per_hertz, "19.9 Hz: many"}};
+    fst_chart chart = {.title = figure->title,
+                       .x_label = "drive ω (γ)",
+                       .x_low = 0.13,
+                       .x_high = 0.51,
+                       .x2_label = "drive (Hz); dotted: what the paper's text tells of the experiment",
+                       .x2_factor = 1.0 / per_hertz,
+                       .height = 620,
+                       .panels = &panel,
+                       .panel_count = 1,
+                       .marks = marks,
+                       .mark_count = 4};
+    return draw_and_free(&all, out, &chart, error);
+}
+
+/* ------------------------------------------------------------------ Fig. radius */
+
+static double millimetres_of(const fst_paper_run *run)
+{
+    return 1e3 * run->params.magnet_half_length;
+}
+
+REGULAR(mean_r_mm, millimetres_of(run) * run->result.mean_r)
+REGULAR(std_r_mm, millimetres_of(run) * run->result.std_r)
+
+fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                 fst_error *error)
+{
+    curves all = {.status = FST_OK};
+    const fst_chart_panel panels[2] = {
+        {.left_label = "mean radius (mm)",
+         .low = 10.0,
+         .high = 25.0,
+         .key = "bottom right",
+         .curves = add_both(&all, paper, comparison, hertz_of, mean_r_mm, both_names, both_colours, 0),
+         .curve_count = FST_PAPER_DYNAMICS},
+        {.left_label = "its standard deviation (mm)",
+         .low = 0.0,
+         .high = 7.0,
+         .curves = add_both(&all, paper, comparison, hertz_of, std_r_mm, NULL, both_colours, 0),
+         .curve_count = FST_PAPER_DYNAMICS}};
+    fst_chart chart = {.title = figure->title,
+                       .x_label = "drive (Hz)",
+                       .x_low = 7.0,
+                       .x_high = 25.0,
+                       .x2_label = "drive ω (γ)",
+                       .x2_factor = 2.0 * PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma,
+                       .panels = panels,
+                       .panel_count = 2};
+    return draw_and_free(&all, out, &chart, error);
+}
+
+/* ------------------------------------------------------------------ Fig. dotal */
+
+static double bead_hertz(const fst_paper_run *run)
+{
+    return run->result.mean_alpha_dot * run->params.friction_gamma / (2.0 * PI);
+}
+
+REGULAR(counter_hertz, bead_hertz(run))
+
+fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                fst_error *error)
+{
+    static const fst_scan slow[2] = {FST_SCAN_SLOW, FST_SCAN_COUNT};
+    static const double diagonal[] = {0.0, 10.0};
+    curves all = {.status = FST_OK};
+    all.curve[all.count++] = (fst_chart_curve){.title = "⟨α′⟩ = ω",
+                                               .x = diagonal,
+                                               .y = diagonal,
+                                               .count = 2,
+                                               .colour = FST_COLOUR_GREY,
+                                               .style = FST_CURVE_LINE};
+    const fst_chart_curve *counter =
+        add_both(&all, paper, comparison, hertz_of, counter_hertz, both_names, both_colours, 0);
+    for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
+        fst_chart_curve points = {.title = d == 0 ? "released at rest, farago2020" : "the same, rigid",
+                                  .colour = both_colours[d],
+                                  .style = d == 0 ? FST_CURVE_POINTS : FST_CURVE_OPEN_POINTS};
+        add(&all, paper, slow, two_dynamics[d].dynamics, hertz_of, bead_hertz, points);
+    }
+    const fst_chart_inset inset = {.left = 0.50,
+                                   .right = 0.97,
+                                   .bottom = 0.54,
+                                   .top = 0.90,
+                                   .x_low = 8.0,
+                                   .x_high = 25.0,
+                                   .low = -4.4,
+                                   .high = -2.6,
+                                   .label = "enlarged (Hz)",
+                                   .curves = counter,
+                                   .curve_count = FST_PAPER_DYNAMICS};
+    const fst_chart_panel panel = {.left_label = "⟨α′⟩/2π (Hz)",
+                                   .low = -12.0,
+                                   .high = 12.0,
+                                   .key = "bottom right",
+                                   .curves = all.curve,
+                                   .curve_count = all.count,
+                                   .inset = &inset};
+    double per_hertz = 2.0 * PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma;
+    const fst_chart_mark marks[] = {{7.0, "7 Hz: lets go"}, {16.0, "16 Hz: slowest"}};
+    fst_chart chart = {.title = figure->title,
+                       .x_label = "drive (Hz); dotted: what the paper's text tells of the experiment",
+                       .x_low = 0.9,
+                       .x_high = 25.0,
+                       .x2_label = "drive ω (γ)",
+                       .x2_factor = per_hertz,
+                       .height = 620,
+                       .panels = &panel,
+                       .panel_count = 1,
+                       .marks = marks,
+                       .mark_count = 2};
+    return draw_and_free(&all, out, &chart, error);
+}
+
+/* ------------------------------------------------------------------ Fig. test */
+
+/* At the lowest drives the moment swings without turning over. */
+REGULAR(mean_phi_dot, fabs(run->result.mean_phi_dot) > 0.5 * run->result.omega ? run->result.mean_phi_dot : NAN)
+REGULAR(rolling_alpha_dot, -eps_of(run) * run->result.omega / (run->result.mean_r - eps_of(run)))
+REGULAR(rolling_phi_dot, run->result.mean_r * run->result.omega / (run->result.mean_r - eps_of(run)))
+
+fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                               fst_error *error)
+{
+    curves all = {.status = FST_OK};
+    fst_chart_panel panels[2] = {
+        {.left_label = "⟨α′⟩ (γ)", .low = NAN, .high = NAN, .key = "top right"},
+        {.left_label = "⟨φ′⟩ (γ)", .low = NAN, .high = NAN},
+    };
+    static const reading measured[] = {mean_alpha_dot, mean_phi_dot};
+    static const reading formula[] = {rolling_alpha_dot, rolling_phi_dot};
+    static const char *const names[] = {"free rolling, with the ⟨r⟩ of farago2020", "the same, of rigid"};
+    for (int p = 0; p < 2; p++) {
+        int first = all.count;
+        for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
+            fst_chart_curve line = {.title = p == 0 ? both_names[d] : NULL, .colour = both_colours[d]};
+            add(&all, paper, whole_range, two_dynamics[d].dynamics, omega_of, measured[p], line);
+            fst_chart_curve dashes = {
+                .title = p == 0 ? names[d] : NULL, .colour = both_colours[d], .style = FST_CURVE_DASHED};
+            add(&all, paper, whole_range, two_dynamics[d].dynamics, omega_of, formula[p], dashes);
+        }
+        panels[p].curves = all.curve + first;
+        panels[p].curve_count = all.count - first;
+    }
+    const fst_chart_mark marks[] = {{0.5, NULL}};
+    fst_chart chart = {.title = figure->title,
+                       .x_label = "drive ω (γ); dotted: good from here on, says the paper",
+                       .x_low = 0.15,
+                       .x_high = 2.05,
+                       .panels = panels,
+                       .panel_count = 2,
+                       .marks = marks,
+                       .mark_count = 1};
+    return draw_and_free(&all, out, &chart, error);
+}
+
+/* ------------------------------------------------------------------ Fig. evolution */
+
+REGULAR(centrifugal, run->result.eq21_centrifugal / (eps_of(run) * eps_of(run)))
+REGULAR(magnetic, run->result.eq21_magnetic / (eps_of(run) * eps_of(run)))
+REGULAR(magnetic_printed, run->result.eq21_magnetic_printed / (eps_of(run) * eps_of(run)))
+REGULAR(friction, run->result.eq21_friction / (eps_of(run) * eps_of(run)))
+REGULAR(spin, run->result.eq21_spin / (eps_of(run) * eps_of(run)))
+
+fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_paper_figure *figure,
+                                    const char *out, fst_error *error)
+{
+    static const struct {
+        reading term;
+        const char *title;
+        fst_colour colour;
+        fst_curve_style style;
+    } terms[] = {
+        {centrifugal, "centrifugal", FST_COLOUR_BLUE, FST_CURVE_LINE},
+        {magnetic, "magnetic, exact", FST_COLOUR_VERMILION, FST_CURVE_LINE},
+        {magnetic_printed, "magnetic, as printed (without n_r)", FST_COLOUR_VERMILION, FST_CURVE_DASHED},
+        {friction, "friction", FST_COLOUR_GREEN, FST_CURVE_LINE},
+        {spin, "the spin's part of friction", FST_COLOUR_PURPLE, FST_CURVE_DASHED},
+    };
+    curves all = {.status = FST_OK};
+    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
+        add(&all, paper, whole_range, figure->dynamics, omega_of, terms[i].term,
+            (fst_chart_curve){.title = terms[i].title, .colour = terms[i].colour, .style = terms[i].style});
+    fst_chart_panel panel = {.left_label = "terms of the radial balance, over ε^2",
+                             .low = NAN,
+                             .high = NAN,
+                             .key = "bottom left",
+                             .curves = all.curve,
+                             .curve_count = all.count};
+    char title[128];
+    (void)snprintf(title, sizeof title, "%s, %s", figure->title,
+                   figure->dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
+    fst_chart chart = {.title = title,
+                       .x_label = "drive ω (γ)",
+                       .x_low = 0.15,
+                       .x_high = 2.05,
+                       .height = 480,
+                       .panels = &panel,
+                       .panel_count = 1};
+    return draw_and_free(&all, out, &chart, error);
+}

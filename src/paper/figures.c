@@ -1,0 +1,338 @@
+/* figures.c - the table of the paper's figures. */
+#include "paper/paper.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "host/parallel.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static fst_status draw_trajectory(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                                  fst_error *error)
+{
+    const fst_paper_run *run = fst_paper_single(paper, figure->scan, figure->dynamics);
+    fst_figure_options options = fst_default_figure_options();
+    options.kind = figure->kind;
+    options.colour = figure->colour;
+    options.arrows = !figure->plain;
+    options.inset = figure->inset;
+    if (figure->zoomed) {
+        options.zoom[0] = options.zoom[2] = 0.0;
+        options.zoom[1] = options.zoom[3] = 1e3 * run->params.magnet_half_length;
+    }
+    return fst_figure_trajectory(&run->trajectory, out, &options, error);
+}
+
+static fst_status draw_field(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
+                             fst_error *error)
+{
+    return fst_figure_field(&fst_paper_single(paper, figure->scan, FST_DYNAMICS_RIGID)->params, out, error);
+}
+
+static const fst_paper_figure figures[] = {
+    {.name = "sketch",
+     .source = "Fig. 0",
+     .title = "The setup to scale",
+     .caption = "A bead (vermilion) on a plate, and below it a bar magnet that turns anticlockwise; blue: the "
+                "lines of dipoles that model it. The moment n has the angle θ against e_r; φ is the angle in "
+                "the plane of e_α and e_z: n = cos θ e_r + sin θ (sin φ e_α − cos φ e_z).",
+     .statements = "length|spacing|eps",
+     .scan = FST_SCAN_FOLD4,
+     .draw = fst_paper_draw_sketch},
+    {.name = "camera",
+     .source = "Fig. blender",
+     .title = "A path at 10.7 Hz, as filmed",
+     .caption =
+         "The simulated path sampled like the experiment's, at 200 frames a second. The paper gives no scale; "
+         "here a millimetre has 10 pixels.",
+     .each = 1,
+     .statements = "fold4-festoons",
+     .scan = FST_SCAN_FOLD4,
+     .draw = fst_paper_draw_camera},
+    {.name = "radius",
+     .source = "Fig. radius",
+     .title = "Radius and its deviation in the laboratory's units",
+     .caption =
+         "Mean radius of the path and its standard deviation against the magnet's frequency, where the bead "
+         "counter-rotates.",
+     .statements = "shrinking",
+     .scan = FST_SCAN_COMPARISON,
+     .draw = fst_paper_draw_radius},
+    {.name = "supercritical",
+     .source = "Fig. supercritical",
+     .title = "The period halving is supercritical",
+     .caption = "Ratio p of successive swings of r where it is under 6 (inset: r(t) under the threshold, two "
+                "unequal swings in "
+                "turn), mean of n_z, "
+                "and the time in which the motion settles. Dotted: the pitchfork of the periodic orbits.",
+     .each = 1,
+     .statements = "halving|halving-branch|halving-root|halving-time",
+     .scan = FST_SCAN_COMPARISON,
+     .step = FST_STEP_HALVING,
+     .draw = fst_paper_draw_supercritical},
+    {.name = "remanence",
+     .source = "section on the paramagnetic bead, carried on",
+     .title = "How much remanence a steel bead needs",
+     .caption = "Least magnetic strength κ with which a bead that the field magnetises isotropically still "
+                "counter-rotates 600 turns of the magnet after a free-rolling start (rigid). Points: computed; "
+                "the lines guide the eye.",
+     .statements = "remanence",
+     .scan = FST_SCAN_COMPARISON,
+     .step = FST_STEP_REMANENCE,
+     .draw = fst_paper_draw_remanence},
+    {.name = "portrait",
+     .source = "Fig. portrait",
+     .title = "The magnet's field",
+     .caption =
+         "The field in which the bead moves: five lines of dipoles, two poles. Colour: strength; arrows: "
+         "direction of its part in the plane. At the maxima the field stands almost upright.",
+     .statements = "maxima|spacing|orthoradial",
+     .scan = FST_SCAN_FOLD15,
+     .draw = draw_field},
+    {.name = "comparison",
+     .source = "Figs. radius and comparison",
+     .title = "Radius, speed and fluctuation against the drive",
+     .caption = "Mean radius (left ordinate) and mean angular velocity of the bead about the axis (right; "
+                "negative: against "
+                "the magnet); inset: standard deviation of the radius. Solid: farago2020, dashed: rigid. Where "
+                "the bead does "
+                "not counter-rotate regularly the lines end. The measured points are not in the paper's text; "
+                "what the text "
+                "tells of them is marked.",
+     .statements = "bell|slowness|halving",
+     .scan = FST_SCAN_COMPARISON,
+     .draw = fst_paper_draw_comparison},
+    {.name = "dotal",
+     .source = "Fig. dotal",
+     .title = "How fast the bead circles",
+     .caption = "The bead goes round with the magnet at low drives, and against it, more slowly, at high ones. "
+                "Lines: counter-rotation from the rolling start, enlarged in the inset; circles: beads "
+                "released at rest.",
+     .statements = "corotation|onset|bell",
+     .scan = FST_SCAN_COMPARISON,
+     .draw = fst_paper_draw_dotal},
+    {.name = "f4",
+     .source = "Fig. f4",
+     .title = "Four festoons at 10.7 Hz",
+     .caption =
+         "Two revolutions of the bead at the drive 0.215. Colour: vertical part of the moment; arrows: its "
+         "horizontal part.",
+     .each = 1,
+     .statements = "fold4-festoons|fold4-nz",
+     .scan = FST_SCAN_FOLD4,
+     .draw = draw_trajectory},
+    {.name = "f4detail-angle",
+     .source = "Fig. f4detail, top",
+     .title = "The moment follows the field",
+     .caption = "The upper right corner of the same path, coloured by the angle between moment and field.",
+     .each = 1,
+     .statements = "fold4-angle|rare-moments",
+     .scan = FST_SCAN_FOLD4,
+     .draw = draw_trajectory,
+     .colour = "angle",
+     .zoomed = 1},
+    {.name = "f4detail-slip",
+     .source = "Fig. f4detail, bottom",
+     .title = "Friction acts at the turning points",
+     .caption =
+         "The same corner, coloured by the speed of the contact point, which friction is proportional to.",
+     .each = 1,
+     .statements = "turning-points|friction-angle|friction-outside",
+     .scan = FST_SCAN_FOLD4,
+     .draw = draw_trajectory,
+     .colour = "slip",
+     .zoomed = 1},
+    {.name = "om04",
+     .source = "Fig. om04",
+     .title = "Many festoons at 19.9 Hz",
+     .caption =
+         "Two revolutions of the bead at the drive 0.4, coloured by the speed of the contact point; inset: the "
+         "closed path of the moment in the local frame, seen along the radius.",
+     .plain = 1,
+     .inset = 1,
+     .each = 1,
+     .statements = "fold15-festoons|fold15-angle",
+     .scan = FST_SCAN_FOLD15,
+     .draw = draw_trajectory,
+     .colour = "slip"},
+    {.name = "om04-n",
+     .source = "Fig. om04, inset, larger and from two sides",
+     .title = "The closed path of the moment",
+     .caption = "The moment's direction in the local frame at the drive 0.4, seen along the radius and along "
+                "the circle; grey: the unit sphere's outline.",
+     .each = 1,
+     .statements = "fold15-closed|fold15-round|fold15-tilt",
+     .scan = FST_SCAN_FOLD15,
+     .draw = draw_trajectory,
+     .kind = FST_FIGURE_LOCAL_N},
+    {.name = "magint",
+     .source = "Fig. magint",
+     .title = "Where the festoons come from",
+     .caption = "Radius and field strength while the magnet turns by half a revolution under the bead, at "
+                "the drive 0.4: the pole draws the bead inwards, between the poles it swings out.",
+     .each = 1,
+     .statements = "magint-least|magint-field|magint-aligned|magint-across|force-ends|pull-weakens",
+     .scan = FST_SCAN_FOLD15,
+     .draw = draw_trajectory,
+     .kind = FST_FIGURE_RADIUS_FIELD},
+    {.name = "test",
+     .source = "Fig. test",
+     .title = "Free rolling at high drives",
+     .caption =
+         "Solid: mean angular velocities of the bead about the axis and of its moment; dashed: the paper's "
+         "formulas for free rolling, with the mean radius of each run. Under the drive 0.185 the moment swings "
+         "without turning over, ⟨φ′⟩ = 0: left out.",
+     .statements = "rolling-alpha|rolling-phi",
+     .scan = FST_SCAN_COMPARISON,
+     .draw = fst_paper_draw_test},
+    {.name = "evolution",
+     .source = "Fig. evolution",
+     .title = "The radial balance of forces",
+     .caption = "The three terms of the averaged radial equation (eq21); their exact sum is zero. The paper "
+                "drops n_r from the magnetic term: dashed.",
+     .each = 1,
+     .statements = "friction|spin-term|magnetic-term|asymptotic-hz",
+     .scan = FST_SCAN_COMPARISON,
+     .draw = fst_paper_draw_evolution},
+};
+
+enum { FIGURE_ROWS = sizeof figures / sizeof figures[0] };
+_Static_assert(FST_PAPER_DYNAMICS *FIGURE_ROWS <= FST_MOST_FIGURES, "fst_paper_state.drawn is too short");
+
+int fst_paper_figure_count(void)
+{
+    int count = 0;
+    for (int row = 0; row < FIGURE_ROWS; row++)
+        count += figures[row].each ? FST_PAPER_DYNAMICS : 1;
+    return count;
+}
+
+fst_paper_figure fst_paper_figure_at(int index)
+{
+    int row = 0;
+    for (; row < FIGURE_ROWS - 1; row++) {
+        int here = figures[row].each ? FST_PAPER_DYNAMICS : 1;
+        if (index < here)
+            break;
+        index -= here;
+    }
+    fst_paper_figure figure = figures[row];
+    figure.dynamics = index == 0 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID;
+    (void)snprintf(figure.file, sizeof figure.file, "%s%s", figure.name,
+                   !figure.each                            ? ""
+                   : figure.dynamics == FST_DYNAMICS_RIGID ? "-rigid"
+                                                           : "-farago2020");
+    return figure;
+}
+
+/* Does the list "one|two" have `id`? */
+static int lists(const char *ids, const char *id)
+{
+    size_t length = strlen(id);
+    for (const char *at = ids; at; at = strchr(at, '|') ? strchr(at, '|') + 1 : NULL)
+        if (!strncmp(at, id, length) && (at[length] == '|' || at[length] == '\0'))
+            return 1;
+    return 0;
+}
+
+int fst_paper_figure_verdict(const fst_paper_state *paper, const fst_paper_figure *figure,
+                             fst_dynamics dynamics, fst_verdict *verdict)
+{
+    *verdict = FST_VERDICT_REPRODUCED;
+    if (!figure->statements)
+        return 0;
+    for (int i = 0; i < fst_statement_count(); i++) {
+        const fst_statement *statement = fst_statement_at(i);
+        if (!lists(figure->statements, statement->id))
+            continue;
+        if (!fst_statement_known(statement, paper))
+            return 0;
+        fst_finding finding = fst_statement_check(fst_statement_at(i), paper);
+        if (finding.verdict[dynamics] > *verdict)
+            *verdict = finding.verdict[dynamics];
+    }
+    return 1;
+}
+
+/* The options of `festoon plot` that make the figure. */
+static void plot_options(const fst_paper_state *paper, const fst_paper_figure *figure, char *text, size_t size)
+{
+    static const char *const kinds[] = {[FST_FIGURE_PATH] = "",
+                                        [FST_FIGURE_LOCAL_N] = " --kind local-n",
+                                        [FST_FIGURE_RADIUS_FIELD] = " --kind radius-field"};
+    double corner = 1e3 * fst_paper_single(paper, figure->scan, figure->dynamics)->params.magnet_half_length;
+    char zoom[64] = "";
+    if (figure->zoomed)
+        (void)snprintf(zoom, sizeof zoom, " --zoom 0,%g,0,%g", corner, corner);
+    (void)snprintf(text, size, "%s%s%s%s%s%s", kinds[figure->kind], figure->colour ? " --colour " : "",
+                   figure->colour ? figure->colour : "", figure->plain ? " --no-arrows" : "",
+                   figure->inset ? " --inset" : "", zoom);
+}
+
+void fst_paper_figure_command(const fst_paper_state *paper, const fst_paper_figure *figure, char *text,
+                              size_t size)
+{
+    char run[256], options[128];
+    fst_paper_scan_command(paper, figure->scan, figure->dynamics, run, sizeof run);
+    plot_options(paper, figure, options, sizeof options);
+    if (figure->draw == draw_field)
+        (void)snprintf(text, size, "festoon field -o %s.svg", figure->file);
+    else if (figure->draw == draw_trajectory)
+        (void)snprintf(text, size, "%s --set run.samples=128 -o %s.h5\nfestoon plot %s.h5 -o %s.svg%s", run,
+                       figure->file, figure->file, figure->file, options);
+    else
+        (void)snprintf(text, size, "festoon paper -o DIR%s\ngnuplot %s.gp   # in DIR",
+                       paper->options->reduced ? " --reduced" : "", figure->file);
+}
+
+static fst_status draw_one(fst_paper_state *paper, int index, fst_error *error)
+{
+    fst_paper_figure figure = fst_paper_figure_at(index);
+    char *out = fst_paper_path(paper, figure.file, "svg");
+    if (!out)
+        return fst_fail(error, FST_NO_MEMORY, figure.file, "no memory for a file name");
+    fst_status status = figure.draw(paper, &figure, out, error);
+    free(out);
+    return status;
+}
+
+typedef struct gallery {
+    fst_paper_state *paper;
+    int list[FST_MOST_FIGURES], count;
+    double from, to;
+} gallery;
+
+/* Each figure has its own place in `drawn`. */
+static fst_status draw_piece(void *user, int place, fst_error *error)
+{
+    const gallery *all = user;
+    int index = all->list[place];
+    fst_status status = draw_one(all->paper, index, error);
+    all->paper->drawn[index] = status == FST_OK;
+    return status;
+}
+
+static fst_status progress_of_gallery(void *user, int done, fst_error *error)
+{
+    const gallery *all = user;
+    const fst_paper_options *options = all->paper->options;
+    double fraction = all->from + (all->to - all->from) * done / all->count;
+    return options->progress ? options->progress(options->user, fraction, "figures", error) : FST_OK;
+}
+
+fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to, fst_error *error)
+{
+    gallery all = {.paper = paper, .from = from, .to = to};
+    for (int i = 0; i < fst_paper_figure_count(); i++) {
+        fst_paper_figure figure = fst_paper_figure_at(i);
+        if (!paper->drawn[i] && fst_paper_has(paper, figure.step, figure.scan))
+            all.list[all.count++] = i;
+    }
+    fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = progress_of_gallery};
+    double began = fst_clock_seconds();
+    fst_status status = fst_parallel(&work, error);
+    fst_paper_note_time(paper, "figures", began);
+    return status;
+}

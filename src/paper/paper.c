@@ -1,0 +1,185 @@
+/* paper.c - fst_paper(): everything the paper shows, computed again. */
+#include "paper/paper.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/number.h"
+#include "host/whole_file.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+enum { OPTIONS_COOKIE = 0x50415052 };
+
+fst_paper_options fst_default_paper_options(void)
+{
+    return (fst_paper_options){.cookie = OPTIONS_COOKIE};
+}
+
+/* ------------------------------------------------------------------ the whole */
+
+static fst_status be_patient(void *user, double fraction, fst_error *error)
+{
+    fst_paper_state *paper = user;
+    (void)fraction;
+    return atomic_load(&paper->refused) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+}
+
+/* Of all threads, and of the processes that drew. */
+static double processor_seconds(void)
+{
+    static const int who[2] = {RUSAGE_SELF, RUSAGE_CHILDREN};
+    double seconds = 0.0;
+    for (int i = 0; i < 2; i++) {
+        struct rusage used;
+        if (getrusage(who[i], &used) == 0)
+            seconds += (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
+                       1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+    }
+    return seconds;
+}
+
+/* Can files be made in the directory?  Better to know before all is computed. */
+static fst_status try_directory(const fst_paper_state *paper, fst_error *error)
+{
+    fst_whole_file file;
+    char *path = fst_paper_path(paper, "paper", "json");
+    fst_status status = path ? fst_whole_file_open(&file, path, error)
+                             : fst_fail(error, FST_NO_MEMORY, paper->directory, "no memory for a file name");
+    free(path);
+    if (status == FST_OK)
+        fst_whole_file_discard(&file);
+    return status;
+}
+
+/* Make the directory, unless it is there. */
+static fst_status make_directory(const fst_paper_state *paper, fst_error *error)
+{
+    const char *directory = paper->directory;
+    struct stat there;
+    if (mkdir(directory, 0777) == 0)
+        return FST_OK;
+    int reason = errno;
+    if (reason == EEXIST && stat(directory, &there) == 0) {
+        if (S_ISDIR(there.st_mode))
+            return try_directory(paper, error);
+        return fst_fail(error, FST_BAD_INPUT, directory, "this is a file: give the name of a directory");
+    }
+    return fst_fail(error, FST_IO, directory, "cannot make this directory: %s", strerror(reason));
+}
+
+/* All that is computed and drawn, in its order; figures come as soon as they can, so that an interruption
+ * leaves them. */
+static fst_status make_everything(fst_paper_state *paper, fst_error *error)
+{
+    fst_status status = fst_paper_make_runs(paper, error);
+    if (status == FST_OK)
+        status = fst_paper_draw_figures(paper, 0.45, 0.5, error);
+    if (status == FST_OK)
+        status = fst_paper_find_orbits(paper, error);
+    if (status == FST_OK)
+        status = fst_paper_find_thresholds(paper, error);
+    if (status == FST_OK)
+        status = fst_paper_make_probes(paper, NULL, error);
+    if (status == FST_OK)
+        status = fst_paper_draw_figures(paper, 0.97, 1.0, error);
+    paper->complete = status == FST_OK;
+    return status;
+}
+
+static fst_status write_everything(const fst_paper_state *paper, fst_error *error)
+{
+    fst_status status = fst_paper_write_json(paper, error);
+    return status == FST_OK ? fst_paper_write_report(paper, error) : status;
+}
+
+/* ------------------------------------------------------------------ one statement */
+
+static fst_status no_such_statement(const char *id, fst_error *error)
+{
+    char names[4096] = "", nearest[64] = "";
+    size_t used = 0;
+    for (int i = 0; i < fst_statement_count() && used < sizeof names; i++)
+        used +=
+            (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? "|" : "", fst_statement_at(i)->id);
+    (void)fst_nearest_name(id, names, nearest, sizeof nearest);
+    return fst_fail(error, FST_BAD_INPUT, "paper",
+                    "there is no statement \"%.60s\"; the nearest name is \"%s\", paper.json has all", id,
+                    nearest);
+}
+
+/* What the statement rests on, and nothing else. */
+static fst_status make_one(fst_paper_state *paper, const fst_statement *statement, fst_error *error)
+{
+    fst_paper_step step = statement->step;
+    paper->first_scan = (int)statement->scan;
+    fst_status status = statement->scan == FST_SCAN_NONE ? FST_OK : fst_paper_make_runs(paper, error);
+    if (status == FST_OK && step >= FST_STEP_EXACT && step <= FST_STEP_HALVING)
+        status = fst_paper_find_orbits(paper, error);
+    if (status == FST_OK && step >= FST_STEP_THRESHOLDS && step <= FST_STEP_HALVING)
+        status = fst_paper_find_thresholds(paper, error);
+    return status == FST_OK ? fst_paper_make_probes(paper, &step, error) : status;
+}
+
+static fst_status answer_one(fst_paper_state *paper, fst_error *error)
+{
+    const char *id = paper->options->only;
+    for (int i = 0; i < fst_statement_count(); i++) {
+        const fst_statement *statement = fst_statement_at(i);
+        if (strcmp(statement->id, id) != 0)
+            continue;
+        fst_status status = make_one(paper, statement, error);
+        if (status != FST_OK || !paper->options->summary)
+            return status;
+        *paper->options->summary = fst_paper_statement_json(paper, statement);
+        return *paper->options->summary ? FST_OK
+                                        : fst_fail(error, FST_NO_MEMORY, "paper", "no memory for \"%s\"", id);
+    }
+    return no_such_statement(id, error);
+}
+
+/* ------------------------------------------------------------------ all of it */
+
+static fst_status answer_all(fst_paper_state *paper, double began, fst_error *error)
+{
+    double processors_began = processor_seconds();
+    const fst_paper_options *options = paper->options;
+    fst_status status = make_everything(paper, error);
+    paper->seconds = fst_clock_seconds() - began;
+    paper->processor_seconds = processor_seconds() - processors_began;
+    if (status == FST_OK && options->films)
+        status = fst_paper_make_films(paper, error);
+    /* What is there is written whatever happened; the first trouble is the one to tell of. */
+    fst_status written = write_everything(paper, status == FST_OK ? error : NULL);
+    status = status == FST_OK ? written : status;
+    if (status == FST_OK && options->summary)
+        *options->summary = fst_paper_summary(paper);
+    return status;
+}
+
+fst_status fst_paper(const char *directory, const fst_paper_options *options, fst_error *error)
+{
+    fst_paper_options defaults = fst_default_paper_options();
+    if (!options)
+        options = &defaults;
+    if (options->cookie != OPTIONS_COOKIE)
+        return fst_fail(error, FST_BAD_INPUT, "fst_paper",
+                        "the options were not made by fst_default_paper_options()");
+    fst_paper_state paper = {.options = options, .directory = directory};
+    paper.patience = (fst_progress){&paper, be_patient};
+    fst_status status = options->only ? FST_OK : make_directory(&paper, error);
+    if (status != FST_OK)
+        return status;
+    double began = fst_clock_seconds();
+    fst_c_locale locale = fst_c_locale_enter();
+    status = fst_paper_begin(&paper, error);
+    if (status == FST_OK)
+        status = options->only ? answer_one(&paper, error) : answer_all(&paper, began, error);
+    fst_paper_free_runs(&paper);
+    fst_c_locale_leave(locale);
+    return status;
+}

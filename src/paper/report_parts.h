@@ -1,0 +1,24 @@
+/* report_parts.h - pieces of HTML for reports. */
+#ifndef FST_PAPER_REPORT_PARTS_H
+#define FST_PAPER_REPORT_PARTS_H
+
+#include "paper/paper.h"
+
+#include <stdio.h>
+
+/* Everything up to <main>, style included, and the opening paragraphs. */
+extern const char fst_report_head[], fst_report_introduction[];
+
+/* Text with <, >, & and " made safe. */
+void fst_report_text(FILE *out, const char *text);
+
+/* A command line. */
+void fst_report_code(FILE *out, const char *command);
+
+/* The coloured word for a verdict. */
+void fst_report_badge(FILE *out, fst_verdict verdict);
+
+/* An SVG file as an image inside the page. FST_IO: it cannot be read. */
+fst_status fst_report_image(FILE *out, const char *path, const char *alternative, fst_error *error);
+
+#endif

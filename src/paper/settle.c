@@ -1,0 +1,84 @@
+/* settle.c - runs that are followed until their motion has settled, so that no statement rests on means
+ * of one that has not. */
+#include "io/collect.h"
+#include "paper/paper.h"
+
+#include <stdio.h>
+
+/* A run that has not settled is made again, twice as long and without what it was, so many times at most. */
+enum { MOST_DOUBLINGS = 3 };
+/* Errors of the means, relative, from which on a mean is not known: the verdicts ask for a hundredth at best.
+ */
+static const double KNOWN = 1e-3;
+
+static int is_known(double mean, double error, double scale)
+{
+    return error <= KNOWN * fmax(fabs(mean), scale); /* and not where it is undefined */
+}
+
+int fst_paper_is_settled(const fst_run_result *result)
+{
+    if (result->regime == FST_REGIME_LOCKED)
+        return 1;
+    return (result->regime == FST_REGIME_LIBRATING || result->regime == FST_REGIME_COUNTER_ROTATING ||
+            result->regime == FST_REGIME_COROTATING) &&
+           is_known(result->mean_r, result->mean_r_error, 0.0) &&
+           is_known(result->mean_alpha_dot, result->mean_alpha_dot_error, 1e-3 * result->omega);
+}
+
+int fst_paper_may_settle(const fst_run_result *result)
+{
+    return !fst_paper_is_settled(result) && result->regime != FST_REGIME_CHAOTIC &&
+           result->regime != FST_REGIME_EJECTED && result->regime != FST_REGIME_LIFTED;
+}
+
+/* All means undefined, so that nothing can rest on them. */
+static void forget_means(fst_run_result *result)
+{
+    const double omega = result->omega, frequency = result->frequency_hz, periods = result->periods;
+    const double time = result->end_time, exponent = result->largest_exponent;
+    const double exponent_error = result->largest_exponent_error;
+#define FST_RESULT(name, unit, doc) result->name = NAN;
+#include <festoon/run.def>
+#undef FST_RESULT
+    result->omega = omega;
+    result->frequency_hz = frequency;
+    result->periods = periods;
+    result->end_time = time;
+    result->largest_exponent = exponent;
+    result->largest_exponent_error = exponent_error;
+}
+
+fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progress, fst_run_result *result,
+                                 fst_table *trajectory, fst_error *error)
+{
+    fst_run_options options = fst_default_run_options();
+    if (progress) {
+        options.sink.user = progress->user;
+        options.sink.progress = progress->tell;
+    }
+    for (int doublings = 0;; doublings++) {
+        const fst_status status = trajectory ? fst_collect_run(params, progress, result, trajectory, error)
+                                             : fst_run(params, &options, result, error);
+        if (status != FST_OK || !fst_paper_may_settle(result))
+            return status;
+        if (doublings == MOST_DOUBLINGS) {
+            forget_means(result);
+            return FST_OK;
+        }
+        if (trajectory)
+            fst_table_free(trajectory);
+        params->run_discard = params->run_periods;
+        params->run_periods *= 2.0;
+    }
+}
+
+int fst_paper_unsettled(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
+{
+    int count = 0;
+    for (int i = 0; scan < FST_SCAN_NONE && i < paper->counts[scan]; i++) {
+        const fst_paper_run *run = &paper->scans[scan][dynamics][i];
+        count += run->done && fst_paper_may_settle(&run->result);
+    }
+    return count;
+}

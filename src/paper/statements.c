@@ -1,0 +1,112 @@
+/* statements.c - what the paper says in words, held against the runs; verdicts.c judges it. */
+#include "paper/measures.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const fst_statement statements[] = {
+#define ROW(id, section, text, said, published, scale, unit, digits, rule, measure, scan, step, reads, checks) \
+    {id,                                                                                                       \
+     section,                                                                                                  \
+     text,                                                                                                     \
+     said,                                                                                                     \
+     published,                                                                                                \
+     scale,                                                                                                    \
+     unit,                                                                                                     \
+     digits,                                                                                                   \
+     FST_RULE_##rule,                                                                                          \
+     fst_measure_##measure,                                                                                    \
+     FST_SCAN_##scan,                                                                                          \
+     FST_STEP_##step,                                                                                          \
+     reads,                                                                                                    \
+     checks},
+#define STATEMENT(...) ROW(__VA_ARGS__, 0)
+#define CHECK(...) ROW(__VA_ARGS__, 1)
+#include "paper/statements.def"
+#undef STATEMENT
+#undef CHECK
+#undef ROW
+};
+
+int fst_statement_count(void)
+{
+    return (int)(sizeof statements / sizeof statements[0]);
+}
+
+const fst_statement *fst_statement_at(int index)
+{
+    return &statements[index];
+}
+
+int fst_statement_known(const fst_statement *statement, const fst_paper_state *paper)
+{
+    return fst_paper_has(paper, statement->step, statement->scan);
+}
+
+int fst_paper_tally(const fst_paper_state *paper, int tally[FST_PAPER_DYNAMICS][3])
+{
+    int count = 0;
+    for (int i = 0; i < fst_statement_count(); i++) {
+        if (statements[i].check || !fst_statement_known(&statements[i], paper))
+            continue;
+        fst_finding finding = fst_statement_check(&statements[i], paper);
+        for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
+            tally[d][finding.verdict[d]]++;
+        count++;
+    }
+    return count;
+}
+
+/* ------------------------------------------------------------------ how to have the number again */
+
+void fst_statement_command(const fst_statement *statement, const fst_paper_state *paper, fst_dynamics dynamics,
+                           char *command, size_t size)
+{
+    char run[256];
+    if (!statement->reads) {
+        (void)snprintf(command, size, "festoon paper --only %s%s", statement->id,
+                       paper->options->reduced ? " --reduced" : "");
+        return;
+    }
+    fst_paper_scan_command(paper, statement->scan, dynamics, run, sizeof run);
+    (void)snprintf(command, size, "%s --json", run);
+}
+
+const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dynamics)
+{
+    return statement->reads ? statement->reads : dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020";
+}
+
+/* ------------------------------------------------------------------ the list */
+
+static void write_rules(FILE *out)
+{
+    (void)fputs("| rule | what the paper prints | reproduced | close |\n| --- | --- | --- | --- |\n", out);
+    for (int rule = 0; rule < FST_RULE_COUNT; rule++)
+        (void)fprintf(out, "| %s | %s | %s | %s |\n", fst_rules[rule].name, fst_rules[rule].kind,
+                      fst_rules[rule].reproduced, fst_rules[rule].close);
+}
+
+char *fst_paper_statements_text(void)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    write_rules(out);
+    (void)fputs("\n| section | statement | published | rule |\n| --- | --- | --- | --- |\n", out);
+    for (int i = 0; i < fst_statement_count(); i++) {
+        const fst_statement *statement = &statements[i];
+        char published[64];
+        fst_statement_value(statement, statement->published, published, sizeof published);
+        (void)fprintf(out, "| %s | %s | %s | %s |\n", statement->section, statement->text,
+                      statement->said ? statement->said : published, fst_rules[statement->rule].name);
+    }
+    if (fclose(out) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}

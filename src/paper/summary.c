@@ -1,0 +1,43 @@
+/* summary.c - what `festoon paper` says on a terminal. */
+#include "paper/paper.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+static void put_row(FILE *out, const fst_paper_state *paper, int row)
+{
+    const fst_table1_row *published = &fst_table1[row];
+    (void)fprintf(out, "  %-8g %6.2f (S%d)", published->omega, published->published, published->published_a);
+    static const fst_dynamics order[FST_PAPER_DYNAMICS] = {FST_DYNAMICS_FARAGO2020, FST_DYNAMICS_RIGID};
+    for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
+        const fst_run_result *result = &paper->scans[FST_SCAN_TABLE][order[i]][row].result;
+        const char *symmetry = fst_symmetry_name(result->symmetry);
+        (void)fprintf(out, "   %8.4f (%s) %-15s", result->festoons, symmetry ? symmetry : "--",
+                      fst_verdict_name(fst_table1_verdict(paper, row, order[i])));
+    }
+    (void)fputc('\n', out);
+}
+
+char *fst_paper_summary(const fst_paper_state *paper)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    (void)fprintf(out, "Table 1, number of festoons N (%s)\n\n", FST_TABLE1_CRITERION);
+    (void)fprintf(out, "  %-8s %-11s   %-29s   %s\n", "omega", "published", "farago2020", "rigid");
+    for (int row = 0; row < FST_TABLE1_ROWS; ++row)
+        put_row(out, paper, row);
+    int count[FST_PAPER_DYNAMICS][3] = {{0}};
+    const int claims = fst_paper_tally(paper, count);
+    (void)fprintf(out, "\n%d statements: farago2020 %d reproduced, %d close, %d not; rigid %d, %d, %d\n",
+                  claims, count[FST_DYNAMICS_FARAGO2020][0], count[FST_DYNAMICS_FARAGO2020][1],
+                  count[FST_DYNAMICS_FARAGO2020][2], count[FST_DYNAMICS_RIGID][0], count[FST_DYNAMICS_RIGID][1],
+                  count[FST_DYNAMICS_RIGID][2]);
+    if (fclose(out) != 0) {
+        free(text);
+        return NULL;
+    }
+    return text;
+}

@@ -1,0 +1,147 @@
+/* verdicts.c - one set of rules for all statements, made from how the paper prints what it says. */
+#include "paper/paper.h"
+
+#include <stdio.h>
+
+/* Shares of the natural scale within which a claim in words is met, and nearly met. */
+static const double SMALL[2] = {0.1, 0.3}, NOTABLE[2] = {0.1, 0.03}, MOST[2] = {0.5, 0.25},
+                    EXACT[2] = {1e-6, 1e-3};
+/* A printed number: its rounding, and ten units of its last digit, but never more than a fifth of it. */
+static const double UNITS[2] = {0.5, 10.0}, FARTHEST = 0.2;
+/* An order of magnitude, in decimal logarithms. */
+static const double ORDERS[2] = {0.5, 1.0};
+
+const fst_rule_words fst_rules[FST_RULE_COUNT] = {
+    [FST_RULE_NUMBER] = {"number", "a printed number", "the value rounds to it",
+                         "within ten units of its last digit, and within 20 %"},
+    [FST_RULE_AT_MOST] = {"limit", "a printed limit", "the value, rounded likewise, does not exceed it",
+                          "by no more than ten units of its last digit, and 20 %"},
+    [FST_RULE_MAGNITUDE] = {"magnitude", "an order of magnitude", "within half an order (a factor of 3.2)",
+                            "within one order"},
+    [FST_RULE_SMALL] =
+        {"small", "“almost”, “negligible”, “small”, “rare”, “convincing”, “locks to”, “about” without a number",
+         "off by at most 10 % of the natural scale", "by at most 30 %"},
+    [FST_RULE_NOTABLE] = {"notable",
+                          "“not negligible”, “not zero”, “not correct”, “a part”, “quite a lot”, “high”, "
+                          "“shrinks”, “weakens”",
+                          "at least 10 % of the natural scale", "at least 3 %"},
+    [FST_RULE_MOSTLY] = {"mostly", "“mainly”, “localized”, “tightly correlated”, “similar”", "at least 50 %",
+                         "at least 25 %"},
+    [FST_RULE_EXACT] = {"law", "a law, an equation, a proportionality, a symmetry",
+                        "met within 1e-6 of the natural scale", "within 1e-3"},
+    [FST_RULE_NEVER] = {"never", "what one exception breaks: “never”, “positive”, a sense, a shape",
+                        "no exception was met", ""},
+    [FST_RULE_SYMMETRY] = {"symmetry", "the symmetry of a closed path", "closed, with this symmetry", ""},
+};
+
+const char *fst_verdict_name(fst_verdict verdict)
+{
+    static const char *const names[] = {[FST_VERDICT_REPRODUCED] = "reproduced",
+                                        [FST_VERDICT_CLOSE] = "close",
+                                        [FST_VERDICT_NOT] = "not reproduced"};
+    return names[verdict];
+}
+
+/* Half a unit of the last digit, or ten, for `verdict` reproduced or close. */
+static double room(const fst_statement *statement, fst_verdict verdict)
+{
+    double half = UNITS[FST_VERDICT_REPRODUCED] * statement->scale, ten = UNITS[verdict] * statement->scale;
+    return verdict == FST_VERDICT_REPRODUCED ? half
+                                             : fmax(half, fmin(ten, FARTHEST * fabs(statement->published)));
+}
+
+/* Does the value earn `verdict` (reproduced or close)?  A NAN passes nothing. */
+static int passes(const fst_statement *statement, double value, fst_verdict verdict)
+{
+    double scale = statement->scale, distance = fabs(value - statement->published);
+    switch (statement->rule) {
+    case FST_RULE_NUMBER:
+        return distance <= room(statement, verdict);
+    case FST_RULE_AT_MOST:
+        return value <= statement->published + room(statement, verdict);
+    case FST_RULE_MAGNITUDE:
+        return fabs(log10(value / statement->published)) <= ORDERS[verdict];
+    case FST_RULE_SMALL:
+        return distance <= SMALL[verdict] * scale;
+    case FST_RULE_NOTABLE:
+        return value >= NOTABLE[verdict] * scale;
+    case FST_RULE_MOSTLY:
+        return value >= MOST[verdict] * scale;
+    case FST_RULE_EXACT:
+        return distance <= EXACT[verdict] * scale;
+    case FST_RULE_NEVER:
+    case FST_RULE_SYMMETRY:
+        return value == statement->published;
+    case FST_RULE_COUNT:
+        break;
+    }
+    return 0;
+}
+
+fst_verdict fst_statement_verdict(const fst_statement *statement, double value)
+{
+    return passes(statement, value, FST_VERDICT_REPRODUCED) ? FST_VERDICT_REPRODUCED
+           : passes(statement, value, FST_VERDICT_CLOSE)    ? FST_VERDICT_CLOSE
+                                                            : FST_VERDICT_NOT;
+}
+
+/* A statement about one motion that has not settled has no value; where a value is missing and runs have not
+ * settled, the note says that it is undecided. */
+static double unless_unsettled(const fst_statement *statement, const fst_paper_state *paper,
+                               fst_dynamics dynamics, double value, char *note, size_t size)
+{
+    const int unsettled = fst_paper_unsettled(paper, statement->scan, dynamics);
+    if (unsettled == 0)
+        return value;
+    const int all = paper->counts[statement->scan];
+    if (all > 1 && !isnan(value))
+        return value;
+    (void)snprintf(note, size,
+                   "undecided: %d of %d runs had not settled when they ended; the last says: %.120s", unsettled,
+                   all, paper->scans[statement->scan][dynamics][all - 1].result.reason);
+    return NAN;
+}
+
+fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper)
+{
+    fst_finding finding = {.note = {"", ""}};
+    for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
+        double value = statement->measure(paper, (fst_dynamics)d, finding.note[d], sizeof finding.note[d]);
+        value =
+            unless_unsettled(statement, paper, (fst_dynamics)d, value, finding.note[d], sizeof finding.note[d]);
+        finding.value[d] = value;
+        finding.verdict[d] = fst_statement_verdict(statement, value);
+    }
+    return finding;
+}
+
+/* "40.5 to 41.5 mm" for a number, else the rule's words. */
+void fst_statement_criterion(const fst_statement *statement, char *text, size_t size)
+{
+    const fst_rule_words *words = &fst_rules[statement->rule];
+    double p = statement->published, half = room(statement, FST_VERDICT_REPRODUCED);
+    double ten = room(statement, FST_VERDICT_CLOSE);
+    const char *blank = statement->unit[0] ? " " : "";
+    if (statement->rule == FST_RULE_NUMBER)
+        (void)snprintf(text, size, "number; reproduced: %g to %g%s%s; close: %g to %g%s%s", p - half, p + half,
+                       blank, statement->unit, p - ten, p + ten, blank, statement->unit);
+    else if (statement->rule == FST_RULE_AT_MOST)
+        (void)snprintf(text, size, "limit; reproduced: at most %g%s%s; close: at most %g%s%s", p + half, blank,
+                       statement->unit, p + ten, blank, statement->unit);
+    else
+        (void)snprintf(text, size, "%s; reproduced: %s%s%s", words->name, words->reproduced,
+                       words->close[0] ? "; close: " : "", words->close);
+}
+
+void fst_statement_value(const fst_statement *statement, double value, char *text, size_t size)
+{
+    const char *blank = statement->unit[0] ? " " : "";
+    if (!isfinite(value))
+        (void)snprintf(text, size, "none");
+    else if (statement->rule == FST_RULE_SYMMETRY)
+        (void)snprintf(text, size, "S%.0f", value);
+    else if (statement->digits < 0)
+        (void)snprintf(text, size, "%.1e%s%s", value, blank, statement->unit);
+    else
+        (void)snprintf(text, size, "%.*f%s%s", statement->digits, value, blank, statement->unit);
+}

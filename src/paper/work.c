@@ -1,0 +1,87 @@
+/* work.c - how a stage of the paper is done: on all processors, with its time noted; and where its files lie.
+ */
+#include "paper/paper.h"
+
+#include "base/clock.h"
+#include "host/parallel.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/utsname.h>
+#include <unistd.h>
+
+char *fst_paper_path(const fst_paper_state *paper, const char *name, const char *ending)
+{
+    size_t room = strlen(paper->directory) + strlen(name) + strlen(ending) + 3;
+    char *path = malloc(room);
+    if (path)
+        (void)snprintf(path, room, "%s/%s.%s", paper->directory, name, ending);
+    return path;
+}
+
+typedef struct stage_in_work {
+    fst_paper_state *paper;
+    const fst_paper_stage *stage;
+} stage_in_work;
+
+static fst_status piece_of_stage(void *user, int index, fst_error *error)
+{
+    const stage_in_work *work = user;
+    return work->stage->piece(work->paper, index, error);
+}
+
+static fst_status progress_of_stage(void *user, int done, fst_error *error)
+{
+    const stage_in_work *work = user;
+    const fst_paper_options *options = work->paper->options;
+    const fst_paper_stage *stage = work->stage;
+    if (!options->progress)
+        return FST_OK;
+    double fraction = stage->from + (stage->to - stage->from) * done / stage->count;
+    const fst_status status = options->progress(options->user, fraction, stage->what, error);
+    if (status != FST_OK)
+        atomic_store(&work->paper->refused, 1);
+    return status;
+}
+
+void fst_paper_note_time(fst_paper_state *paper, const char *what, double began)
+{
+    int part = 0;
+    while (part < paper->part_count && strcmp(paper->parts[part].what, what) != 0)
+        part++;
+    if (part == FST_MOST_PARTS)
+        return;
+    if (part == paper->part_count)
+        paper->parts[paper->part_count++] = (fst_paper_part){what, 0.0};
+    paper->parts[part].seconds += fst_clock_seconds() - began;
+}
+
+void fst_paper_machine(char *text, size_t size)
+{
+#ifdef __clang__
+    static const char *const compiler = __VERSION__;
+#else
+    static const char *const compiler = "gcc " __VERSION__;
+#endif
+    struct utsname machine;
+    (void)snprintf(
+        text, size,
+        "binary64 (double precision), one bead at a time without vector instructions of its own, no fused "
+        "multiply-add; %s, %s, %ld processors; %s",
+        compiler, uname(&machine) >= 0 ? machine.machine : "unknown machine", sysconf(_SC_NPROCESSORS_ONLN),
+        fst_tools_components());
+}
+
+fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_stage *stage, fst_error *error)
+{
+    double began = fst_clock_seconds();
+    stage_in_work in_work = {paper, stage};
+    fst_work work = {
+        .user = &in_work, .count = stage->count, .piece = piece_of_stage, .progress = progress_of_stage};
+    fst_status status = fst_parallel(&work, error);
+    fst_paper_note_time(paper, stage->what, began);
+    if (status == FST_OK && stage->step < FST_STEP_COUNT)
+        paper->done[stage->step] = 1;
+    return status;
+}

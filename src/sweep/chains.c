@@ -1,0 +1,35 @@
+/* chains.c - the chains of points along which end states are carried. */
+#include "sweep/sweep.h"
+
+int64_t fst_chain_length(const fst_sweep_identity *identity)
+{
+    return fst_grid_axis_points(identity->grid, 0);
+}
+
+int64_t fst_chain_count(const fst_sweep_identity *identity)
+{
+    return fst_grid_points(identity->grid) / fst_chain_length(identity);
+}
+
+int64_t fst_chain_point(const fst_sweep_identity *identity, int64_t chain, int64_t place)
+{
+    const fst_grid *grid = identity->grid;
+    const int64_t stride = fst_grid_axis_stride(grid, 0), count = fst_chain_length(identity);
+    const int64_t first = chain / stride * (stride * count) + chain % stride;
+    const int rises = fst_grid_value(grid, 0, first) <= fst_grid_value(grid, 0, first + (count - 1) * stride);
+    const int forward = rises == (identity->carry == FST_CARRY_UP);
+    return first + (forward ? place : count - 1 - place) * stride;
+}
+
+int64_t fst_chain_place(const fst_sweep_identity *identity, int64_t point, int64_t *chain)
+{
+    const int64_t stride = fst_grid_axis_stride(identity->grid, 0), count = fst_chain_length(identity);
+    *chain = point / (stride * count) * stride + point % stride;
+    const int64_t index = point / stride % count;
+    return fst_chain_point(identity, *chain, index) == point ? index : count - 1 - index;
+}
+
+int64_t fst_sweep_task_count(const fst_sweep_identity *identity)
+{
+    return identity->carry == FST_CARRY_NO ? fst_grid_points(identity->grid) : fst_chain_count(identity);
+}

@@ -1,0 +1,250 @@
+#include "sweep/columns.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sweep/checksum.h"
+
+const char *const fst_state_names[FST_STATE_SIZE] = {"X", "Y", "vX", "vY", "nX", "nY", "nZ", "WX", "WY", "WZ"};
+
+static const char TEXTS[] =
+    "status TEXT, carried INTEGER, regime TEXT, symmetry TEXT, reason TEXT, dynamics TEXT";
+static const char COUNTS[] =
+    "returns INTEGER, rhs_calls INTEGER, steps_accepted INTEGER, steps_rejected INTEGER";
+enum { TEXT_COUNT = 6, COUNT_COUNT = 4 };
+
+static int is_choice(const fst_grid *grid, int axis)
+{
+    return fst_param_at(fst_param_find(fst_grid_key(grid, axis)))->kind == FST_KIND_CHOICE;
+}
+
+int fst_sweep_column_count(const fst_grid *grid)
+{
+    return 1 + fst_grid_axis_count(grid) + TEXT_COUNT + fst_result_count() + COUNT_COUNT + FST_STATE_SIZE;
+}
+
+char *fst_sweep_columns_sql(const fst_grid *grid)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    (void)fputs("point INTEGER PRIMARY KEY", out);
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
+        (void)fprintf(out, ", \"%s\" %s", fst_grid_key(grid, i), is_choice(grid, i) ? "TEXT" : "REAL");
+    (void)fprintf(out, ", %s", TEXTS);
+    for (int i = 0; i < fst_result_count(); ++i)
+        (void)fprintf(out, ", %s REAL", fst_result_at(i)->name);
+    (void)fprintf(out, ", %s", COUNTS);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        (void)fprintf(out, ", final_%s REAL", fst_state_names[i]);
+    (void)fputs(", checksum INTEGER", out);
+    return fclose(out) == 0 ? text : (free(text), NULL);
+}
+
+char *fst_sweep_insert_sql(const fst_grid *grid)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    (void)fputs("INSERT OR IGNORE INTO rows VALUES(?", out);
+    for (int i = 0; i < fst_sweep_column_count(grid); ++i)
+        (void)fputs(", ?", out);
+    (void)fputs(")", out);
+    return fclose(out) == 0 ? text : (free(text), NULL);
+}
+
+/* The tables have been compared with ours, so that * stands for the columns above. */
+char *fst_sweep_select_sql(void)
+{
+    return strdup("SELECT * FROM rows WHERE point >= ? ORDER BY point");
+}
+
+char *fst_sweep_state_sql(void)
+{
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    if (!out)
+        return NULL;
+    (void)fputs("SELECT status = 'done' AND regime NOT IN ('ejected', 'lifted')", out);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        (void)fprintf(out, ", final_%s", fst_state_names[i]);
+    (void)fputs(" FROM rows WHERE point = ?", out);
+    return fclose(out) == 0 ? text : (free(text), NULL);
+}
+
+static uint64_t sum_real(uint64_t sum, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    return fst_checksum_word(fst_checksum_word(sum, SQLITE_FLOAT), bits);
+}
+
+/* ------------------------------------------------------------------ writing */
+
+/* Values are bound and added to the checksum one after the other, as SQLite gives them back. */
+typedef struct binding {
+    sqlite3_stmt *insert;
+    int place;
+    uint64_t sum;
+} binding;
+
+static void bind_null(binding *b)
+{
+    b->sum = fst_checksum_word(b->sum, SQLITE_NULL);
+    (void)sqlite3_bind_null(b->insert, b->place++);
+}
+
+static void bind_integer(binding *b, int64_t value)
+{
+    b->sum = fst_checksum_word(fst_checksum_word(b->sum, SQLITE_INTEGER), (uint64_t)value);
+    (void)sqlite3_bind_int64(b->insert, b->place++, value);
+}
+
+/* SQLite stores NaN as NULL, which is what is undefined, and -0 as 0. */
+static void bind_real(binding *b, double value)
+{
+    if (isnan(value)) {
+        bind_null(b);
+        return;
+    }
+    const double stored = value == 0.0 ? 0.0 : value;
+    b->sum = sum_real(b->sum, stored);
+    (void)sqlite3_bind_double(b->insert, b->place++, stored);
+}
+
+static void bind_text(binding *b, const char *text)
+{
+    if (!text || !text[0]) {
+        bind_null(b);
+        return;
+    }
+    b->sum = fst_checksum_bytes(fst_checksum_word(b->sum, SQLITE_TEXT), text, strlen(text));
+    (void)sqlite3_bind_text(b->insert, b->place++, text, -1, SQLITE_TRANSIENT);
+}
+
+/* A choice by its name. */
+static void name_choice(const char *key, int value, char *name, size_t size)
+{
+    const int param = fst_param_find(key);
+    fst_params params = fst_default_params();
+    memcpy((char *)&params + fst_param_at(param)->offset, &value, sizeof value);
+    (void)fst_params_get(&params, param, name, size);
+}
+
+void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, const fst_sweep_record *record)
+{
+    const fst_run_result *r = &record->result;
+    binding b = {insert, 1, seed};
+    char name[64];
+    bind_integer(&b, record->point);
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
+        const double value = fst_grid_value(grid, i, record->point);
+        if (is_choice(grid, i)) {
+            name_choice(fst_grid_key(grid, i), (int)value, name, sizeof name);
+            bind_text(&b, name);
+        } else {
+            bind_real(&b, value);
+        }
+    }
+    bind_text(&b, record->status == FST_OK ? "done" : fst_status_text(record->status));
+    bind_integer(&b, record->carried);
+    bind_text(&b, record->status == FST_OK ? fst_regime_name(r->regime) : NULL);
+    bind_text(&b, fst_symmetry_name(r->symmetry));
+    bind_text(&b, r->reason);
+    name_choice("model.dynamics", record->dynamics, name, sizeof name);
+    bind_text(&b, name);
+    for (int i = 0; i < fst_result_count(); ++i) {
+        double value;
+        memcpy(&value, (const char *)r + fst_result_at(i)->offset, sizeof value);
+        bind_real(&b, value);
+    }
+    bind_integer(&b, r->returns);
+    bind_integer(&b, (int64_t)r->rhs_calls);
+    bind_integer(&b, (int64_t)r->accepted);
+    bind_integer(&b, (int64_t)r->rejected);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        bind_real(&b, record->status == FST_OK ? r->final_state[i] : NAN);
+    (void)sqlite3_bind_int64(insert, b.place, (sqlite3_int64)b.sum);
+}
+
+/* ------------------------------------------------------------------ reading */
+
+uint64_t fst_sweep_row_checksum(sqlite3_stmt *row, int count, uint64_t seed)
+{
+    uint64_t sum = seed;
+    for (int i = 0; i < count; ++i) {
+        const int type = sqlite3_column_type(row, i);
+        switch (type) {
+        case SQLITE_INTEGER:
+            sum = fst_checksum_word(fst_checksum_word(sum, SQLITE_INTEGER),
+                                    (uint64_t)sqlite3_column_int64(row, i));
+            break;
+        case SQLITE_FLOAT:
+            sum = sum_real(sum, sqlite3_column_double(row, i));
+            break;
+        case SQLITE_TEXT:
+        case SQLITE_BLOB: {
+            const char *bytes = sqlite3_column_blob(row, i);
+            sum = fst_checksum_bytes(fst_checksum_word(sum, (uint64_t)type), bytes,
+                                     (size_t)sqlite3_column_bytes(row, i));
+            break;
+        }
+        default:
+            sum = fst_checksum_word(sum, SQLITE_NULL);
+        }
+    }
+    return sum;
+}
+
+/* The values of the axes at the row's point. */
+static int has_axes_of_point(sqlite3_stmt *row, const fst_grid *grid, int64_t point)
+{
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
+        const double value = fst_grid_value(grid, i, point);
+        if (is_choice(grid, i)) {
+            char name[64];
+            name_choice(fst_grid_key(grid, i), (int)value, name, sizeof name);
+            const char *there = (const char *)sqlite3_column_text(row, 1 + i);
+            if (!there || strcmp(there, name) != 0)
+                return 0;
+        } else if (sqlite3_column_type(row, 1 + i) != SQLITE_FLOAT ||
+                   sqlite3_column_double(row, 1 + i) != value) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Whether each value is of its column's kind, or undefined. */
+static int has_types(sqlite3_stmt *row, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        const char *kind = sqlite3_column_decltype(row, i);
+        const int type = sqlite3_column_type(row, i);
+        const int wanted = !kind                       ? SQLITE_NULL
+                           : strcmp(kind, "TEXT") == 0 ? SQLITE_TEXT
+                           : strcmp(kind, "REAL") == 0 ? SQLITE_FLOAT
+                                                       : SQLITE_INTEGER;
+        if (type != SQLITE_NULL && type != wanted)
+            return 0;
+    }
+    return 1;
+}
+
+int fst_sweep_row_is_sound(sqlite3_stmt *row, const fst_grid *grid, uint64_t seed)
+{
+    const int count = fst_sweep_column_count(grid);
+    if (sqlite3_column_count(row) != count + 1 || !has_types(row, count + 1))
+        return 0;
+    const int64_t point = sqlite3_column_int64(row, 0);
+    return point >= 0 && point < fst_grid_points(grid) && has_axes_of_point(row, grid, point) &&
+           sqlite3_column_type(row, count) == SQLITE_INTEGER &&
+           (uint64_t)sqlite3_column_int64(row, count) == fst_sweep_row_checksum(row, count, seed);
+}

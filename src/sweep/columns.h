@@ -1,0 +1,31 @@
+/* columns.h - the columns of a sweep's table `rows`: point, axes, the keys of a run, and a checksum. */
+#ifndef FST_SWEEP_COLUMNS_H
+#define FST_SWEEP_COLUMNS_H
+
+#include "sweep/database.h"
+#include "sweep/journal.h"
+
+/* Names of the components of a state, as in the columns final_X, ... */
+extern const char *const fst_state_names[FST_STATE_SIZE];
+
+/* Number of the columns that are exported: all but the checksum, which is the last one. */
+int fst_sweep_column_count(const fst_grid *grid);
+
+/* The definitions of the columns, the statement that inserts a row, the one that reads rows from a point on
+ * with the checksum last, and the one that reads whether a point's end may be carried on and its state; to be
+ * freed. NULL: no memory. */
+char *fst_sweep_columns_sql(const fst_grid *grid);
+char *fst_sweep_insert_sql(const fst_grid *grid);
+char *fst_sweep_select_sql(void);
+char *fst_sweep_state_sql(void);
+
+/* Bind a record and its checksum, which begins with `seed`, to the inserting statement. */
+void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, const fst_sweep_record *record);
+
+/* The checksum of the first `count` values of a row that was read. */
+uint64_t fst_sweep_row_checksum(sqlite3_stmt *row, int count, uint64_t seed);
+
+/* Whether a row that was read is a row of this grid, with this checksum. */
+int fst_sweep_row_is_sound(sqlite3_stmt *row, const fst_grid *grid, uint64_t seed);
+
+#endif

@@ -1,0 +1,361 @@
+/* export.c - the rows of a sweep as CSV, JSON and HDF5. */
+#include <jansson.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "base/number.h"
+#include "host/regular_file.h"
+#include "host/whole_file.h"
+#include "io/trajectory_module.h"
+#include "sweep/columns.h"
+#include "sweep/database.h"
+#include "sweep/file.h"
+#include "sweep/lock.h"
+
+typedef struct export_job {
+    const char *path;
+    fst_sweep_file file;
+    fst_sweep_rows rows;
+    sqlite3_stmt *row;
+    int columns; /* all but the checksum */
+    FILE *stream;
+} export_job;
+
+/* ------------------------------------------------------------------ CSV */
+
+/* A text of the file as a new string, fit for terminals: one line without control characters; NULL: no memory.
+ */
+static char *tame_text(sqlite3_stmt *rows, int column)
+{
+    const unsigned char *text = sqlite3_column_text(rows, column);
+    char *tame = strdup(text ? (const char *)text : "");
+    if (tame)
+        fst_text_tame(tame);
+    return tame;
+}
+
+enum { COLUMN_SIZE = 128 };
+
+static const char *tame_name(sqlite3_stmt *rows, int column, char name[COLUMN_SIZE])
+{
+    const char *given = sqlite3_column_name(rows, column);
+    (void)snprintf(name, COLUMN_SIZE, "%s", given ? given : "");
+    fst_text_tame(name);
+    return name;
+}
+
+static void write_quoted(FILE *out, char *tame)
+{
+    (void)fputc('"', out);
+    for (const char *c = tame; c && *c; ++c) {
+        if (*c == '"')
+            (void)fputc('"', out);
+        (void)fputc(*c, out);
+    }
+    (void)fputc('"', out);
+    free(tame);
+}
+
+static void csv_head(export_job *job)
+{
+    for (int i = 0; i < job->columns; ++i) {
+        char name[COLUMN_SIZE];
+        (void)fprintf(job->stream, "%s%s", i ? "," : "", tame_name(job->row, i, name));
+    }
+    (void)fputc('\n', job->stream);
+}
+
+static fst_status csv_row(export_job *job, fst_error *error)
+{
+    (void)error;
+    for (int i = 0; i < job->columns; ++i) {
+        char number[40];
+        if (i)
+            (void)fputc(',', job->stream);
+        switch (sqlite3_column_type(job->row, i)) {
+        case SQLITE_INTEGER:
+            (void)fprintf(job->stream, "%lld", (long long)sqlite3_column_int64(job->row, i));
+            break;
+        case SQLITE_FLOAT:
+            (void)fst_number_write(number, sizeof number, sqlite3_column_double(job->row, i));
+            (void)fputs(number, job->stream);
+            break;
+        case SQLITE_TEXT:
+            write_quoted(job->stream, tame_text(job->row, i));
+            break;
+        default: /* what is undefined stays empty */
+            break;
+        }
+    }
+    (void)fputc('\n', job->stream);
+    return FST_OK;
+}
+
+/* ------------------------------------------------------------------ JSON */
+
+static json_t *json_value(sqlite3_stmt *rows, int column)
+{
+    switch (sqlite3_column_type(rows, column)) {
+    case SQLITE_INTEGER:
+        return json_integer((json_int_t)sqlite3_column_int64(rows, column));
+    case SQLITE_FLOAT:
+        return json_real(sqlite3_column_double(rows, column));
+    case SQLITE_TEXT: {
+        char *tame = tame_text(rows, column);
+        json_t *value = tame ? json_string(tame) : NULL;
+        free(tame);
+        return value;
+    }
+    default:
+        return json_null();
+    }
+}
+
+/* One object on a line; the components of the final state are gathered in the list that `run` prints. */
+static fst_status json_row(export_job *job, fst_error *error)
+{
+    json_t *object = json_object(), *state = json_array();
+    for (int i = 0; i < job->columns; ++i) {
+        char column[COLUMN_SIZE];
+        const char *name = tame_name(job->row, i, column);
+        json_t *value = json_value(job->row, i);
+        if (strncmp(name, "final_", 6) == 0)
+            (void)json_array_append_new(state, value);
+        else
+            (void)json_object_set_new(object, name, value);
+    }
+    (void)json_object_set_new(object, "final_state", state);
+    char *text = json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(17));
+    json_decref(object);
+    if (!text)
+        return fst_fail(error, FST_NO_MEMORY, job->path, "out of memory");
+    (void)fputs(text, job->stream);
+    free(text);
+    return FST_OK;
+}
+
+/* ------------------------------------------------------------------ all rows, as text */
+
+static fst_status write_text(export_job *job, fst_export_format format, fst_error *error)
+{
+    fst_status status = FST_OK;
+    int more, first = 1;
+    if (format == FST_EXPORT_CSV)
+        csv_head(job);
+    else
+        (void)fputc('[', job->stream);
+    while (status == FST_OK && (status = fst_sweep_rows_next(&job->rows, &more, error)) == FST_OK && more) {
+        if (format == FST_EXPORT_JSON)
+            (void)fputs(first ? "\n" : ",\n", job->stream);
+        first = 0;
+        status = format == FST_EXPORT_CSV ? csv_row(job, error) : json_row(job, error);
+    }
+    if (format == FST_EXPORT_JSON)
+        (void)fputs(first ? "]\n" : "\n]\n", job->stream);
+    return status;
+}
+
+static fst_status export_text(export_job *job, fst_export_format format, const char *out, FILE *stream,
+                              fst_error *error)
+{
+    if (!out) {
+        job->stream = stream;
+        return write_text(job, format, error);
+    }
+    fst_whole_file file;
+    fst_status status = fst_whole_file_open(&file, out, error);
+    if (status != FST_OK)
+        return status;
+    job->stream = file.stream;
+    status = write_text(job, format, error);
+    if (status == FST_OK)
+        return fst_whole_file_commit(&file, error);
+    fst_whole_file_discard(&file);
+    return status;
+}
+
+/* ------------------------------------------------------------------ HDF5 */
+
+/* What a column of texts is in HDF5: the index of the text in this list, or NULL where it is left out. */
+static const char *codes_of(const char *column)
+{
+    static const char *const lists[][2] = {
+        {"regime", "undecided|locked|librating|counter-rotating|corotating|chaotic|ejected|lifted"},
+        {"symmetry", "none|S1|S2"},
+        {"dynamics", "rigid|farago2020"},
+        {"status", "done"}};
+    for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i)
+        if (strcmp(lists[i][0], column) == 0)
+            return lists[i][1];
+    const int param = fst_param_find(column);
+    const fst_param_info *info = fst_param_at(param);
+    return info && info->kind == FST_KIND_CHOICE ? info->names : NULL;
+}
+
+/* The place of `text` in a '|'-separated list; NAN where it is not there. */
+static double code_of(const char *list, const char *text)
+{
+    const size_t length = strlen(text);
+    for (int i = 0;; ++i) {
+        const size_t here = strcspn(list, "|");
+        if (here == length && memcmp(list, text, here) == 0)
+            return i;
+        if (!list[here])
+            return NAN;
+        list += here + 1;
+    }
+}
+
+typedef struct hdf5_columns {
+    fst_column_info *infos;
+    const fst_column_info **pointers;
+    int *places; /* columns of the table */
+    double *values;
+    int count;
+} hdf5_columns;
+
+static void describe(const char *name, fst_column_info *info)
+{
+    *info = (fst_column_info){name, "1", ""};
+    const fst_param_info *param = fst_param_at(fst_param_find(name));
+    if (param) {
+        info->unit = param->kind == FST_KIND_CHOICE ? "1" : fst_unit_name(param->unit);
+        info->doc = param->doc;
+    }
+    for (int i = 0; i < fst_result_count(); ++i)
+        if (strcmp(fst_result_at(i)->name, name) == 0) {
+            info->unit = fst_result_at(i)->unit;
+            info->doc = fst_result_at(i)->doc;
+        }
+    if (codes_of(name))
+        info->doc = codes_of(name); /* the texts in the order of their codes 0, 1, ... */
+}
+
+static int list_columns(export_job *job, hdf5_columns *c)
+{
+    const size_t most = (size_t)job->columns;
+    c->infos = calloc(most, sizeof *c->infos);
+    c->pointers = calloc(most, sizeof *c->pointers);
+    c->places = calloc(most, sizeof *c->places);
+    c->values = calloc(most, sizeof *c->values);
+    if (!c->infos || !c->pointers || !c->places || !c->values)
+        return 0;
+    for (int i = 0; i < job->columns; ++i) {
+        const char *name = sqlite3_column_name(job->row, i);
+        const char *type = sqlite3_column_decltype(job->row, i);
+        if (type && strcmp(type, "TEXT") == 0 && !codes_of(name))
+            continue; /* the reason is free text */
+        describe(name, &c->infos[c->count]);
+        c->pointers[c->count] = &c->infos[c->count];
+        c->places[c->count++] = i;
+    }
+    return 1;
+}
+
+static double hdf5_value(sqlite3_stmt *rows, int place)
+{
+    switch (sqlite3_column_type(rows, place)) {
+    case SQLITE_NULL:
+        return NAN;
+    case SQLITE_TEXT:
+        return code_of(codes_of(sqlite3_column_name(rows, place)),
+                       (const char *)sqlite3_column_text(rows, place));
+    default:
+        return sqlite3_column_double(rows, place);
+    }
+}
+
+static fst_status fill_hdf5(export_job *job, const fst_hdf5_module_table *module, fst_whole_file *file,
+                            const hdf5_columns *c, fst_error *error)
+{
+    const char *scene = fst_identity_text(&job->file.lines, "scene");
+    fst_hdf5_writer *writer = NULL;
+    fst_status status =
+        module->create(file->temporary, file->path, c->pointers, c->count, scene ? scene : "", &writer, error);
+    int more;
+    while (status == FST_OK && (status = fst_sweep_rows_next(&job->rows, &more, error)) == FST_OK && more) {
+        for (int i = 0; i < c->count; ++i)
+            c->values[i] = hdf5_value(job->row, c->places[i]);
+        status = module->row(writer, c->values, error);
+    }
+    if (writer && status == FST_OK)
+        status = module->finish(writer, NULL, job->rows.sound == fst_grid_points(job->file.grid), error);
+    else if (writer)
+        module->abandon(writer);
+    return status;
+}
+
+static fst_status export_hdf5(export_job *job, const char *out, fst_error *error)
+{
+    if (!out)
+        return fst_fail(error, FST_BAD_INPUT, "--hdf5", "HDF5 goes into a file: -o FILE.h5");
+    const fst_hdf5_module_table *module;
+    fst_status status = fst_load_hdf5_module(&module, out, error);
+    if (status != FST_OK)
+        return status;
+    hdf5_columns c = {NULL, NULL, NULL, NULL, 0};
+    fst_whole_file file = {.path = NULL};
+    status = list_columns(job, &c) ? fst_whole_file_open(&file, out, error)
+                                   : fst_fail(error, FST_NO_MEMORY, out, "out of memory");
+    if (status == FST_OK) {
+        (void)fclose(file.stream); /* HDF5 opens it by its name */
+        file.stream = NULL;
+        status = fill_hdf5(job, module, &file, &c, error);
+        if (status == FST_OK)
+            status = fst_whole_file_commit(&file, error);
+        else
+            fst_whole_file_discard(&file);
+    }
+    free(c.infos);
+    free(c.pointers);
+    free(c.places);
+    free(c.values);
+    return status;
+}
+
+/* ------------------------------------------------------------------ */
+
+static fst_status export_rows(export_job *job, fst_export_format format, const char *out, FILE *stream,
+                              fst_error *error)
+{
+    fst_status status = fst_sweep_rows_begin(&job->rows, &job->file, error);
+    if (status == FST_OK) {
+        job->row = job->rows.row;
+        job->columns = fst_sweep_column_count(job->file.grid);
+        status = format == FST_EXPORT_HDF5 ? export_hdf5(job, out, error)
+                                           : export_text(job, format, out, stream, error);
+    }
+    /* The rows that are sound have been written; the status says that they are not all. */
+    if (status == FST_OK && !fst_sweep_rows_are_whole(&job->rows))
+        status = fst_sweep_rows_fail(&job->rows,
+                                     out ? "The other rows were exported. "
+                                         : "An export into a file (-o FILE) has the other rows. ",
+                                     error);
+    fst_sweep_rows_end(&job->rows);
+    return status;
+}
+
+fst_status fst_sweep_export(const char *path, fst_export_format format, const char *out, FILE *stream,
+                            fst_error *error)
+{
+    export_job job = {.path = path};
+    fst_status status = fst_sweep_file_open(path, 0, &job.file, error);
+    if (status == FST_OK)
+        status = export_rows(&job, format, out, stream, error);
+    fst_sweep_file_close(&job.file);
+    return status;
+}
+
+int fst_is_sweep(const char *path)
+{
+    int descriptor;
+    if (fst_lock_check_own(path, path, NULL) != FST_OK)
+        return 1;
+    if (fst_open_regular(path, &descriptor, NULL) != FST_OK)
+        return 0;
+    const int begins = fst_database_begins(descriptor);
+    (void)close(descriptor);
+    return begins;
+}

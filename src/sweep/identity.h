@@ -1,0 +1,43 @@
+/* identity.h - what a sweep is, as the table `festoon` of its database says it.
+ *
+ * The table has a line for each thing that must agree for rows to belong together (scene, axes, seed, carrying,
+ * arithmetic), the database's own mark, and a checksum of all these lines.  The checksum of each row begins
+ * with that one, so that a row of another database, however it came here, is not taken for one of this.
+ */
+#ifndef FST_SWEEP_IDENTITY_H
+#define FST_SWEEP_IDENTITY_H
+
+#include "sweep/database.h"
+#include "sweep/journal.h"
+
+/* The table `festoon`: keys in rising order, and their texts. */
+enum { FST_IDENTITY_LIMIT = 32 };
+typedef struct fst_identity_lines {
+    char keys[FST_IDENTITY_LIMIT][24];
+    char *values[FST_IDENTITY_LIMIT];
+    int count;
+} fst_identity_lines;
+
+/* Read and check them.  FST_BAD_INPUT: damaged. */
+fst_status fst_identity_read(sqlite3 *database, const char *path, fst_identity_lines *lines, fst_error *error);
+void fst_identity_free(fst_identity_lines *lines);
+
+/* The text of a key, or NULL. */
+const char *fst_identity_text(const fst_identity_lines *lines, const char *key);
+
+/* Their checksum, with which that of each row begins. */
+uint64_t fst_identity_checksum(const fst_identity_lines *lines);
+
+/* The grid of the scene and the axes. */
+fst_status fst_identity_grid(const fst_identity_lines *lines, const char *path, fst_grid **grid,
+                             fst_error *error);
+
+/* Write all lines of a new database with this mark. */
+fst_status fst_identity_write(sqlite3 *database, const char *path, const fst_sweep_identity *identity,
+                              const char *mark, fst_error *error);
+
+/* FST_BAD_INPUT: the database was made by something else; the sentence says what differs. */
+fst_status fst_identity_compare(const fst_identity_lines *lines, const char *path,
+                                const fst_sweep_identity *identity, fst_error *error);
+
+#endif

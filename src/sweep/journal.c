@@ -1,0 +1,413 @@
+#include "sweep/journal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "host/file_system.h"
+#include "host/whole_file.h"
+#include "sweep/columns.h"
+#include "sweep/file.h"
+#include "sweep/lock.h"
+#include "sweep/make.h"
+
+struct fst_journal {
+    fst_sweep_file file;
+    int descriptor; /* holds the lock; closed after SQLite's, whose locks end when any descriptor is closed */
+    sqlite3_stmt *insert, *next, *state;
+    const fst_grid *grid;
+    char *path; /* as it was given */
+    int in_transaction;
+    int log_pages; /* in the log after the last commit */
+    int64_t lost;
+    int repaired;
+    int is_away; /* the file has lost its name, which has been told */
+};
+
+/* ------------------------------------------------------------------ opening */
+
+static int note_log(void *user, sqlite3 *database, const char *name, int pages)
+{
+    (void)database;
+    (void)name;
+    ((fst_journal *)user)->log_pages = pages;
+    return SQLITE_OK;
+}
+
+static fst_status prepare(fst_journal *journal, fst_error *error)
+{
+    sqlite3 *database = journal->file.database;
+    /* WAL is unsafe on network file systems: a rollback journal is used there, also for what began otherwise.
+     */
+    const char *mode =
+        fst_on_network(journal->path)
+            ? "PRAGMA journal_mode = DELETE; PRAGMA locking_mode = NORMAL; PRAGMA synchronous = FULL"
+            : "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL";
+    fst_status status = fst_database_do(database, journal->path, mode, error);
+    (void)sqlite3_wal_hook(database, note_log, journal);
+    char *insert = fst_sweep_insert_sql(journal->grid);
+    char *state = fst_sweep_state_sql();
+    if (status == FST_OK && (!insert || !state))
+        status = fst_fail(error, FST_NO_MEMORY, journal->path, "out of memory");
+    if (status == FST_OK &&
+        (sqlite3_prepare_v2(database, insert, -1, &journal->insert, NULL) != SQLITE_OK ||
+         sqlite3_prepare_v2(database, "SELECT point FROM rows WHERE point >= ? ORDER BY point", -1,
+                            &journal->next, NULL) != SQLITE_OK ||
+         sqlite3_prepare_v2(database, state, -1, &journal->state, NULL) != SQLITE_OK))
+        status = fst_database_fail(database, journal->path, error);
+    free(insert);
+    free(state);
+    return status;
+}
+
+static void finalize(fst_journal *journal)
+{
+    (void)sqlite3_finalize(journal->insert);
+    (void)sqlite3_finalize(journal->next);
+    (void)sqlite3_finalize(journal->state);
+    journal->insert = journal->next = journal->state = NULL;
+}
+
+static void release(fst_journal *journal)
+{
+    finalize(journal);
+    fst_sweep_file_close(&journal->file);
+    if (journal->descriptor >= 0)
+        (void)close(journal->descriptor);
+    free(journal->path);
+    free(journal);
+}
+
+/* Open an existing file; *descriptor is -1 where it has gone in the meantime. */
+static fst_status open_existing(const char *name, const char *path, int *descriptor, fst_error *error)
+{
+    *descriptor = -1;
+    const fst_status status = fst_lock_check_own(path, name, error);
+    if (status != FST_OK)
+        return status;
+    *descriptor = open(path, O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (*descriptor >= 0 || errno == ENOENT)
+        return FST_OK;
+    if (errno == EISDIR)
+        return fst_fail(error, FST_BAD_INPUT, name, "this is a directory, not a file");
+    if (errno == EACCES || errno == EPERM || errno == EROFS)
+        return fst_fail(error, FST_IO, name, "no permission to write this database (%s)", strerror(errno));
+    return fst_fail(error, FST_IO, name, "this database cannot be opened: %s", strerror(errno));
+}
+
+/* Open an existing file and take its lock; *descriptor is -1 where the file has gone in the meantime. */
+static fst_status lock_existing(const char *name, const char *path, int last, int *descriptor, fst_error *error)
+{
+    char mark[FST_MARK_SIZE];
+    struct stat opened;
+    fst_status status = open_existing(name, path, descriptor, error);
+    if (*descriptor < 0)
+        return status;
+    if (fstat(*descriptor, &opened) != 0 || !S_ISREG(opened.st_mode))
+        status = fst_fail(error, FST_BAD_INPUT, name, "this is a device or a pipe; a regular file is needed");
+    if (status == FST_OK)
+        status = fst_database_head(*descriptor, name, 1, mark, error);
+    const fst_lock_state state = status == FST_OK ? fst_lock_take(*descriptor) : FST_LOCK_FREE;
+    if (state == FST_LOCK_IMPOSSIBLE)
+        status =
+            fst_fail(error, FST_IO, name, "this file cannot be locked (%s): choose one on another file system",
+                     strerror(errno));
+    if (state == FST_LOCK_TAKEN && fst_lock_is_own(*descriptor, name, error)) {
+        *descriptor = -1; /* it stays open: closing it would end the locks of the other call */
+        return FST_IO;
+    }
+    if (state == FST_LOCK_TAKEN && last)
+        status = fst_lock_fail(*descriptor, name, error);
+    if (status == FST_OK && state == FST_LOCK_MINE && fst_sweep_file_is_there(path, &opened)) {
+        fst_sweep_tidy(path);
+        return FST_OK;
+    }
+    (void)close(*descriptor);
+    *descriptor = -1;
+    return status;
+}
+
+/* Make the file or take it, and hold its lock.  A command that was just killed may take a moment to end. */
+static fst_status take_file(const char *name, const char *path, const fst_sweep_identity *identity,
+                            int *descriptor, fst_error *error)
+{
+    enum { TRIES = 100 };
+    const struct timespec moment = {0, 20000000};
+    fst_status status = FST_OK;
+    *descriptor = -1;
+    for (int i = 0; i < TRIES && status == FST_OK && *descriptor < 0; ++i) {
+        if (i > 0)
+            (void)nanosleep(&moment, NULL);
+        status = fst_sweep_is_made(path) ? lock_existing(name, path, i == TRIES - 1, descriptor, error)
+                                         : fst_sweep_make(name, path, identity, descriptor, error);
+    }
+    if (status == FST_OK && *descriptor < 0)
+        status = fst_fail(error, FST_IO, name, "other commands make this file and remove it all the time");
+    return status;
+}
+
+/* Read every row; a damaged database is replaced by one with the sound ones. */
+static fst_status check_rows(fst_journal *journal, const fst_sweep_identity *identity, fst_error *error)
+{
+    fst_sweep_rows rows;
+    int more = 0;
+    fst_status status = fst_sweep_rows_begin(&rows, &journal->file, error);
+    while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more)
+        continue;
+    const int whole = fst_sweep_rows_are_whole(&rows);
+    journal->lost = rows.lost.count + rows.lost.outside;
+    fst_sweep_rows_end(&rows);
+    if (status != FST_OK || whole)
+        return status;
+    journal->repaired = 1;
+    status = fst_sweep_repair(&journal->file, identity, &journal->descriptor, error);
+    return status == FST_OK ? fst_sweep_file_open(journal->path, 1, &journal->file, error) : status;
+}
+
+static fst_status open_taken(fst_journal *journal, const fst_sweep_identity *identity, fst_error *error)
+{
+    struct stat locked;
+    fst_status status = fst_sweep_file_open(journal->path, 1, &journal->file, error);
+    if (status == FST_OK &&
+        (fstat(journal->descriptor, &locked) != 0 || locked.st_ino != journal->file.there.st_ino ||
+         locked.st_dev != journal->file.there.st_dev))
+        status = fst_fail(error, FST_IO, journal->path, "this file was replaced a moment ago: try again");
+    if (status == FST_OK)
+        status = fst_identity_compare(&journal->file.lines, journal->path, identity, error);
+    if (status == FST_OK)
+        status = check_rows(journal, identity, error);
+    if (status == FST_OK)
+        status = prepare(journal, error);
+    return status;
+}
+
+fst_status fst_journal_open(const char *path, const fst_sweep_identity *identity, fst_journal **journal,
+                            fst_error *error)
+{
+    *journal = NULL;
+    fst_journal *made = calloc(1, sizeof *made);
+    if (!made || !(made->path = strdup(path))) {
+        free(made);
+        return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
+    }
+    made->grid = identity->grid;
+    made->descriptor = -1;
+    char *absolute = NULL;
+    fst_status status = fst_database_path(path, &absolute, error);
+    if (status == FST_OK)
+        status = take_file(path, absolute, identity, &made->descriptor, error);
+    free(absolute);
+    if (status == FST_OK)
+        status = open_taken(made, identity, error);
+    if (status != FST_OK) {
+        release(made);
+        return status;
+    }
+    *journal = made;
+    return FST_OK;
+}
+
+int fst_journal_repaired(const fst_journal *journal, int64_t *lost)
+{
+    *lost = journal->lost;
+    return journal->repaired;
+}
+
+/* ------------------------------------------------------------------ rows */
+
+struct sqlite3 *fst_journal_database(const fst_journal *journal)
+{
+    return journal->file.database;
+}
+
+const char *fst_journal_path(const fst_journal *journal)
+{
+    return journal->path;
+}
+
+fst_status fst_journal_begin(fst_journal *journal, fst_error *error)
+{
+    if (journal->in_transaction)
+        return FST_OK;
+    fst_status status = fst_database_do(journal->file.database, journal->path, "BEGIN IMMEDIATE", error);
+    if (status != FST_OK)
+        return status;
+    journal->in_transaction = 1;
+    /* Each transaction writes the page of the mark, by which its log is known. */
+    return fst_database_do(journal->file.database, journal->path, "UPDATE seal SET commits = commits + 1",
+                           error);
+}
+
+fst_status fst_journal_add(fst_journal *journal, const fst_sweep_record *record, fst_error *error)
+{
+    const fst_status begun = fst_journal_begin(journal, error);
+    if (begun != FST_OK)
+        return begun;
+    fst_sweep_bind(journal->insert, journal->grid, journal->file.seed, record);
+    const int code = sqlite3_step(journal->insert);
+    const fst_status status =
+        code == SQLITE_DONE ? FST_OK : fst_database_fail(journal->file.database, journal->path, error);
+    (void)sqlite3_reset(journal->insert);
+    return status;
+}
+
+/* ------------------------------------------------------------------ is it still there? */
+
+/* Where the open file is now, as the kernel tells it. */
+static void find_file(const fst_journal *journal, char *place, size_t size)
+{
+    char link[40];
+    (void)snprintf(link, sizeof link, "/proc/self/fd/%d", journal->descriptor);
+    const ssize_t length = readlink(link, place, size - 1);
+    place[length > 0 ? length : 0] = '\0';
+}
+
+/* The file has no name any more: write what it holds to FILE.rescued, or FILE.rescued-2, ..., if its folder is
+ * there. */
+static fst_status rescue(fst_journal *journal, fst_error *error)
+{
+    enum { MOST = 1000 };
+    char ending[24] = ".rescued", *to = NULL;
+    struct stat there;
+    int is_free = 0, saved = 0;
+    for (int i = 2; i < MOST && !is_free; ++i) {
+        sqlite3_free(to);
+        to = sqlite3_mprintf("%s%s", journal->file.path, ending);
+        is_free = to && lstat(to, &there) != 0;
+        if (!is_free)
+            (void)snprintf(ending, sizeof ending, ".rescued-%d", i);
+    }
+    char *statement = is_free ? sqlite3_mprintf("VACUUM INTO %Q", to) : NULL;
+    if (statement)
+        saved = sqlite3_exec(journal->file.database, statement, NULL, NULL, NULL) == SQLITE_OK;
+    if (saved)
+        (void)fst_sync_directory_of(to);
+    sqlite3_free(statement);
+    sqlite3_free(to);
+    return saved ? fst_fail(error, FST_IO, journal->path,
+                            "this file was deleted or replaced while the sweep ran; its rows were saved as "
+                            "%s%s, which the same command goes on with under its old name",
+                            journal->path, ending)
+                 : fst_fail(error, FST_IO, journal->path,
+                            "this file was deleted or replaced while the sweep ran, and its rows could not be "
+                            "saved beside it; they are lost");
+}
+
+/* FST_IO: rows that were committed went into a file that has no name, or another one. */
+static fst_status check_place(fst_journal *journal, fst_error *error)
+{
+    struct stat mine;
+    if (journal->is_away || fst_sweep_file_is_there(journal->file.path, &journal->file.there))
+        return FST_OK;
+    journal->is_away = 1;
+    (void)sqlite3_wal_checkpoint_v2(journal->file.database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL);
+    if (fstat(journal->descriptor, &mine) != 0 || mine.st_nlink == 0)
+        return rescue(journal, error);
+    char place[300];
+    find_file(journal, place, sizeof place);
+    return fst_fail(error, FST_IO, journal->path,
+                    "this file was renamed or replaced while the sweep ran; its rows are in %s: give that file "
+                    "its old name to go on with it",
+                    place[0] ? place : "the renamed file");
+}
+
+/* ------------------------------------------------------------------ committing */
+
+enum { LOG_PAGES = 1000 };
+
+/* Bring the log's pages into the file, and the log's length to zero: a log that is written over would have old
+ * frames behind its end, among which damage could not be told.  A reader that is busy may put it off. */
+static void empty_log(fst_journal *journal)
+{
+    sqlite3 *database = journal->file.database;
+    (void)sqlite3_busy_timeout(database, 0);
+    if (sqlite3_wal_checkpoint_v2(database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL) == SQLITE_OK)
+        journal->log_pages = 0;
+    (void)sqlite3_busy_timeout(database, 5000);
+}
+
+fst_status fst_journal_commit(fst_journal *journal, fst_error *error)
+{
+    if (!journal->in_transaction)
+        return FST_OK;
+    const fst_status status = fst_database_do(journal->file.database, journal->path, "COMMIT", error);
+    journal->in_transaction = status != FST_OK && !sqlite3_get_autocommit(journal->file.database);
+    if (status == FST_OK && journal->log_pages >= LOG_PAGES)
+        empty_log(journal);
+    return status == FST_OK ? check_place(journal, error) : status;
+}
+
+fst_status fst_journal_count(fst_journal *journal, int64_t *rows, fst_error *error)
+{
+    sqlite3_stmt *query = NULL;
+    fst_status status = FST_OK;
+    if (sqlite3_prepare_v2(journal->file.database, "SELECT count(*) FROM rows", -1, &query, NULL) ==
+            SQLITE_OK &&
+        sqlite3_step(query) == SQLITE_ROW)
+        *rows = sqlite3_column_int64(query, 0);
+    else
+        status = fst_database_fail(journal->file.database, journal->path, error);
+    (void)sqlite3_finalize(query);
+    return status;
+}
+
+fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *points, int room, int *found,
+                               fst_error *error)
+{
+    const int64_t end = fst_grid_points(journal->grid);
+    *found = 0;
+    (void)sqlite3_bind_int64(journal->next, 1, *next);
+    int code = sqlite3_step(journal->next);
+    while (*next < end && *found < room && (code == SQLITE_ROW || code == SQLITE_DONE)) {
+        const int64_t there = code == SQLITE_ROW ? sqlite3_column_int64(journal->next, 0) : end;
+        while (*next < there && *next < end && *found < room)
+            points[(*found)++] = (*next)++;
+        if (*next == there && *next < end) {
+            ++*next;
+            code = sqlite3_step(journal->next);
+        }
+    }
+    const fst_status status = code == SQLITE_ROW || code == SQLITE_DONE
+                                  ? FST_OK
+                                  : fst_database_fail(journal->file.database, journal->path, error);
+    (void)sqlite3_reset(journal->next);
+    return status;
+}
+
+fst_status fst_journal_end_state(fst_journal *journal, int64_t point, int *there, int *usable,
+                                 double state[FST_STATE_SIZE], fst_error *error)
+{
+    (void)sqlite3_bind_int64(journal->state, 1, point);
+    const int code = sqlite3_step(journal->state);
+    *there = code == SQLITE_ROW;
+    *usable = 0;
+    if (*there) {
+        *usable = sqlite3_column_int(journal->state, 0);
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            state[i] = sqlite3_column_double(journal->state, 1 + i);
+    }
+    const fst_status status = code == SQLITE_ROW || code == SQLITE_DONE
+                                  ? FST_OK
+                                  : fst_database_fail(journal->file.database, journal->path, error);
+    (void)sqlite3_reset(journal->state);
+    return status;
+}
+
+fst_status fst_journal_close(fst_journal *journal, fst_error *error)
+{
+    if (!journal)
+        return FST_OK;
+    fst_status status = fst_journal_commit(journal, error);
+    if (status == FST_OK)
+        status = check_place(journal, error);
+    /* Where the checkpoint fails (a full disk), the rows are safe in the log beside the file. */
+    if (status == FST_OK)
+        (void)sqlite3_wal_checkpoint_v2(journal->file.database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL);
+    release(journal);
+    return status;
+}

@@ -1,0 +1,119 @@
+#include "sweep/lock.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "host/file_lock.h"
+
+/* Beside the lock itself, at FST_LOCK_SWEEP: one plus the number of the process, one for each letter of the
+ * host. */
+static const off_t PROCESS_PLACES = (off_t)1 << 32;
+static const off_t HOST_PLACES = (off_t)1 << 33; /* letter i: plus i * STRIDE + letter */
+enum { HOST_LETTERS = 64, HOST_STRIDE = 512 };   /* adjacent locks would merge */
+
+fst_lock_state fst_lock_take(int descriptor)
+{
+    if (fst_lock_byte(descriptor, FST_LOCK_SWEEP, 0) != 0)
+        return errno == EAGAIN || errno == EACCES ? FST_LOCK_TAKEN : FST_LOCK_IMPOSSIBLE;
+    char host[HOST_LETTERS + 1] = "";
+    (void)gethostname(host, sizeof host - 1);
+    (void)fst_lock_byte(descriptor, PROCESS_PLACES + getpid(), 0);
+    for (int i = 0; host[i]; ++i)
+        (void)fst_lock_byte(descriptor, HOST_PLACES + (off_t)i * HOST_STRIDE + (unsigned char)host[i], 0);
+    return FST_LOCK_MINE;
+}
+
+fst_lock_state fst_lock_look(int descriptor)
+{
+    return fst_locked_byte(descriptor, FST_LOCK_SWEEP, 1) < 0 ? FST_LOCK_FREE : FST_LOCK_TAKEN;
+}
+
+void fst_lock_owner(int descriptor, char owner[FST_LOCK_OWNER_SIZE])
+{
+    char host[HOST_LETTERS + 1] = "";
+    for (int i = 0; i < HOST_LETTERS; ++i) {
+        const off_t letter = fst_locked_byte(descriptor, HOST_PLACES + (off_t)i * HOST_STRIDE, 256);
+        host[i] = letter > ' ' && letter < 127 ? (char)letter : '\0';
+        if (!host[i])
+            break;
+    }
+    const off_t process = fst_locked_byte(descriptor, PROCESS_PLACES, (off_t)1 << 31);
+    if (process > 0)
+        (void)snprintf(owner, FST_LOCK_OWNER_SIZE, "process %ld on %s", (long)process,
+                       host[0] ? host : "another computer");
+    else
+        (void)snprintf(owner, FST_LOCK_OWNER_SIZE, "another command");
+}
+
+/* ------------------------------------------------------------------ a sweep of this process */
+
+/* How fst_lock_owner() names this process. */
+static void name_of_this(char owner[FST_LOCK_OWNER_SIZE])
+{
+    char host[HOST_LETTERS + 1] = "";
+    (void)gethostname(host, sizeof host - 1);
+    (void)snprintf(owner, FST_LOCK_OWNER_SIZE, "process %ld on %s", (long)getpid(), host);
+}
+
+static int is_of_this_process(int descriptor)
+{
+    char owner[FST_LOCK_OWNER_SIZE], this[FST_LOCK_OWNER_SIZE];
+    name_of_this(this);
+    fst_lock_owner(descriptor, owner);
+    return fst_lock_look(descriptor) == FST_LOCK_TAKEN && strcmp(owner, this) == 0;
+}
+
+static fst_status fail_own(const char *name, fst_error *error)
+{
+    return fst_fail(error, FST_IO, name,
+                    "this process is itself at work on this sweep, in another call; nothing was changed: wait "
+                    "until that call has ended, or read the file in another process");
+}
+
+/* The journal has two descriptors of its file at least, of which SQLite's does not hold the lock and sees it.
+ */
+fst_status fst_lock_check_own(const char *path, const char *name, fst_error *error)
+{
+    struct stat wanted, found;
+    DIR *open_files = stat(path, &wanted) == 0 ? opendir("/proc/self/fd") : NULL;
+    int own = 0;
+    for (struct dirent *entry = open_files ? readdir(open_files) : NULL; entry && !own;
+         entry = readdir(open_files)) {
+        const int descriptor = entry->d_name[0] == '.' ? -1 : (int)strtol(entry->d_name, NULL, 10);
+        own = descriptor >= 0 && fstat(descriptor, &found) == 0 && found.st_dev == wanted.st_dev &&
+              found.st_ino == wanted.st_ino && is_of_this_process(descriptor);
+    }
+    if (open_files)
+        (void)closedir(open_files);
+    return own ? fail_own(name, error) : FST_OK;
+}
+
+/* The thread with the lock may be about to say whose it is. */
+int fst_lock_is_own(int descriptor, const char *name, fst_error *error)
+{
+    enum { TRIES = 20 };
+    const struct timespec moment = {0, 1000000};
+    int own = is_of_this_process(descriptor);
+    for (int i = 0; i < TRIES && !own && fst_locked_byte(descriptor, PROCESS_PLACES, (off_t)1 << 31) < 0; ++i) {
+        (void)nanosleep(&moment, NULL);
+        own = is_of_this_process(descriptor);
+    }
+    return own ? (fail_own(name, error), 1) : 0;
+}
+
+fst_status fst_lock_fail(int descriptor, const char *path, fst_error *error)
+{
+    char owner[FST_LOCK_OWNER_SIZE];
+    fst_lock_owner(descriptor, owner);
+    return fst_fail(error, FST_IO, path,
+                    "%s is at work on this sweep; nothing was changed: wait for it, end it, or choose another "
+                    "file",
+                    owner);
+}

@@ -1,0 +1,445 @@
+/* sweep.c - a sweep as a job: threads compute rows, one thread of one process keeps the journal.
+ *
+ * That thread looks in the journal for points without a row, gives them to its own workers and, where mpirun
+ * started several processes, to those of the others, and writes the rows that come back.
+ */
+#include "sweep/sweep.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "host/threads.h"
+#include "sweep/checkpoints.h"
+#include "sweep/ranks.h"
+#include "sweep/workers.h"
+
+enum { OPTIONS_COOKIE = 0x53574550, COMMIT_ROWS = 256 };
+static const double COMMIT_SECONDS = 0.5;
+static const double WAIT_SECONDS = 0.05, WAIT_SECONDS_RANKS = 0.002; /* for rows; between looks for messages */
+static const double FAREWELL_SECONDS = 10.0;                         /* for followers that were told to stop */
+
+typedef struct job {
+    fst_sweep_identity identity;
+    fst_journal *journal;
+    fst_checkpoints *checkpoints;
+    const fst_sweep_options *options;
+    fst_ranks ranks;
+    fst_leader *leader; /* NULL where there is one rank */
+    fst_workers *workers;
+    int64_t next; /* point or chain from which on the journal is yet to be looked through */
+    fst_sweep_progress progress;
+    double started, committed;
+    double processor_started, journal_started;
+    int uncommitted; /* rows and images */
+    int stopping;    /* nothing waits for company any more: what comes is committed at once */
+    int no_answer;   /* a follower that was told to stop said nothing more */
+} job;
+
+fst_sweep_options fst_default_sweep_options(void)
+{
+    fst_sweep_options o;
+    memset(&o, 0, sizeof o);
+    o.cookie = OPTIONS_COOKIE;
+    o.arithmetic = fst_best_arithmetic();
+    o.checkpoint_seconds = 3.0;
+    return o;
+}
+
+static double read_clock(clockid_t clock)
+{
+    struct timespec time = {0, 0};
+    (void)clock_gettime(clock, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* What the job has taken so far. */
+static void read_clocks(job *j)
+{
+    j->progress.seconds = fst_clock_seconds() - j->started;
+    j->progress.processor_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - j->processor_started;
+    j->progress.journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - j->journal_started;
+}
+
+/* ------------------------------------------------------------------ tasks */
+
+/* The task that goes on with a chain, if there is anything left of it. */
+static fst_status resume_chain(job *j, int64_t chain, fst_sweep_task *t, int *found, fst_error *error)
+{
+    const int64_t count = fst_chain_length(&j->identity);
+    int there = 1, usable = 0;
+    *found = 0;
+    t->has_start = 0;
+    for (int64_t place = 0; place < count; ++place) {
+        t->point = fst_chain_point(&j->identity, chain, place);
+        double end[FST_STATE_SIZE];
+        const fst_status status = fst_journal_end_state(j->journal, t->point, &there, &usable, end, error);
+        if (status != FST_OK)
+            return status;
+        if (!there) {
+            *found = 1;
+            return FST_OK;
+        }
+        t->has_start = usable;
+        memcpy(t->start, end, sizeof end);
+    }
+    return FST_OK;
+}
+
+/* Tasks from the journal into `fresh`; *found is 0 when there are no more. */
+static fst_status look_for_tasks(job *j, fst_sweep_task *fresh, int room, int *found, fst_error *error)
+{
+    fst_status status = FST_OK;
+    *found = 0;
+    if (j->identity.carry == FST_CARRY_NO) {
+        int64_t points[FST_WORKERS_TASKS];
+        status = fst_journal_missing(j->journal, &j->next, points, room, found, error);
+        for (int i = 0; i < *found; ++i) {
+            fresh[i].point = points[i];
+            fresh[i].has_start = 0;
+        }
+        return status;
+    }
+    for (; j->next < fst_chain_count(&j->identity) && *found < room && status == FST_OK; ++j->next) {
+        int is_open;
+        status = resume_chain(j, j->next, &fresh[*found], &is_open, error);
+        *found += status == FST_OK && is_open;
+    }
+    return status;
+}
+
+/* The images of runs that were broken off go to the workers before their tasks. */
+static void find_images(job *j, const fst_sweep_task *tasks, int count)
+{
+    for (int i = 0; i < count; ++i) {
+        size_t size;
+        void *bytes = fst_checkpoints_get(j->checkpoints, tasks[i].point, &size);
+        fst_image *image = bytes ? fst_image_new(tasks[i].point, bytes, size) : NULL;
+        if (image)
+            fst_workers_give_image(j->workers, image);
+        free(bytes);
+    }
+}
+
+/* Fill the workers' queue of tasks up. */
+static fst_status refill(job *j, fst_error *error)
+{
+    const int room = fst_workers_room(j->workers);
+    if (room == 0)
+        return FST_OK;
+    fst_sweep_task *fresh = malloc((size_t)room * sizeof *fresh);
+    if (!fresh)
+        return fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
+    int found;
+    const fst_status status = look_for_tasks(j, fresh, room, &found, error);
+    if (status == FST_OK) {
+        find_images(j, fresh, found);
+        fst_workers_give(j->workers, fresh, found);
+    }
+    free(fresh);
+    return status;
+}
+
+/* ------------------------------------------------------------------ rows */
+
+static fst_status commit(job *j, fst_error *error)
+{
+    const fst_status status = fst_journal_commit(j->journal, error);
+    j->committed = fst_clock_seconds();
+    j->uncommitted = 0;
+    return status;
+}
+
+/* Write what has come, and commit now and then. */
+static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (int i = 0; i < count && status == FST_OK; ++i) {
+        status = fst_journal_add(j->journal, &rows[i], error);
+        if (status == FST_OK)
+            status = fst_checkpoints_drop(j->checkpoints, rows[i].point, error);
+    }
+    for (int i = 0; i < count; ++i)
+        j->progress.failed += rows[i].status != FST_OK;
+    j->uncommitted += count;
+    if (status == FST_OK && j->uncommitted > 0 &&
+        (j->stopping || j->uncommitted >= COMMIT_ROWS || fst_clock_seconds() - j->committed > COMMIT_SECONDS))
+        status = commit(j, error);
+    if (status == FST_OK) {
+        j->progress.added += count;
+        j->progress.there += count;
+    }
+    return status;
+}
+
+/* Images of runs that are not over; the list is freed. */
+static fst_status write_images(job *j, fst_image *images, fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (const fst_image *i = images; i && status == FST_OK; i = i->next) {
+        status = fst_checkpoints_put(j->checkpoints, i->point, i->bytes, i->size, error);
+        j->uncommitted += 1;
+    }
+    fst_images_free(images);
+    return status;
+}
+
+/* The rows of the other ranks.  What failed there is put into *outcome: rows that have come are written all the
+ * same, unless the journal has failed. */
+static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, fst_status *outcome,
+                                 fst_error *error)
+{
+    fst_status status = FST_OK;
+    int count = j->leader != NULL;
+    while (count > 0 && status == FST_OK) {
+        fst_error trouble;
+        fst_image *images = NULL;
+        const fst_status heard = fst_leader_attend(j->leader, j->workers, rows, &count, &images, &trouble);
+        if (*outcome == FST_OK && heard != FST_OK) {
+            *outcome = heard;
+            if (error)
+                *error = trouble;
+        }
+        if (abandoned) {
+            fst_images_free(images);
+            continue;
+        }
+        status = write_images(j, images, error);
+        if (status == FST_OK)
+            status = write_rows(j, rows, count, error);
+    }
+    return status;
+}
+
+/* What the workers have done: rows for which it is waited so long, and images of runs that are not over. */
+static fst_status hear_workers(job *j, fst_sweep_record *rows, double seconds, int abandoned, int *busy,
+                               fst_error *error)
+{
+    const int count = fst_workers_take(j->workers, rows, seconds, busy);
+    fst_image *images = fst_workers_take_images(j->workers);
+    if (abandoned) {
+        fst_images_free(images);
+        return FST_OK;
+    }
+    const fst_status status = write_images(j, images, error);
+    return status == FST_OK ? write_rows(j, rows, count, error) : status;
+}
+
+/* No more runs are wanted.  The first thing to do is to make safe what there is: whoever ends the other ranks
+ * may end this one soon. */
+static fst_status stop(job *j, fst_sweep_record *rows, fst_status status, fst_error *error)
+{
+    int busy;
+    fst_workers_stop(j->workers, status != FST_OK);
+    if (j->leader)
+        fst_leader_stop(j->leader);
+    j->stopping = 1;
+    if (status == FST_OK)
+        status = hear_workers(j, rows, 0.0, 0, &busy, error);
+    return status == FST_OK ? commit(j, error) : status;
+}
+
+static int followers(const job *j)
+{
+    return j->leader ? fst_leader_followers(j->leader) : 0;
+}
+
+static void wait_for_messages(const job *j, int busy)
+{
+    const struct timespec time = {0, (long)(1e9 * WAIT_SECONDS_RANKS)};
+    if (!busy && followers(j) > 0)
+        (void)nanosleep(&time, NULL);
+}
+
+/* Keep the journal until nobody works any more.  An interruption still writes what was done. */
+static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
+{
+    const double seconds = j->leader ? WAIT_SECONDS_RANKS : WAIT_SECONDS;
+    fst_status status = FST_OK, outcome = FST_OK; /* of the journal; of everything else */
+    double stopped = 0.0;
+    int busy = 1;
+    while (busy || followers(j) > 0) {
+        if (status == FST_OK && outcome == FST_OK)
+            status = refill(j, error);
+        const int failed = status != FST_OK;
+        const fst_status heard = hear_followers(j, rows, failed, &outcome, failed ? NULL : error);
+        status = failed ? status : heard;
+        const fst_status taken = hear_workers(j, rows, seconds, status != FST_OK, &busy, error);
+        status = status == FST_OK ? taken : status;
+        read_clocks(j);
+        if (status == FST_OK && outcome == FST_OK && j->options->progress)
+            outcome = j->options->progress(j->options->user, &j->progress, error);
+        if (stopped == 0.0 && (status != FST_OK || outcome != FST_OK)) {
+            status = stop(j, rows, status, error);
+            stopped = fst_clock_seconds();
+        }
+        j->no_answer = stopped > 0.0 && followers(j) > 0 && fst_clock_seconds() - stopped > FAREWELL_SECONDS;
+        if (j->no_answer && !busy)
+            break;
+        wait_for_messages(j, busy);
+    }
+    return status != FST_OK ? status : outcome;
+}
+
+/* ------------------------------------------------------------------ the job */
+
+/* As many threads as this process has processors, or its share of them where it has neighbours. */
+static int thread_count(const job *j)
+{
+    const int asked = j->options->threads, wanted = asked > 0 ? asked : fst_processors(j->ranks.neighbours);
+    const int64_t tasks = fst_sweep_task_count(&j->identity);
+    return wanted > tasks ? (int)tasks : wanted;
+}
+
+/* Images are written by one process: the more runs there are, the rarer each is saved. */
+static fst_workers_plan workers_plan(const job *j)
+{
+    enum { THREADS_AT_FULL_RATE = 8 };
+    const int threads = thread_count(j), all = threads * j->ranks.count;
+    const double share = 1.0 + (double)((all - 1) / THREADS_AT_FULL_RATE);
+    return (fst_workers_plan){.threads = threads,
+                              .depth = FST_WORKERS_TASKS,
+                              .lanes = j->options->lanes,
+                              .checkpoint_seconds = share * j->options->checkpoint_seconds};
+}
+
+static fst_status work(job *j, fst_error *error)
+{
+    const fst_workers_plan plan = workers_plan(j);
+    fst_sweep_record *rows = malloc(FST_WORKERS_ROWS * sizeof *rows);
+    fst_status status = rows ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
+    if (status == FST_OK && j->ranks.link)
+        status = fst_leader_new(&j->ranks, &j->leader, error);
+    if (status == FST_OK)
+        status = fst_workers_new(&j->identity, &plan, &j->workers, error);
+    if (status == FST_OK) {
+        status = keep_journal(j, rows, error);
+        fst_error own = {FST_OK, "", ""};
+        const fst_status computed = fst_workers_end(j->workers, &own);
+        if (status == FST_OK && computed != FST_OK) {
+            status = computed;
+            if (error)
+                *error = own;
+        }
+    } else {
+        j->no_answer =
+            j->ranks.link != NULL; /* the followers wait in vain; the end of this process ends them */
+    }
+    fst_leader_free(j->leader);
+    free(rows);
+    return status;
+}
+
+static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid, fst_error *error)
+{
+    if (o->lanes != 0 && o->lanes != 1 && o->lanes != 4 && o->lanes != 8)
+        return fst_fail(error, FST_BAD_INPUT, "--lanes", "the number of lanes is 1, 4 or 8, not %d", o->lanes);
+    if (!(o->checkpoint_seconds > 0))
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep", "checkpoint_seconds = %g must be positive",
+                        o->checkpoint_seconds);
+    const char *key = fst_grid_key(grid, 0);
+    if (o->carry != FST_CARRY_NO &&
+        (strcmp(key, "friction.gamma") == 0 || strcmp(key, "magnet.half_length") == 0))
+        return fst_fail(error, FST_BAD_INPUT, "--carry",
+                        "%s changes the units, so a state cannot be carried along it", key);
+    return FST_OK;
+}
+
+/* The rank with the journal, or the only one. */
+static fst_status lead(job *j, const char *path, fst_error *error)
+{
+    fst_status status =
+        fst_arithmetic_fingerprint(j->identity.arithmetic, j->options->lanes, &j->identity.fingerprint, error);
+    if (status == FST_OK)
+        status = fst_journal_open(path, &j->identity, &j->journal, error);
+    if (status == FST_OK)
+        j->progress.repaired = fst_journal_repaired(j->journal, &j->progress.lost);
+    if (status == FST_OK)
+        status = fst_journal_count(j->journal, &j->progress.there, error);
+    if (status == FST_OK)
+        status =
+            fst_checkpoints_open(j->journal, fst_journal_identity_hash(&j->identity), &j->checkpoints, error);
+    fst_ranks_start start = {status, j->identity.arithmetic, fst_journal_identity_hash(&j->identity)};
+    fst_error silence;
+    const fst_status shared = fst_ranks_share_start(&j->ranks, &start, status == FST_OK ? error : &silence);
+    status = status == FST_OK ? shared : status;
+    if (status == FST_OK && (j->progress.there < j->progress.points || j->ranks.link))
+        status = work(j, error);
+    if (status == FST_OK && j->checkpoints)
+        status = fst_checkpoints_drop_all(j->checkpoints, error);
+    fst_checkpoints_close(j->checkpoints);
+    fst_error closing;
+    const fst_status closed = fst_journal_close(j->journal, &closing);
+    if (closed != FST_OK && (status == FST_OK || status == FST_INTERRUPTED)) {
+        status = closed;
+        if (error)
+            *error = closing;
+    }
+    return status;
+}
+
+/* Another rank: it computes what the leader computes, or says that it cannot. */
+static fst_status follow(job *j, fst_error *error)
+{
+    fst_ranks_start start;
+    fst_status status = fst_ranks_share_start(&j->ranks, &start, error);
+    if (status != FST_OK || start.status != FST_OK)
+        return status == FST_OK ? start.status : status;
+    j->identity.arithmetic = start.arithmetic;
+    status = fst_arithmetic_fingerprint(start.arithmetic, j->options->lanes, &j->identity.fingerprint, error);
+    if (status == FST_OK && fst_journal_identity_hash(&j->identity) != start.identity)
+        status =
+            fst_fail(error, FST_BAD_INPUT, "fst_sweep",
+                     "this rank would compute other rows than rank 0: its processor, its festoon, its scene or "
+                     "its options differ");
+    const fst_workers_plan plan = workers_plan(j);
+    return fst_follow(&j->ranks, &j->identity, j->options, &plan, status, error);
+}
+
+/* Lead, follow, or work alone.  What happened to followers, the leader tells. */
+static fst_status run_job(job *j, const char *path, fst_error *error)
+{
+    fst_status status = j->options->with_ranks ? fst_ranks_open(&j->ranks, error) : FST_OK;
+    if (status != FST_OK) {
+        fst_ranks_close(&j->ranks, 0);
+        return status;
+    }
+    j->progress.rank = j->ranks.rank;
+    j->progress.ranks = j->ranks.count;
+    status = j->ranks.rank == 0 ? lead(j, path, error) : follow(j, error);
+    if (j->ranks.rank != 0 && error)
+        *error = (fst_error){status, "", ""};
+    fst_ranks_close(&j->ranks, !j->no_answer);
+    return status;
+}
+
+fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
+                     fst_sweep_progress *result, fst_error *error)
+{
+    memset(result, 0, sizeof *result);
+    if (options->cookie != OPTIONS_COOKIE)
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep",
+                        "the options were not made by fst_default_sweep_options()");
+    fst_grid *grid;
+    fst_status status = fst_grid_new(params, options->axes, options->axis_count, options->seed, &grid, error);
+    if (status != FST_OK)
+        return status;
+    status = check_options(options, grid, error);
+    if (status == FST_OK) {
+        job j = {.identity = {grid, options->seed, options->carry, options->arithmetic, 0},
+                 .options = options,
+                 .ranks = {.count = 1, .neighbours = 1}};
+        j.progress.points = fst_grid_points(grid);
+        j.started = fst_clock_seconds();
+        j.committed = j.started - COMMIT_SECONDS; /* the first row does not wait */
+        j.processor_started = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+        j.journal_started = read_clock(CLOCK_THREAD_CPUTIME_ID);
+        status = run_job(&j, path, error);
+        read_clocks(&j);
+        *result = j.progress;
+    }
+    fst_grid_free(grid);
+    return status;
+}
