@@ -16,6 +16,7 @@ static fst_params own_params(int which)
     p.bead_a = which / 6 == FST_MATERIAL_HARD ? 0.0 : 2.3e-3;
     p.bead_b = which / 6 == FST_MATERIAL_MIXED ? -1.7e-3 : 0.0;
     p.own_reach = 0.9;
+    p.own_shift = 0.1;
     p.own_charge = 4.5;
     p.own_grip = 11.0;
     p.plate_gravity = 1000.0; /* the load is mostly positive in random states */
@@ -29,7 +30,7 @@ static void field_by_hand(const fst_params *p, long double h, long double x, lon
 {
     b[0] = b[1] = b[2] = 0;
     for (int sign = -1; sign <= 1; sign += 2) {
-        const long double d[3] = {x - sign * (long double)p->own_reach, y, h};
+        const long double d[3] = {x - p->own_shift - sign * (long double)p->own_reach, y, h};
         const long double distance = sqrtl(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         for (int i = 0; i < 3; ++i)
             b[i] += sign * p->own_charge * d[i] / (distance * distance * distance);

@@ -275,13 +275,16 @@ static double left_by_newton(const fst_params *p, const fst_orbit *orbit, double
     return s.residual;
 }
 
-static void test_orbit(void **unused)
+/* A magnet that is its own image under half a turn, and one that lies off the middle: no orbit over the latter
+ * is sought or found by half turns. */
+static void check_orbit(double shift)
 {
-    (void)unused;
-    const fst_params p = own_bead(0.5);
+    fst_params p = own_bead(0.5);
+    p.own_shift = shift;
     const fst_orbit orbit = orbit_of(&p);
     assert_int_equal(orbit.turns, -1);
     assert_true(orbit.stable);
+    assert_int_equal(orbit.symmetry, shift == 0.0 ? FST_SYMMETRY_S2 : FST_SYMMETRY_S1);
     CHECK_CLOSE(orbit.means.mean_drive_power / orbit.means.mean_friction_power, 1.0, 1e-9);
     fst_model *model = model_of(&p);
     double end[FST_STATE_SIZE];
@@ -293,6 +296,13 @@ static void test_orbit(void **unused)
     const double far = left_by_newton(&p, &orbit, 1e-2), near = left_by_newton(&p, &orbit, 1e-3);
     assert_true(far < 1e-2 && near > 1e-8);
     CHECK_WITHIN(far / near, 50.0, 200.0);
+}
+
+static void test_orbit(void **unused)
+{
+    (void)unused;
+    check_orbit(0.0);
+    check_orbit(0.02);
 }
 
 /* Locked states are found as well, and their residuals vanish. */

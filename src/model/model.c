@@ -44,6 +44,24 @@ static void set_geometry(const fst_params *p, fst_groups *g)
         g->lambda = p->magnet_width / ((p->magnet_lines - 1) * l);
 }
 
+/* Whether the field has the symmetry S2, which is asked of the field itself, at places that no other symmetry
+ * maps onto each other. */
+static int field_has_s2(const fst_coefficients_double *c)
+{
+    static const double places[][2] = {{0.31, 0.17}, {0.83, -0.59}, {-0.44, 1.07}, {1.63, 0.26}};
+    for (size_t i = 0; i < sizeof places / sizeof *places; ++i) {
+        const double x = places[i][0], y = places[i][1], u[3] = {0.0};
+        double here[3], there[3], unused[3];
+        fst_field_along_double(c, x, y, u, here, unused);
+        fst_field_along_double(c, -x, -y, u, there, unused);
+        const double size = fabs(here[0]) + fabs(here[1]) + fabs(here[2]);
+        for (int k = 0; k < 3; ++k)
+            if (!(fabs(there[k] - (k == 2 ? -here[k] : here[k])) <= 1e-9 * size))
+                return 0;
+    }
+    return 1;
+}
+
 fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
 {
     *model = NULL;
@@ -73,6 +91,7 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
         return fst_fail(error, FST_NO_MEMORY, "fst_model_new", "out of memory");
     made->groups = g;
     made->coefficients = fst_make_coefficients_double(params, &g);
+    made->has_s2 = field_has_s2(&made->coefficients);
     *model = made;
     return FST_OK;
 }

@@ -4,7 +4,7 @@
  * piece are this source with own.reach = 1 and own.charge = 5.
  */
 typedef struct FN(charges) {
-    REAL charge, reach, height;
+    REAL charge, reach, shift, height;
 } FN(charges);
 
 static inline FN(charges) FN(make_charges)(const fst_params *params, const fst_groups *g)
@@ -12,6 +12,7 @@ static inline FN(charges) FN(make_charges)(const fst_params *params, const fst_g
     FN(charges) numbers;
     numbers.charge = REAL_OF(params->own_charge);
     numbers.reach = REAL_OF(params->own_reach);
+    numbers.shift = REAL_OF(params->own_shift);
     numbers.height = REAL_OF(g->h);
     return numbers;
 }
@@ -49,8 +50,8 @@ FN(charges_look)(const FN(charges) * numbers, const fst_kinds *kinds, REAL x, RE
                                      {zero, zero, zero, zero, zero},
                                      {one, one, zero, zero, zero, zero, zero, zero, zero}};
     *at = nothing;
-    FN(add_charge)(numbers->charge, x - numbers->reach, y, numbers->height, at);
-    FN(add_charge)(-numbers->charge, x + numbers->reach, y, numbers->height, at);
+    FN(add_charge)(numbers->charge, x - (numbers->shift + numbers->reach), y, numbers->height, at);
+    FN(add_charge)(-numbers->charge, x - (numbers->shift - numbers->reach), y, numbers->height, at);
 }
 
 SOURCE_ALONG_BY_LOOK(charges)
