@@ -4,6 +4,7 @@
 
 #include "ensemble/lanes.h"
 #include "physics.h"
+#include "same_results.h"
 #include "study/run_image.h"
 
 enum { JOBS = 20, TASKS_WITHOUT_DISCARD = 3 };
@@ -154,20 +155,8 @@ static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int other_lan
 static void check_same(const store *a, const store *b)
 {
     for (int i = 0; i < JOBS; ++i) {
-        const fst_run_result *x = &a->results[i], *y = &b->results[i];
         assert_int_equal(a->statuses[i], b->statuses[i]);
-        for (int k = 0; k < fst_result_count(); ++k)
-            if (memcmp((const char *)x + fst_result_at(k)->offset, (const char *)y + fst_result_at(k)->offset,
-                       sizeof(double)) != 0)
-                fail_msg("job %d: %s differs", i, fst_result_at(k)->name);
-        assert_memory_equal(x->final_state, y->final_state, sizeof x->final_state);
-        assert_int_equal(x->regime, y->regime);
-        assert_int_equal(x->symmetry, y->symmetry);
-        assert_string_equal(x->reason, y->reason);
-        assert_int_equal(x->rhs_calls, y->rhs_calls);
-        assert_int_equal(x->accepted, y->accepted);
-        assert_int_equal(x->rejected, y->rejected);
-        assert_int_equal(x->returns, y->returns);
+        check_same_result(i, &a->results[i], &b->results[i]);
     }
 }
 
@@ -275,12 +264,51 @@ static void test_exponents_hear(void **state)
     }
 }
 
+/* A run takes up what its image knows, and keeps its own parameters, model and flow; a run that was begun from
+ * other parameters keeps those too.  Where the image is refused, nothing of the run changes. */
+static void test_what_a_run_takes_up(void **state)
+{
+    (void)state;
+    static fst_watched_run from, to;
+    const fst_params p = job_params(1), other = job_params(2);
+    fst_exponent exponent;
+    for (int cut_off = 0; cut_off < 2; ++cut_off) {
+        const fst_run_place place = {.stage = FST_STAGE_ALONE};
+        fst_run_place found = {.stage = FST_STAGE_PARKED};
+        double *lane;
+        const double *read;
+        size_t size;
+        int over = 0;
+        assert_int_equal(fst_watched_run_begin(&from, &p, NULL, NULL), FST_OK);
+        assert_int_equal(fst_watched_run_begin(&to, &other, NULL, NULL), FST_OK);
+        assert_int_equal(fst_watched_run_go_on(&from, 50, &over, NULL), FST_OK);
+        const fst_watched_run begun = to;
+        const uint64_t steps = cut_off ? 0 : from.flow->accepted;
+        void *bytes = fst_run_image_make(&from, NULL, &place, 0, &lane, &size);
+        assert_non_null(bytes);
+        const int taken = fst_run_image_take(bytes, size - (size_t)cut_off, 0, &to, &exponent, &found, &read);
+        assert_int_equal(taken, !cut_off);
+        assert_int_equal(found.stage, cut_off ? FST_STAGE_PARKED : FST_STAGE_ALONE);
+        assert_int_equal(to.flow->accepted, steps);
+        assert_ptr_equal(to.params, &other);
+        assert_ptr_equal(to.model, begun.model);
+        assert_ptr_equal(to.flow, begun.flow);
+        assert_memory_equal(&to.window.groups, &begun.window.groups, sizeof to.window.groups);
+        assert_memory_equal(cut_off ? &begun.window.quadrature : &from.window.quadrature, &to.window.quadrature,
+                            sizeof to.window.quadrature);
+        free(bytes);
+        fst_watched_run_free(&from);
+        fst_watched_run_free(&to);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bits),
         cmocka_unit_test(test_what_is_no_image),
         cmocka_unit_test(test_exponents_hear),
+        cmocka_unit_test(test_what_a_run_takes_up),
     };
     return fst_run_images_possible() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }
