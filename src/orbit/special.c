@@ -311,7 +311,9 @@ static fst_status report_other(const interval *i, int test, const fst_node *at, 
         if (!orbit)
             switched = fst_switch_at_hopf(i->family, at, frequency, &born, &ignored);
     } else if (test == FST_TEST_PLUS) {
-        type = is_own_image(&at->s) ? FST_SPECIAL_PITCHFORK : FST_SPECIAL_TRANSCRITICAL;
+        /* The place itself is known poorly across the curve, for Newton's matrix is singular there. */
+        type = is_own_image(&i->a->s) && is_own_image(&i->b->s) ? FST_SPECIAL_PITCHFORK
+                                                                : FST_SPECIAL_TRANSCRITICAL;
         if (!orbit)
             switched = fst_switch_at_pitchfork(i->family, at, &born, &ignored);
     }
