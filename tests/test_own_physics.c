@@ -3,7 +3,7 @@
  * them. */
 #include "physics.h"
 
-#include "ensemble/lanes.h"
+#include "lanes/lanes.h"
 #include "orbit/newton.h"
 #include "study/lane_rows.h"
 

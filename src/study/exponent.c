@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "ensemble/lanes.h"
+#include "lanes/lanes.h"
 #include "ode/flow.h"
 #include "study/growth.h"
 
