@@ -73,6 +73,18 @@ typedef struct fst_error {
     char sentence[768];
 } fst_error;
 
+/* ------------------------------------------------------------------ progress and cancellation */
+
+/* Every call that may last longer than a tenth of a second takes one of these (NULL: the call says nothing and
+ * runs to its end).  The call tells how much of its work is done, `fraction` from 0 to 1, which never falls,
+ * and in `what` which part it is at (NULL where the work has no parts that a person would tell apart).  FST_OK
+ * lets it go on.  Any other status ends the call with that status and with the error that tell() filled in,
+ * which is never NULL; tell() is then not called again.  tell() runs in the thread that made the call. */
+typedef struct fst_progress {
+    void *user;
+    fst_status (*tell)(void *user, double fraction, const char *what, fst_error *error);
+} fst_progress;
+
 /* ------------------------------------------------------------------ parameters */
 
 typedef enum { FST_MATERIAL_HARD, FST_MATERIAL_PARAMAGNETIC, FST_MATERIAL_MIXED } fst_material;
@@ -356,14 +368,14 @@ typedef struct fst_run_sink {
     void *user;
     fst_status (*sample)(void *user, const fst_sample *sample, fst_error *error);
     fst_status (*ramp_point)(void *user, const fst_ramp_point *point, fst_error *error);
-    fst_status (*progress)(void *user, double fraction, fst_error *error);
 } fst_run_sink;
 
 typedef struct fst_run_options {
     uint32_t cookie;
     fst_run_sink sink;
-    double ramp_from, ramp_to; /* drive omega at the start and end of a ramp; NAN: no ramp */
-    int ramp_points;           /* pieces of the ramp over which means are taken */
+    const fst_progress *progress; /* NULL: nobody is told */
+    double ramp_from, ramp_to;    /* drive omega at the start and end of a ramp; NAN: no ramp */
+    int ramp_points;              /* pieces of the ramp over which means are taken */
     double ramp_wait;        /* most turns of the magnet for which each piece waits, half way, until the motion
                               * has settled; 0: the drive changes steadily */
     double ramp_disturbance; /* size of the disturbance with which the motion starts there, scaled */

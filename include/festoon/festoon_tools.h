@@ -147,7 +147,8 @@ FST_API fst_status fst_figure_field(const fst_params *params, const char *out, f
  * values. */
 typedef enum { FST_CARRY_NO, FST_CARRY_UP, FST_CARRY_DOWN } fst_carry;
 
-typedef struct fst_sweep_progress {
+/* How far a sweep is, or how it ended. */
+typedef struct fst_sweep_counts {
     int64_t points, there; /* of the grid; with a row */
     int64_t added, failed; /* rows added by this call; of these, runs that failed */
     double seconds;        /* since the call */
@@ -158,7 +159,7 @@ typedef struct fst_sweep_progress {
      * again, and the damaged file lies beside it as FILE.damaged. */
     int repaired;
     int64_t lost;
-} fst_sweep_progress;
+} fst_sweep_counts;
 
 typedef struct fst_sweep_options {
     uint32_t cookie;
@@ -173,9 +174,9 @@ typedef struct fst_sweep_options {
      * one; all make the same call, rank 0 alone touches the database, and what fails is told by rank 0: the
      * error of the others has the code only.  0: work alone, whoever started this process. */
     int with_ranks;
-    void *user;
-    /* Called every tenth of a second or so; another status than FST_OK ends the sweep, keeping what is done. */
-    fst_status (*progress)(void *user, const fst_sweep_progress *progress, fst_error *error);
+    /* Told every tenth of a second or so (NULL: nobody is told), after the counts were brought up to date.  A
+     * status other than FST_OK ends the sweep; the rows that are done are kept. */
+    const fst_progress *progress;
     /* Seconds of work on a run after which its state is kept in the database, so that killed it goes on from
      * there: 3, unless set.  With more than 8 threads in all ranks, so many times more. */
     double checkpoint_seconds;
@@ -187,9 +188,10 @@ FST_API fst_sweep_options fst_default_sweep_options(void);
  * parameters and the form of arithmetic; killed at any moment, the file keeps what was committed, and the same
  * call goes on. FST_BAD_INPUT: axes; a foreign or differently made file, or one that is damaged beyond repair,
  * which is left untouched.  FST_IO: full disk, no permission; another command is at work on the file; it was
- * deleted or renamed under way.  FST_INTERRUPTED: from `progress`. */
+ * deleted or renamed under way.  FST_INTERRUPTED: from `progress`.
+ * `counts` is up to date whenever `progress` is told, and at the end. */
 FST_API fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
-                             fst_sweep_progress *result, fst_error *error);
+                             fst_sweep_counts *counts, fst_error *error);
 
 typedef enum { FST_EXPORT_CSV, FST_EXPORT_JSON, FST_EXPORT_HDF5 } fst_export_format;
 
@@ -231,13 +233,12 @@ FST_API int fst_is_sweep(const char *path);
 
 typedef struct fst_film_options {
     uint32_t cookie;
-    int width, height;       /* pixels, both even */
-    double fps;              /* frames a second */
-    double from, to;         /* drive periods shown; NAN: all there is */
-    double seconds_per_turn; /* of film for a turn of the magnet */
-    const char *colour;      /* the column that colours the trail; NULL: "slip" */
-    void *user;
-    fst_status (*progress)(void *user, double fraction, fst_error *error);
+    int width, height;            /* pixels, both even */
+    double fps;                   /* frames a second */
+    double from, to;              /* drive periods shown; NAN: all there is */
+    double seconds_per_turn;      /* of film for a turn of the magnet */
+    const char *colour;           /* the column that colours the trail; NULL: "slip" */
+    const fst_progress *progress; /* NULL: nobody is told */
 } fst_film_options;
 /* 720 x 720 pixels, 30 frames a second, one second a turn. */
 FST_API fst_film_options fst_default_film_options(void);
@@ -259,8 +260,7 @@ typedef struct fst_paper_options {
     const char *only; /* if not NULL: the one statement to compute, by its id in paper.json */
     char **summary; /* if not NULL: set to Table 1 and a count of the verdicts as text, or to the one statement
                        as JSON; free() it */
-    void *user;
-    fst_status (*progress)(void *user, double fraction, const char *what, fst_error *error);
+    const fst_progress *progress; /* NULL: nobody is told; `what` names the stage */
 } fst_paper_options;
 FST_API fst_paper_options fst_default_paper_options(void);
 

@@ -36,14 +36,6 @@ typedef struct fst_orbit {
     double state[FST_STATE_SIZE]; /* on Phi = pi/2, passed downward; a libration: where r is greatest */
 } fst_orbit;
 
-/* Who is told how far a long computation is: every few milliseconds, from its innermost loops.  A status other
- * than FST_OK ends it, with that status and with what the callback filled into `error`; the callback is then
- * not called again. */
-typedef struct fst_progress {
-    void *user;
-    fst_status (*tell)(void *user, double fraction, fst_error *error);
-} fst_progress;
-
 /* The stable orbit to which start.* leads: integrated until its returns come close, then polished by Newton's
  * method.  The plate's edge is ignored.  FST_NO_CONVERGENCE: no such orbit; the sentence tells where the bead
  * went instead (locked, ejected, irregular).  `progress` may be NULL. */
@@ -159,8 +151,7 @@ typedef struct fst_branch_options {
     const char *second_key;
     double second_from, second_to;
     fst_special_type special;
-    void *user;
-    fst_status (*progress)(void *user, double fraction, fst_error *error);
+    const fst_progress *progress; /* NULL: nobody is told */
 } fst_branch_options;
 FST_API fst_branch_options fst_default_branch_options(void);
 

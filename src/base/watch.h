@@ -10,6 +10,28 @@
 
 #include <festoon/festoon.h>
 
+/* Tell the caller, if there is one to tell. */
+static inline fst_status fst_tell(const fst_progress *progress, double fraction, const char *what,
+                                  fst_error *error)
+{
+    return progress ? progress->tell(progress->user, fraction, what, error) : FST_OK;
+}
+
+/* A part of a longer piece of work, from one fraction of it to another: fst_part_tell(), with the part as its
+ * user, is the tell() of the part and tells the caller of the whole. */
+typedef struct fst_part {
+    const fst_progress *whole; /* NULL: nobody is told */
+    double from, to;
+    const char *what; /* the name of the part; NULL: the name that the part itself gives */
+} fst_part;
+
+static inline fst_status fst_part_tell(void *user, double fraction, const char *what, fst_error *error)
+{
+    const fst_part *part = (const fst_part *)user;
+    return fst_tell(part->whole, part->from + fraction * (part->to - part->from),
+                    part->what ? part->what : what, error);
+}
+
 enum { FST_WATCH_WORK = 4000 }; /* evaluations between two questions: a few milliseconds */
 
 typedef struct fst_watch {
@@ -51,7 +73,7 @@ static inline fst_status fst_watch_ask(fst_watch *watch, fst_error *error)
         return FST_OK;
     watch->work = 0;
     if (watch->status == FST_OK && watch->progress)
-        watch->status = watch->progress->tell(watch->progress->user, watch->fraction, &watch->error);
+        watch->status = watch->progress->tell(watch->progress->user, watch->fraction, NULL, &watch->error);
     if (watch->status != FST_OK && error)
         *error = watch->error;
     return watch->status;

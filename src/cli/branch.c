@@ -236,9 +236,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return status;
     warn_of_ends(&params, &o);
     progress_line line;
+    const fst_progress progress = {&line, progress_tell};
     progress_begin(&line);
-    o.user = &line;
-    o.progress = progress_tell;
+    o.progress = &progress;
     status = fst_branch_follow(&params, &o, &branch, error);
     progress_end(&line);
     if (status != FST_OK && status != FST_INTERRUPTED)

@@ -50,11 +50,6 @@ static fst_status read_film(const arguments *given, fst_film_options *film, fst_
     return status;
 }
 
-static fst_status show(void *user, double fraction, fst_error *error)
-{
-    return progress_show(user, fraction, "frames", error);
-}
-
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     (void)out;
@@ -62,6 +57,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_film_options film;
     fst_table table;
     progress_line line;
+    const fst_progress progress = {&line, progress_tell};
     const char *path = operand(given), *to = option_value(given, "output");
     if (!path)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
@@ -75,8 +71,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (isnan(film.to))
         film.to = (isnan(film.from) ? 0.0 : film.from) + USUAL_PERIODS;
     progress_begin(&line);
-    film.user = &line;
-    film.progress = show;
+    film.progress = &progress;
     status = fst_film(&table, to, &film, error);
     progress_end(&line);
     if (status == FST_OK)

@@ -25,7 +25,6 @@ static const option options[] = {
 typedef struct run_outputs {
     fst_trajectory *files[2];
     const char *paths[2];
-    progress_line progress;
     fst_ramp_point *ramp;
     size_t ramp_count, ramp_room;
 } run_outputs;
@@ -55,12 +54,6 @@ static fst_status take_ramp_point(void *user, const fst_ramp_point *point, fst_e
     }
     outputs->ramp[outputs->ramp_count++] = *point;
     return FST_OK;
-}
-
-static fst_status take_progress(void *user, double fraction, fst_error *error)
-{
-    run_outputs *outputs = user;
-    return progress_show(&outputs->progress, fraction, NULL, error);
 }
 
 /* ---------------------------------------------------------------- options */
@@ -189,6 +182,8 @@ static fst_status run_into(const arguments *given, const fst_params *params, run
                            fst_error *error)
 {
     fst_run_result result;
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
     fst_run_options run = fst_default_run_options();
     fst_status status = read_ramp(given, params->friction_gamma, &run, error);
     if (status == FST_OK)
@@ -199,13 +194,13 @@ static fst_status run_into(const arguments *given, const fst_params *params, run
         status = open_files(given, params, outputs, error);
     if (status == FST_OK) {
         run.sink.user = outputs;
-        run.sink.progress = take_progress;
+        run.progress = &progress;
         run.sink.ramp_point = take_ramp_point;
         if (outputs->files[0] || outputs->files[1])
             run.sink.sample = take_sample;
-        progress_begin(&outputs->progress);
+        progress_begin(&line);
         status = fst_run(params, &run, &result, error);
-        progress_end(&outputs->progress);
+        progress_end(&line);
     }
     status = close_files(outputs, status, &result, error);
     return status == FST_OK ? print_result(given, params, &result, outputs, out, error) : status;

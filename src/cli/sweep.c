@@ -88,6 +88,7 @@ static fst_status read_sweep(const arguments *given, const char **axes, fst_swee
 /* What is shown while the sweep is at work. */
 typedef struct display {
     progress_line line;
+    fst_sweep_counts counts;  /* the library keeps them up to date */
     fst_params contradiction; /* a point whose bead no material makes */
     int to_warn;
 } display;
@@ -115,21 +116,24 @@ static void look_for_contradiction(display *shown, const fst_params *params, con
     fst_grid_free(grid);
 }
 
-static fst_status show(void *user, const fst_sweep_progress *p, fst_error *error)
+static fst_status show(void *user, double fraction, const char *part, fst_error *error)
 {
+    (void)part;
     char what[64];
-    warn_once(user, p->rank);
+    display *all = user;
+    const fst_sweep_counts *p = &all->counts;
+    warn_once(all, p->rank);
     if (p->rank != 0)
         return interrupted() ? fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
     /* A sweep that goes on counts what is there, but hopes for the speed of this call. */
     const double rate = p->seconds > 0 ? (double)p->added / p->seconds : 0.0;
     (void)snprintf(what, sizeof what, "%lld of %lld points, %.3g a second", (long long)p->there,
                    (long long)p->points, rate);
-    return progress_show_left(&((display *)user)->line, (double)p->there / (double)p->points,
-                              rate > 0 ? (double)(p->points - p->there) / rate : INFINITY, what, error);
+    return progress_show_left(&all->line, fraction, rate > 0 ? (double)(p->points - p->there) / rate : INFINITY,
+                              what, error);
 }
 
-static void print_sweep(FILE *out, const char *path, const fst_sweep_progress *p, int json)
+static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, int json)
 {
     if (json) {
         (void)fprintf(
@@ -153,19 +157,18 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_progress *p
                   p->seconds, path, path);
 }
 
-static void tell_of_repair(const char *path, const fst_sweep_progress *result)
+static void tell_of_repair(const char *path, const fst_sweep_counts *counts)
 {
     (void)fprintf(stderr,
                   "festoon: %s: this database was damaged; its sound rows were kept, the lost ones (%lld) "
                   "are computed again, and the damaged file was kept as %s.damaged\n",
-                  path, (long long)result->lost, path);
+                  path, (long long)counts->lost, path);
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
     fst_sweep_options sweep;
-    fst_sweep_progress result;
     const char *axes[OPTION_LIMIT], *path = option_value(given, "output");
     if (!path)
         return fail(error, FST_BAD_INPUT, "", "tell where the rows go: -o FILE.db");
@@ -177,25 +180,25 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     display shown = {.to_warn = 0};
     look_for_contradiction(&shown, &params, &sweep);
     progress_begin(&shown.line);
-    sweep.user = &shown;
-    sweep.progress = show;
+    const fst_progress progress = {&shown, show};
+    sweep.progress = &progress;
     sweep.with_ranks = 1;
-    status = fst_sweep(&params, path, &sweep, &result, error);
+    status = fst_sweep(&params, path, &sweep, &shown.counts, error);
     progress_end(&shown.line);
     if (status == FST_OK)
-        warn_once(&shown, result.rank);
+        warn_once(&shown, shown.counts.rank);
     /* Rank 0 tells what happened to all, in words and by its status: mpirun kills the others as soon as one
      * process has ended with a status of its own, be rank 0 still about to speak. */
-    if (result.rank != 0)
+    if (shown.counts.rank != 0)
         return FST_OK;
-    if (result.repaired)
-        tell_of_repair(path, &result);
+    if (shown.counts.repaired)
+        tell_of_repair(path, &shown.counts);
     if (status == FST_INTERRUPTED)
         return fail(error, FST_INTERRUPTED, path,
                     "interrupted with %lld of %lld points done; the same command goes on",
-                    (long long)result.there, (long long)result.points);
+                    (long long)shown.counts.there, (long long)shown.counts.points);
     if (status == FST_OK)
-        print_sweep(out, path, &result, option_value(given, "json") != NULL);
+        print_sweep(out, path, &shown.counts, option_value(given, "json") != NULL);
     return status;
 }
 

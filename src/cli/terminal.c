@@ -116,9 +116,9 @@ fst_status progress_show(progress_line *line, double fraction, const char *what,
                               what, error);
 }
 
-fst_status progress_tell(void *line, double fraction, fst_error *error)
+fst_status progress_tell(void *line, double fraction, const char *what, fst_error *error)
 {
-    return progress_show(line, fraction, NULL, error);
+    return progress_show(line, fraction, what, error);
 }
 
 void progress_end(progress_line *line)

@@ -28,8 +28,8 @@ fst_status progress_show(progress_line *line, double fraction, const char *what,
 fst_status progress_show_left(progress_line *line, double fraction, double seconds_left, const char *what,
                               fst_error *error);
 
-/* As a callback of the library: `line` is a progress_line. */
-fst_status progress_tell(void *line, double fraction, fst_error *error);
+/* progress_show() as the tell() of an fst_progress: `line` is a progress_line. */
+fst_status progress_tell(void *line, double fraction, const char *what, fst_error *error);
 
 /* Wipe the line. */
 void progress_end(progress_line *line);

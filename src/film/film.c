@@ -1,5 +1,6 @@
 /* film.c - fst_film(): a trajectory as a film, frame by frame. */
 #include "base/error.h"
+#include "base/watch.h"
 #include "base/number.h"
 #include "draw/style.h"
 #include "film/ffmpeg.h"
@@ -205,8 +206,8 @@ static fst_status make_frames(film *f, fst_error *error)
         frame.clock = clock;
         f->module->paint(f->canvas, &f->stage, &frame);
         fst_status status = give_frame(f, i, error);
-        if (status == FST_OK && o->progress)
-            status = o->progress(o->user, (i + 1.0) / f->frames, error);
+        if (status == FST_OK)
+            status = fst_tell(o->progress, (i + 1.0) / f->frames, "frames", error);
         if (status != FST_OK)
             return status;
     }

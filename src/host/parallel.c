@@ -1,6 +1,7 @@
 #include "host/parallel.h"
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "host/threads.h"
 
 static const double ASK_SECONDS = 0.02; /* between two calls of progress() */
@@ -51,7 +52,7 @@ static fst_status watch(pool *all, fst_error *error)
         const int told = all->done;
         if (all->work->progress && status == FST_OK) {
             pthread_mutex_unlock(&all->lock);
-            status = all->work->progress(all->work->user, told, error);
+            status = fst_tell(all->work->progress, (double)told / all->work->count, NULL, error);
             pthread_mutex_lock(&all->lock);
             if (status != FST_OK)
                 all->stopped = 1;

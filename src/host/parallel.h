@@ -10,9 +10,10 @@ typedef struct fst_work {
     /* Do piece `index`.  Pieces may run at the same time and in any order, so each writes into its own place;
      * then the results do not depend on the threads. */
     fst_status (*piece)(void *user, int index, fst_error *error);
-    /* Called by the calling thread alone, every 20 ms and oftener, with the number of pieces done; may be NULL.
-     * Another status than FST_OK ends the work: no new pieces begin, and those at work should be told. */
-    fst_status (*progress)(void *user, int done, fst_error *error);
+    /* Told every 20 ms and oftener, by the calling thread alone, which fraction of the pieces is done; NULL:
+     * nobody is told.  A status other than FST_OK ends the work: no new piece begins.  A piece at work is not
+     * broken off, so long pieces ask the caller themselves. */
+    const fst_progress *progress;
 } fst_work;
 
 /* Do all pieces on as many threads as there are processors for this process, and wait for them.  If pieces

@@ -9,7 +9,6 @@
 typedef struct collector {
     fst_table *table;
     size_t room;
-    const fst_progress *progress;
 } collector;
 
 static fst_status grow(collector *collected, fst_error *error)
@@ -42,12 +41,6 @@ static fst_status take(void *user, const fst_sample *sample, fst_error *error)
     return FST_OK;
 }
 
-static fst_status ask(void *user, double fraction, fst_error *error)
-{
-    const fst_progress *progress = ((const collector *)user)->progress;
-    return progress->tell(progress->user, fraction, error);
-}
-
 fst_status fst_collect_run(const fst_params *params, const fst_progress *progress, fst_run_result *result,
                            fst_table *table, fst_error *error)
 {
@@ -55,11 +48,11 @@ fst_status fst_collect_run(const fst_params *params, const fst_progress *progres
     table->columns = calloc(FST_COLUMN_COUNT, sizeof *table->columns);
     if (!table->columns)
         return fst_fail(error, FST_NO_MEMORY, "trajectory", "no memory for a table");
-    collector collected = {.table = table, .progress = progress};
+    collector collected = {.table = table};
     fst_run_options options = fst_default_run_options();
     options.sink.user = &collected;
     options.sink.sample = take;
-    options.sink.progress = progress ? ask : NULL;
+    options.progress = progress;
     options.sample_from = params->run_discard;
     fst_status status = fst_run(params, &options, result, error);
     table->complete = status == FST_OK;

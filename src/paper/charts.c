@@ -1,7 +1,7 @@
 /* charts.c - the paper's figures of curves over the drive. */
 #include "base/error.h"
 #include "draw/chart.h"
-#include "paper/paper.h"
+#include "paper/figures.h"
 
 #include <stdlib.h>
 

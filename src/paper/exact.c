@@ -1,6 +1,7 @@
 /* exact.c - what needs no run: the drives at which patterns close, where the period halves and where
  * counter-rotation ends, on the branch of periodic orbits. */
-#include "paper/paper.h"
+#include "paper/runs.h"
+#include "paper/statements.h"
 
 #include "base/error.h"
 
@@ -70,8 +71,7 @@ static fst_status find_locked_end(const fst_params *params, const fst_progress *
     options.kind = FST_BRANCH_LOCKED;
     options.from = LOCKED_FROM;
     options.to = LOCKED_TO;
-    options.user = progress->user;
-    options.progress = progress->tell;
+    options.progress = progress;
     fst_branch branch;
     const fst_status status = fst_branch_follow(params, &options, &branch, error);
     double highest = -INFINITY;
@@ -128,13 +128,12 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
 {
     fst_dynamics dynamics = (fst_dynamics)index;
     fst_paper_exact *exact = &paper->exact[dynamics];
-    const fst_progress *progress = &paper->patience;
+    const fst_progress *progress = &paper->obedience;
     fst_params params = params_at(dynamics, BRANCH_START);
     fst_branch_options options = fst_default_branch_options();
     options.from = BRANCH_FROM;
     options.to = BRANCH_TO;
-    options.user = progress->user;
-    options.progress = progress->tell;
+    options.progress = progress;
     fst_branch branch;
     fst_error why = {.code = FST_OK};
     fst_status status = fst_branch_follow(&params, &options, &branch, &why);

@@ -1,8 +1,11 @@
 /* figures.c - the table of the paper's figures. */
-#include "paper/paper.h"
+#include "paper/figures.h"
+#include "paper/runs.h"
+#include "paper/work.h"
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/watch.h"
 #include "host/parallel.h"
 
 #include <stdio.h>
@@ -70,7 +73,7 @@ static const fst_paper_figure figures[] = {
      .each = 1,
      .statements = "halving|halving-branch|halving-root|halving-time",
      .scan = FST_SCAN_COMPARISON,
-     .step = FST_STEP_HALVING,
+     .step = FST_PAPER_STEP_HALVING,
      .draw = fst_paper_draw_supercritical},
     {.name = "remanence",
      .source = "section on the paramagnetic bead, carried on",
@@ -80,7 +83,7 @@ static const fst_paper_figure figures[] = {
                 "the lines guide the eye.",
      .statements = "remanence",
      .scan = FST_SCAN_COMPARISON,
-     .step = FST_STEP_REMANENCE,
+     .step = FST_PAPER_STEP_REMANENCE,
      .draw = fst_paper_draw_remanence},
     {.name = "portrait",
      .source = "Fig. portrait",
@@ -301,7 +304,6 @@ static fst_status draw_one(fst_paper_state *paper, int index, fst_error *error)
 typedef struct gallery {
     fst_paper_state *paper;
     int list[FST_MOST_FIGURES], count;
-    double from, to;
 } gallery;
 
 /* Each figure has its own place in `drawn`. */
@@ -314,23 +316,17 @@ static fst_status draw_piece(void *user, int place, fst_error *error)
     return status;
 }
 
-static fst_status progress_of_gallery(void *user, int done, fst_error *error)
-{
-    const gallery *all = user;
-    const fst_paper_options *options = all->paper->options;
-    double fraction = all->from + (all->to - all->from) * done / all->count;
-    return options->progress ? options->progress(options->user, fraction, "figures", error) : FST_OK;
-}
-
 fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to, fst_error *error)
 {
-    gallery all = {.paper = paper, .from = from, .to = to};
+    gallery all = {.paper = paper};
     for (int i = 0; i < fst_paper_figure_count(); i++) {
         fst_paper_figure figure = fst_paper_figure_at(i);
         if (!paper->drawn[i] && fst_paper_has(paper, figure.step, figure.scan))
             all.list[all.count++] = i;
     }
-    fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = progress_of_gallery};
+    fst_part part = {paper->options->progress, from, to, "figures"};
+    const fst_progress progress = {&part, fst_part_tell};
+    fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = &progress};
     double began = fst_clock_seconds();
     fst_status status = fst_parallel(&work, error);
     fst_paper_note_time(paper, "figures", began);

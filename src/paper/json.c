@@ -1,5 +1,8 @@
 /* json.c - paper.json: the comparison for programs. */
-#include "paper/paper.h"
+#include "paper/figures.h"
+#include "paper/report.h"
+#include "paper/runs.h"
+#include "paper/work.h"
 
 #include "base/error.h"
 #include "host/whole_file.h"
@@ -40,7 +43,7 @@ static json_t *orbits_object(const fst_paper_state *paper)
 static json_t *table1_array(const fst_paper_state *paper)
 {
     json_t *rows = json_array();
-    int known = fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE);
+    int known = fst_paper_has(paper, FST_PAPER_STEP_RUNS, FST_SCAN_TABLE);
     for (int row = 0; row < FST_TABLE1_ROWS && known; row++) {
         json_t *object = json_object();
         json_object_set_new(object, "omega", json_real(fst_table1[row].omega));

@@ -2,7 +2,7 @@
 #ifndef FST_PAPER_MEASURES_H
 #define FST_PAPER_MEASURES_H
 
-#include "paper/paper.h"
+#include "paper/state.h"
 
 /* Each has the signature of fst_statement.measure. */
 #define FST_MEASURE(name)                                                                                      \

@@ -3,6 +3,7 @@
 #define FST_PAPER_MEASURES_PARTS_H
 
 #include "paper/measures.h"
+#include "paper/runs.h"
 
 #include "io/collect.h"
 

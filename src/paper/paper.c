@@ -1,5 +1,9 @@
 /* paper.c - fst_paper(): everything the paper shows, computed again. */
-#include "paper/paper.h"
+#include "paper/figures.h"
+#include "paper/report.h"
+#include "paper/runs.h"
+#include "paper/statements.h"
+#include "paper/work.h"
 
 #include "base/clock.h"
 #include "base/error.h"
@@ -22,10 +26,10 @@ fst_paper_options fst_default_paper_options(void)
 
 /* ------------------------------------------------------------------ the whole */
 
-static fst_status be_patient(void *user, double fraction, fst_error *error)
+static fst_status obey(void *user, double fraction, const char *what, fst_error *error)
 {
     fst_paper_state *paper = user;
-    (void)fraction;
+    (void)fraction, (void)what;
     return atomic_load(&paper->refused) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 
@@ -118,9 +122,9 @@ static fst_status make_one(fst_paper_state *paper, const fst_statement *statemen
     fst_paper_step step = statement->step;
     paper->first_scan = (int)statement->scan;
     fst_status status = statement->scan == FST_SCAN_NONE ? FST_OK : fst_paper_make_runs(paper, error);
-    if (status == FST_OK && step >= FST_STEP_EXACT && step <= FST_STEP_HALVING)
+    if (status == FST_OK && step >= FST_PAPER_STEP_EXACT && step <= FST_PAPER_STEP_HALVING)
         status = fst_paper_find_orbits(paper, error);
-    if (status == FST_OK && step >= FST_STEP_THRESHOLDS && step <= FST_STEP_HALVING)
+    if (status == FST_OK && step >= FST_PAPER_STEP_THRESHOLDS && step <= FST_PAPER_STEP_HALVING)
         status = fst_paper_find_thresholds(paper, error);
     return status == FST_OK ? fst_paper_make_probes(paper, &step, error) : status;
 }
@@ -170,7 +174,7 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
         return fst_fail(error, FST_BAD_INPUT, "fst_paper",
                         "the options were not made by fst_default_paper_options()");
     fst_paper_state paper = {.options = options, .directory = directory};
-    paper.patience = (fst_progress){&paper, be_patient};
+    paper.obedience = (fst_progress){&paper, obey};
     fst_status status = options->only ? FST_OK : make_directory(&paper, error);
     if (status != FST_OK)
         return status;

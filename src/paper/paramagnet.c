@@ -1,6 +1,7 @@
 #include "paper/paramagnet.h"
 
 #include "base/error.h"
+#include "base/watch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -296,8 +297,7 @@ static fst_status counter_rotates(const fst_params *params, const fst_kappa_scan
         double speed;
         /* Half a turn further the start is the image under S2 of this one: the same motion. */
         tried.start_phi = params->start_phi + 180.0 * start / scan->starts;
-        if (scan->progress)
-            status = scan->progress->tell(scan->progress->user, 0.0, error);
+        status = fst_tell(scan->progress, 0.0, NULL, error);
         if (status != FST_OK)
             return status;
         status = begin(&bead, &tried, error);

@@ -4,7 +4,8 @@
 #include "draw/chart.h"
 #include "draw/figure_setup.h"
 #include "io/collect.h"
-#include "paper/paper.h"
+#include "paper/figures.h"
+#include "paper/runs.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,8 @@
 /* report.c - report.html: the comparison for people, in one file that needs nothing else. */
-#include "paper/paper.h"
+#include "paper/figures.h"
+#include "paper/report.h"
+#include "paper/runs.h"
+#include "paper/work.h"
 #include "paper/report_parts.h"
 
 #include "base/error.h"
@@ -18,7 +21,7 @@ static void write_summary(FILE *out, const fst_paper_state *paper)
     int tally[FST_PAPER_DYNAMICS][3] = {{0}};
     (void)fst_paper_tally(paper, tally);
     int rows[FST_PAPER_DYNAMICS] = {0};
-    int known = fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE);
+    int known = fst_paper_has(paper, FST_PAPER_STEP_RUNS, FST_SCAN_TABLE);
     for (int row = 0; row < FST_TABLE1_ROWS && known; row++)
         for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
             rows[d] += fst_table1_verdict(paper, row, (fst_dynamics)d) == FST_VERDICT_REPRODUCED;
@@ -60,7 +63,8 @@ static void write_festoons(FILE *out, const fst_paper_state *paper, int row, fst
         fprintf(out, "<br><small>%d at ω = %.7f</small></td>", fst_table1[row].count, closed->omega);
     else
         fprintf(out, "<br><small>%d: %s</small></td>", fst_table1[row].count,
-                paper->done[FST_STEP_EXACT] && !paper->exact[d].missing[0] ? "nowhere stable" : "not searched");
+                paper->done[FST_PAPER_STEP_EXACT] && !paper->exact[d].missing[0] ? "nowhere stable"
+                                                                                 : "not searched");
 }
 
 static void write_orbits_missing(FILE *out, const fst_paper_state *paper)
@@ -85,7 +89,7 @@ static void write_orbits_missing(FILE *out, const fst_paper_state *paper)
 static void write_table1(FILE *out, const fst_paper_state *paper)
 {
     char command[256];
-    if (!fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE))
+    if (!fst_paper_has(paper, FST_PAPER_STEP_RUNS, FST_SCAN_TABLE))
         return;
     fst_paper_scan_command(paper, FST_SCAN_TABLE, FST_DYNAMICS_FARAGO2020, command, sizeof command);
     fputs("<h2 id=\"table1\">Table 1: how many festoons?</h2>\n"

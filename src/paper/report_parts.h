@@ -2,7 +2,7 @@
 #ifndef FST_PAPER_REPORT_PARTS_H
 #define FST_PAPER_REPORT_PARTS_H
 
-#include "paper/paper.h"
+#include "paper/statements.h"
 
 #include <stdio.h>
 

@@ -1,5 +1,7 @@
 /* runs.c - the runs that the comparison with the paper rests on. */
-#include "paper/paper.h"
+#include "paper/runs.h"
+#include "paper/statements.h"
+#include "paper/work.h"
 
 #include "base/error.h"
 
@@ -93,7 +95,7 @@ static fst_status make_run(fst_paper_state *paper, fst_scan scan, fst_paper_run 
 {
     fst_table *trajectory = scans[scan].samples ? &run->trajectory : NULL;
     const fst_status status =
-        fst_paper_run_settled(&run->params, &paper->patience, &run->result, trajectory, error);
+        fst_paper_run_settled(&run->params, &paper->obedience, &run->result, trajectory, error);
     run->done = status == FST_OK;
     return status;
 }
@@ -189,7 +191,7 @@ static fst_status probe(const fst_paper_state *paper, fst_change change, fst_dyn
         status = set(&params, "run.discard", changes[change].discard, status, error);
     }
     if (status == FST_OK)
-        status = fst_paper_run_settled(&params, &paper->patience, &result, NULL, error);
+        status = fst_paper_run_settled(&params, &paper->obedience, &result, NULL, error);
     if (status == FST_OK)
         *below = isnan(result.mean_r) && fst_paper_may_settle(&result) ? -1 : is_below(change, &result);
     return status;
@@ -266,13 +268,13 @@ fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error)
 
 fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error)
 {
-    fst_paper_stage runs = {"runs", 0.0, 0.45, piece_count(paper), FST_STEP_RUNS, scan_piece};
+    fst_paper_stage runs = {"runs", 0.0, 0.45, piece_count(paper), FST_PAPER_STEP_RUNS, scan_piece};
     return fst_paper_do(paper, &runs, error);
 }
 
 fst_status fst_paper_find_orbits(fst_paper_state *paper, fst_error *error)
 {
-    fst_paper_stage exact = {"periodic orbits",   0.5, 0.6, FST_PAPER_DYNAMICS, FST_STEP_EXACT,
+    fst_paper_stage exact = {"periodic orbits",   0.5, 0.6, FST_PAPER_DYNAMICS, FST_PAPER_STEP_EXACT,
                              fst_paper_find_exact};
     return fst_paper_do(paper, &exact, error);
 }
@@ -280,13 +282,13 @@ fst_status fst_paper_find_orbits(fst_paper_state *paper, fst_error *error)
 fst_status fst_paper_find_thresholds(fst_paper_state *paper, fst_error *error)
 {
     fst_paper_stage changes_stage = {
-        "thresholds", 0.6, 0.65, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, FST_STEP_THRESHOLDS, find_change};
+        "thresholds", 0.6, 0.65, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, FST_PAPER_STEP_THRESHOLDS, find_change};
     return fst_paper_do(paper, &changes_stage, error);
 }
 
 int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan scan)
 {
-    if (step != FST_STEP_RUNS && !paper->done[step])
+    if (step != FST_PAPER_STEP_RUNS && !paper->done[step])
         return 0;
     for (int s = (int)scan; s < FST_SCAN_COUNT; s++)
         for (int d = 0; d < FST_PAPER_DYNAMICS; d++)

@@ -1,7 +1,7 @@
 /* settle.c - runs that are followed until their motion has settled, so that no statement rests on means
  * of one that has not. */
 #include "io/collect.h"
-#include "paper/paper.h"
+#include "paper/runs.h"
 
 #include <stdio.h>
 
@@ -53,10 +53,7 @@ fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progres
                                  fst_table *trajectory, fst_error *error)
 {
     fst_run_options options = fst_default_run_options();
-    if (progress) {
-        options.sink.user = progress->user;
-        options.sink.progress = progress->tell;
-    }
+    options.progress = progress;
     for (int doublings = 0;; doublings++) {
         const fst_status status = trajectory ? fst_collect_run(params, progress, result, trajectory, error)
                                              : fst_run(params, &options, result, error);

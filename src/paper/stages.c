@@ -1,6 +1,7 @@
 /* stages.c - the probes of the paper: near the period halving, on the corotating motion, and of beads
  * that the field magnetises. */
-#include "paper/paper.h"
+#include "paper/runs.h"
+#include "paper/work.h"
 
 #include "base/error.h"
 
@@ -132,7 +133,7 @@ static fst_status remanence_piece(fst_paper_state *paper, int index, fst_error *
     params.bead_a = fst_remanence_strengths[strength];
     params.run_rtol = 1e-8;
     fst_kappa_scan scan = paper->options->reduced ? reduced_remanence_scan : fst_remanence_scan;
-    scan.progress = &paper->patience;
+    scan.progress = &paper->obedience;
     return fst_least_kappa(&params, &scan, least, error);
 }
 
@@ -147,17 +148,18 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *o
             return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d starts", paper->search_count);
     }
     const fst_paper_stage stages[] = {
-        {"period halving", 0.65, 0.72, FST_HALVING_POINTS * FST_PAPER_DYNAMICS, FST_STEP_HALVING,
+        {"period halving", 0.65, 0.72, FST_HALVING_POINTS * FST_PAPER_DYNAMICS, FST_PAPER_STEP_HALVING,
          halving_piece},
         {"rapid corotation", 0.72, 0.75, FST_PAPER_DYNAMICS * FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS,
-         FST_STEP_ANSATZ, ansatz_piece},
-        {"paramagnetic beads", 0.75, 0.87, FST_PAPER_DYNAMICS * paper->search_count, FST_STEP_SEARCH,
+         FST_PAPER_STEP_ANSATZ, ansatz_piece},
+        {"paramagnetic beads", 0.75, 0.87, FST_PAPER_DYNAMICS * paper->search_count, FST_PAPER_STEP_SEARCH,
          search_piece},
-        {"identities", 0.87, 0.88, FST_PAPER_DYNAMICS * FST_BALANCE_CASES, FST_STEP_BALANCES, balance_piece},
+        {"identities", 0.87, 0.88, FST_PAPER_DYNAMICS * FST_BALANCE_CASES, FST_PAPER_STEP_BALANCES,
+         balance_piece},
         /* The statement alone rests on the first drive and strength. */
         {"remanence", 0.88, 0.97,
-         FST_PAPER_DYNAMICS * (only ? 1 : FST_REMANENCE_DRIVES * FST_REMANENCE_STRENGTHS), FST_STEP_REMANENCE,
-         remanence_piece},
+         FST_PAPER_DYNAMICS * (only ? 1 : FST_REMANENCE_DRIVES * FST_REMANENCE_STRENGTHS),
+         FST_PAPER_STEP_REMANENCE, remanence_piece},
     };
     fst_status status = FST_OK;
     for (size_t i = 0; i < sizeof stages / sizeof stages[0] && status == FST_OK; i++)

@@ -1,5 +1,7 @@
 /* statements.c - what the paper says in words, held against the runs; verdicts.c judges it. */
 #include "paper/measures.h"
+#include "paper/runs.h"
+#include "paper/statements.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +20,7 @@ static const fst_statement statements[] = {
      FST_RULE_##rule,                                                                                          \
      fst_measure_##measure,                                                                                    \
      FST_SCAN_##scan,                                                                                          \
-     FST_STEP_##step,                                                                                          \
+     FST_PAPER_STEP_##step,                                                                                    \
      reads,                                                                                                    \
      checks},
 #define STATEMENT(...) ROW(__VA_ARGS__, 0)

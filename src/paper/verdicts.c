@@ -1,5 +1,6 @@
 /* verdicts.c - one set of rules for all statements, made from how the paper prints what it says. */
-#include "paper/paper.h"
+#include "paper/statements.h"
+#include "paper/runs.h"
 
 #include <stdio.h>
 

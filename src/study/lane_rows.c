@@ -232,9 +232,9 @@ static void finish(fst_crew *c, fst_squad *s, int l, fst_status status, fst_erro
         c->waiting[c->waiting_count++] = at->job;
 }
 
-static fst_status watch_exponents(void *user, double fraction, fst_error *error)
+static fst_status watch_exponents(void *user, double fraction, const char *what, fst_error *error)
 {
-    (void)fraction;
+    (void)fraction, (void)what;
     return fst_crew_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 

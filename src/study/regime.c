@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "study/drift.h"
 
 #define TWO_PI 6.283185307179586476925287
@@ -55,13 +56,6 @@ const fst_mark_series *fst_window_of(const fst_run_state *run)
 
 #define REASON(...) (void)snprintf(result->reason, sizeof result->reason, __VA_ARGS__)
 
-/* The exponent's progress as the run's. */
-static fst_status tell_of_exponent(void *user, double fraction, fst_error *error)
-{
-    const fst_run_sink *sink = &((const fst_run_state *)user)->options->sink;
-    return sink->progress(sink->user, FST_RUN_SHARE + (1.0 - FST_RUN_SHARE) * fraction, error);
-}
-
 /* The exponent over the window, unless it is known or left to someone else. */
 static fst_status find_exponent(fst_run_state *run, fst_error *error)
 {
@@ -74,9 +68,10 @@ static fst_status find_exponent(fst_run_state *run, fst_error *error)
         asked->rtol = run->params->run_rtol;
         run->exponent_is = FST_EXPONENT_WANTED;
         if (!run->exponent_elsewhere) {
-            const fst_progress progress = {run, tell_of_exponent};
-            const fst_status status = fst_largest_exponents(
-                &fst_tangents_scalar, &asked, 1, run->options->sink.progress ? &progress : NULL, error);
+            fst_part last = {run->options->progress, FST_RUN_SHARE, 1.0, NULL};
+            const fst_progress progress = {&last, fst_part_tell};
+            const fst_status status =
+                fst_largest_exponents(&fst_tangents_scalar, &asked, 1, last.whole ? &progress : NULL, error);
             if (status != FST_OK)
                 return status;
             run->exponent_is = FST_EXPONENT_KNOWN;

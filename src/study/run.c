@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "model/params.h"
 
 #define TWO_PI 6.283185307179586476925287
@@ -205,12 +206,12 @@ void fst_run_watch_step(fst_run_state *run)
 
 static fst_status report_progress(fst_run_state *run, fst_error *error)
 {
-    const fst_run_sink *sink = &run->options->sink;
-    if (!sink->progress || run->flow->accepted % 64 != 0)
+    const fst_progress *progress = run->options->progress;
+    if (!progress || run->flow->accepted % 64 != 0)
         return FST_OK;
     const double done = run->ramp_waits ? fst_ramp_progress(run) : run->flow->t.high / run->t_end;
     const double share = run->ramp_rate != 0.0 ? 1.0 : FST_RUN_SHARE; /* a ramp needs no exponent */
-    return sink->progress(sink->user, share * done, error);
+    return fst_tell(progress, share * done, NULL, error);
 }
 
 fst_status fst_run_one_step(fst_run_state *run, double t_limit, fst_error *error)

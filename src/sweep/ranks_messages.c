@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/watch.h"
 
 enum { TAG_ASK = 1, TAG_TASKS, TAG_ROWS, TAG_STOP, TAG_DONE, TAG_BYE, TAG_IMAGE };
 enum { FOLLOWER_TASKS = 64, MOST_LETTERS = 16 };
@@ -210,7 +211,6 @@ static void hear_leader(const fst_ranks *r, fst_workers *workers, int *over)
 static fst_status serve(const fst_ranks *r, fst_workers *workers, fst_sweep_record *rows,
                         const fst_sweep_options *options, fst_error *error)
 {
-    fst_sweep_progress progress = {.rank = r->rank, .ranks = r->count};
     fst_status outcome = FST_OK;
     int busy = 1, over = 0;
     while (busy) {
@@ -232,8 +232,8 @@ static fst_status serve(const fst_ranks *r, fst_workers *workers, fst_sweep_reco
                 post_image(r, 0, i);
             fst_images_free(images);
         }
-        if (outcome == FST_OK && options->progress)
-            outcome = options->progress(options->user, &progress, error);
+        if (outcome == FST_OK) /* only the leader knows how much is done */
+            outcome = fst_tell(options->progress, 0.0, NULL, error);
         if (outcome != FST_OK)
             fst_workers_stop(workers, 0);
     }

@@ -11,6 +11,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/watch.h"
 #include "host/threads.h"
 #include "sweep/checkpoints.h"
 #include "sweep/ranks.h"
@@ -29,8 +30,8 @@ typedef struct job {
     fst_ranks ranks;
     fst_leader *leader; /* NULL where there is one rank */
     fst_workers *workers;
-    int64_t next; /* point or chain from which on the journal is yet to be looked through */
-    fst_sweep_progress progress;
+    int64_t next;             /* point or chain from which on the journal is yet to be looked through */
+    fst_sweep_counts *counts; /* the caller's */
     double started, committed;
     double processor_started, journal_started;
     int uncommitted; /* rows and images */
@@ -58,9 +59,14 @@ static double read_clock(clockid_t clock)
 /* What the job has taken so far. */
 static void read_clocks(job *j)
 {
-    j->progress.seconds = fst_clock_seconds() - j->started;
-    j->progress.processor_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - j->processor_started;
-    j->progress.journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - j->journal_started;
+    j->counts->seconds = fst_clock_seconds() - j->started;
+    j->counts->processor_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - j->processor_started;
+    j->counts->journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - j->journal_started;
+}
+
+static double fraction_done(const job *j)
+{
+    return (double)j->counts->there / (double)j->counts->points;
 }
 
 /* ------------------------------------------------------------------ tasks */
@@ -162,14 +168,14 @@ static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fs
             status = fst_checkpoints_drop(j->checkpoints, rows[i].point, error);
     }
     for (int i = 0; i < count; ++i)
-        j->progress.failed += rows[i].status != FST_OK;
+        j->counts->failed += rows[i].status != FST_OK;
     j->uncommitted += count;
     if (status == FST_OK && j->uncommitted > 0 &&
         (j->stopping || j->uncommitted >= COMMIT_ROWS || fst_clock_seconds() - j->committed > COMMIT_SECONDS))
         status = commit(j, error);
     if (status == FST_OK) {
-        j->progress.added += count;
-        j->progress.there += count;
+        j->counts->added += count;
+        j->counts->there += count;
     }
     return status;
 }
@@ -269,8 +275,8 @@ static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
         const fst_status taken = hear_workers(j, rows, seconds, status != FST_OK, &busy, error);
         status = status == FST_OK ? taken : status;
         read_clocks(j);
-        if (status == FST_OK && outcome == FST_OK && j->options->progress)
-            outcome = j->options->progress(j->options->user, &j->progress, error);
+        if (status == FST_OK && outcome == FST_OK)
+            outcome = fst_tell(j->options->progress, fraction_done(j), NULL, error);
         if (stopped == 0.0 && (status != FST_OK || outcome != FST_OK)) {
             status = stop(j, rows, status, error);
             stopped = fst_clock_seconds();
@@ -355,9 +361,9 @@ static fst_status lead(job *j, const char *path, fst_error *error)
     if (status == FST_OK)
         status = fst_journal_open(path, &j->identity, &j->journal, error);
     if (status == FST_OK)
-        j->progress.repaired = fst_journal_repaired(j->journal, &j->progress.lost);
+        j->counts->repaired = fst_journal_repaired(j->journal, &j->counts->lost);
     if (status == FST_OK)
-        status = fst_journal_count(j->journal, &j->progress.there, error);
+        status = fst_journal_count(j->journal, &j->counts->there, error);
     if (status == FST_OK)
         status =
             fst_checkpoints_open(j->journal, fst_journal_identity_hash(&j->identity), &j->checkpoints, error);
@@ -365,7 +371,7 @@ static fst_status lead(job *j, const char *path, fst_error *error)
     fst_error silence;
     const fst_status shared = fst_ranks_share_start(&j->ranks, &start, status == FST_OK ? error : &silence);
     status = status == FST_OK ? shared : status;
-    if (status == FST_OK && (j->progress.there < j->progress.points || j->ranks.link))
+    if (status == FST_OK && (j->counts->there < j->counts->points || j->ranks.link))
         status = work(j, error);
     if (status == FST_OK && j->checkpoints)
         status = fst_checkpoints_drop_all(j->checkpoints, error);
@@ -406,8 +412,8 @@ static fst_status run_job(job *j, const char *path, fst_error *error)
         fst_ranks_close(&j->ranks, 0);
         return status;
     }
-    j->progress.rank = j->ranks.rank;
-    j->progress.ranks = j->ranks.count;
+    j->counts->rank = j->ranks.rank;
+    j->counts->ranks = j->ranks.count;
     status = j->ranks.rank == 0 ? lead(j, path, error) : follow(j, error);
     if (j->ranks.rank != 0 && error)
         *error = (fst_error){status, "", ""};
@@ -416,9 +422,9 @@ static fst_status run_job(job *j, const char *path, fst_error *error)
 }
 
 fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
-                     fst_sweep_progress *result, fst_error *error)
+                     fst_sweep_counts *counts, fst_error *error)
 {
-    memset(result, 0, sizeof *result);
+    memset(counts, 0, sizeof *counts);
     if (options->cookie != OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep",
                         "the options were not made by fst_default_sweep_options()");
@@ -430,15 +436,15 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
     if (status == FST_OK) {
         job j = {.identity = {grid, options->seed, options->carry, options->arithmetic, 0},
                  .options = options,
+                 .counts = counts,
                  .ranks = {.count = 1, .neighbours = 1}};
-        j.progress.points = fst_grid_points(grid);
+        counts->points = fst_grid_points(grid);
         j.started = fst_clock_seconds();
         j.committed = j.started - COMMIT_SECONDS; /* the first row does not wait */
         j.processor_started = read_clock(CLOCK_PROCESS_CPUTIME_ID);
         j.journal_started = read_clock(CLOCK_THREAD_CPUTIME_ID);
         status = run_job(&j, path, error);
         read_clocks(&j);
-        *result = j.progress;
     }
     fst_grid_free(grid);
     return status;
