@@ -117,6 +117,23 @@ def listens(process):
     return bool(int(caught, 16) >> (signal.SIGINT - 1) & 1)
 
 
+def children_of(process):
+    """The process numbers of a program's children, as mpirun's ranks; none once they have ended.  process.had_children
+    says whether there ever were any (Linux tells in /proc)."""
+    try:
+        with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
+            found = [int(word) for word in file.read().split()]
+    except OSError:
+        return []
+    process.had_children = getattr(process, "had_children", False) or bool(found)
+    return found
+
+
+def lost_its_children(process):
+    """Whether a program had children and has none any more: an mpirun whose ranks were killed is known to hang then."""
+    return not children_of(process) and getattr(process, "had_children", False)
+
+
 def seems_noted(process, number):
     """Whether a signal that was sent is no longer pending."""
     try:

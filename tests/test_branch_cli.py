@@ -135,6 +135,22 @@ class BadInput(unittest.TestCase):
         said = self.refused(1, "--kind", "all", "--over", "drive.omega=0.02:5", "-o", "/nonexistent/branch.json")
         self.assertIn("cannot write here", said)
 
+    def test_a_branch_without_points_is_not_drawn(self):
+        with tempfile.TemporaryDirectory() as directory:
+            path, figure = os.path.join(directory, "b.json"), os.path.join(directory, "f.svg")
+            self.assertEqual(branch("--kind", "locked", "--over", "model.kappa=1:1.1", "-o", path)[0], 0)
+            with open(path, encoding="utf-8") as text:
+                whole = json.load(text)
+            self.assertTrue(whole["points"])
+            for complete, part in ((True, "nothing to draw"), (False, "interrupted before the first one")):
+                with open(path, "w", encoding="utf-8") as text:
+                    json.dump(dict(whole, points=[], specials=[], crossings=[], ends=[], complete=complete), text)
+                done = subprocess.run([FESTOON, "plot", path, "-o", figure], capture_output=True, text=True, check=False)
+                self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+                self.assertIn("this branch has no points", done.stderr)
+                self.assertIn(part, done.stderr)
+            self.assertEqual(os.listdir(directory), ["b.json"])
+
     def test_where_no_such_orbit_is(self):
         """What happened to the bead instead, and a whole sentence."""
         locks = self.refused(1, "--kind", "counter", "--over", "drive.omega=0.04:0.06")

@@ -1,6 +1,6 @@
 /* A trajectory in HDF5 one of whose columns says that it is shorter or longer than the others is refused, and
- * names the column.  HDF5 keeps a length as a number of 64 bits before the greatest length, which is unlimited
- * here. */
+ * names the column; one that is too large for this computer's memory is refused before it is read.  HDF5 keeps
+ * a length as a number of 64 bits before the greatest length, which is unlimited here. */
 #include "numeric.h"
 
 #include <stdio.h>
@@ -78,8 +78,32 @@ static void columns_of_unequal_length(void **state)
     assert_int_equal(rmdir(folder), 0);
 }
 
+/* A file with a hole, which takes no room on the disk. */
+static void a_file_larger_than_memory(void **state)
+{
+    (void)state;
+    char path[] = "/tmp/festoon-hdf5-XXXXXX";
+    const off_t half = (off_t)sysconf(_SC_PHYS_PAGES) / 2 * sysconf(_SC_PAGESIZE);
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    assert_int_equal(write(file, "\x89HDF\r\n\x1a\n", 8), 8);
+    const int failed = ftruncate(file, half + 1);
+    (void)close(file);
+    fst_table table;
+    fst_error error = {FST_OK, "", ""};
+    const fst_status status = failed ? FST_UNAVAILABLE : fst_trajectory_read(path, &table, &error);
+    assert_int_equal(unlink(path), 0);
+    if (status == FST_UNAVAILABLE) {
+        print_message("this build has no HDF5, or this disk no such files\n");
+        return;
+    }
+    assert_int_equal(status, FST_NO_MEMORY);
+    CHECK_CONTAINS(error.sentence, "half of this computer's memory");
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(columns_of_unequal_length)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(columns_of_unequal_length),
+                                       cmocka_unit_test(a_file_larger_than_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
 
 #include "ensemble/lanes.h"
 #include "physics.h"
+#include "same_results.h"
 #include "study/run_image.h"
 
 enum { JOBS = 20, TASKS_WITHOUT_DISCARD = 3 };
@@ -154,20 +155,8 @@ static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int other_lan
 static void check_same(const store *a, const store *b)
 {
     for (int i = 0; i < JOBS; ++i) {
-        const fst_run_result *x = &a->results[i], *y = &b->results[i];
         assert_int_equal(a->statuses[i], b->statuses[i]);
-        for (int k = 0; k < fst_result_count(); ++k)
-            if (memcmp((const char *)x + fst_result_at(k)->offset, (const char *)y + fst_result_at(k)->offset,
-                       sizeof(double)) != 0)
-                fail_msg("job %d: %s differs", i, fst_result_at(k)->name);
-        assert_memory_equal(x->final_state, y->final_state, sizeof x->final_state);
-        assert_int_equal(x->regime, y->regime);
-        assert_int_equal(x->symmetry, y->symmetry);
-        assert_string_equal(x->reason, y->reason);
-        assert_int_equal(x->rhs_calls, y->rhs_calls);
-        assert_int_equal(x->accepted, y->accepted);
-        assert_int_equal(x->rejected, y->rejected);
-        assert_int_equal(x->returns, y->returns);
+        check_same_result(i, &a->results[i], &b->results[i]);
     }
 }
 
@@ -275,12 +264,66 @@ static void test_exponents_hear(void **state)
     }
 }
 
+/* Begin a run, along a ramp if it is said so, and free what it holds. */
+static void begin_run(fst_run_state *run, const fst_params *p, const fst_run_options *o)
+{
+    fst_error error = {FST_OK, "", ""};
+    memset(run, 0, sizeof *run);
+    run->params = p;
+    run->options = o;
+    if (fst_run_begin(run, &error) != FST_OK)
+        fail_msg("fst_run_begin: %s", error.sentence);
+}
+
+static void end_run(fst_run_state *run)
+{
+    fst_flow_free(run->flow);
+    fst_model_free(run->model);
+}
+
+/* A ramp's state holds indices that are not checked: its image is refused, and the run stays as it was begun.
+ * The same run without a ramp is taken. */
+static void test_ramps_are_refused(void **state)
+{
+    (void)state;
+    static fst_run_state from, to;
+    const fst_params p = job_params(1);
+    fst_run_options steady = fst_default_run_options(), ramp = steady;
+    ramp.ramp_from = 0.3;
+    ramp.ramp_to = 0.4;
+    for (int is_ramp = 0; is_ramp < 2; ++is_ramp) {
+        const fst_run_place place = {.stage = FST_STAGE_ALONE};
+        fst_run_place found = {.stage = FST_STAGE_PARKED};
+        double *lane;
+        const double *read;
+        size_t size;
+        int over = 0;
+        fst_error error;
+        begin_run(&from, &p, is_ramp ? &ramp : &steady);
+        assert_int_equal(from.is_ramp, is_ramp);
+        if (!is_ramp)
+            assert_int_equal(fst_run_go_on(&from, 5, &over, &error), FST_OK);
+        from.next_period = 7;
+        void *bytes = fst_run_image_make(&from, &place, 0, &lane, &size);
+        assert_non_null(bytes);
+        begin_run(&to, &p, &steady);
+        const int64_t before = to.next_period;
+        assert_int_equal(fst_run_image_take(bytes, size, 0, &to, &found, &read), !is_ramp);
+        assert_int_equal(to.next_period, is_ramp ? before : 7);
+        assert_int_equal(found.stage, is_ramp ? FST_STAGE_PARKED : FST_STAGE_ALONE);
+        free(bytes);
+        end_run(&from);
+        end_run(&to);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bits),
         cmocka_unit_test(test_what_is_no_image),
         cmocka_unit_test(test_exponents_hear),
+        cmocka_unit_test(test_ramps_are_refused),
     };
     return fst_run_images_possible() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

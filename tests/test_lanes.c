@@ -1,6 +1,7 @@
 /* Lanes: in the portable form a row has the bits of fst_run() whatever runs beside it, in the fast forms it is
  * as accurate and its bits depend on its parameters alone. */
 #include "physics.h"
+#include "same_results.h"
 
 #include <stdlib.h>
 
@@ -86,19 +87,7 @@ static void check_same(const store *a, const store *b)
 {
     for (int i = 0; i < JOBS; ++i) {
         assert_int_equal(a->statuses[i], b->statuses[i]);
-        const fst_run_result *x = &a->results[i], *y = &b->results[i];
-        for (int k = 0; k < fst_result_count(); ++k)
-            if (memcmp((const char *)x + fst_result_at(k)->offset, (const char *)y + fst_result_at(k)->offset,
-                       sizeof(double)) != 0)
-                fail_msg("job %d: %s differs", i, fst_result_at(k)->name);
-        assert_memory_equal(x->final_state, y->final_state, sizeof x->final_state);
-        assert_int_equal(x->regime, y->regime);
-        assert_int_equal(x->symmetry, y->symmetry);
-        assert_string_equal(x->reason, y->reason);
-        assert_int_equal(x->rhs_calls, y->rhs_calls);
-        assert_int_equal(x->accepted, y->accepted);
-        assert_int_equal(x->rejected, y->rejected);
-        assert_int_equal(x->returns, y->returns);
+        check_same_result(i, &a->results[i], &b->results[i]);
     }
 }
 

@@ -7,6 +7,7 @@ import csv
 import errno
 import io
 import os
+import resource
 import shutil
 import signal
 import socket
@@ -351,7 +352,7 @@ class Damage(Journal):
                                  ("tables of this database", "CREATE TABLE t(a)"),
                                  ("tables of this database", "CREATE TRIGGER t AFTER INSERT ON rows BEGIN SELECT 1; END"),
                                  ("tables of this database", "ALTER TABLE rows ADD COLUMN more"),
-                                 ("no database of festoon", "PRAGMA application_id = 1")):
+                                 ("not that of a sweep", "PRAGMA application_id = 1")):
             with self.subTest(statement=statement):
                 self.put("a.db", sound)
                 self.alter(statement)
@@ -368,6 +369,30 @@ class Damage(Journal):
             change(self.path("a.db"), ("UPDATE festoon SET value = ? WHERE key = ?", (value, key)))
             self.assertIn(key, self.refused("sweep", *SMALL, "-o", self.path("a.db")))
             self.rows("a.db")
+
+    def test_what_is_no_sweep(self):
+        """Each command says what the file is, and gives the advice that fits it."""
+        base = sqlite3.connect(self.path("foreign.db"))
+        base.execute("CREATE TABLE notes(text)")
+        base.commit()
+        base.close()
+        self.put("junk.db", bytes(range(256)) * 20)
+        self.put("empty.db", b"")
+        self.put("foreign", content_of(self.path("foreign.db")))
+        for name, kind in (("junk.db", "no database of a sweep"), ("empty.db", "no database of a sweep"),
+                           ("foreign.db", "another program made it"), ("foreign", "another program made it")):
+            for words in (("export", self.path(name), "--csv"), ("plot", self.path(name), "-o", self.path("f.svg"))):
+                said = self.refused(*words)
+                self.assertIn(kind, said)
+                self.assertIn("festoon sweep -o FILE.db", said)
+                self.assertNotIn("choose another name", said)
+            if name != "empty.db":  # which a sweep takes
+                said = self.refused("sweep", *SMALL, "-o", self.path(name))
+                self.assertIn(kind, said)
+                self.assertIn("choose another name", said)
+        self.made()
+        self.alter("PRAGMA user_version = 1")
+        self.assertIn("older festoon", self.refused("plot", self.path("a.db"), "-o", self.path("f.svg")))
 
     def test_images_of_runs_may_be_there(self):
         self.made()
@@ -391,6 +416,71 @@ class Names(Journal):
                 if not (status == 1 and "gnuplot" in err):
                     self.assertEqual(status, 0, err)
                 os.remove(self.path(name))
+
+    def test_names_that_are_too_long(self):
+        """SQLite's files beside a database have longer names than it has."""
+        longest = os.pathconf(self.directory, "PC_NAME_MAX")
+        for length in range(longest - 9, longest + 2):
+            name = "n" * (length - 3) + ".db"
+            if length <= longest - 8:
+                self.made(name)
+                os.remove(self.path(name))
+                continue
+            said = self.refused("sweep", *SMALL, "-o", self.path(name))
+            self.assertIn(f"this name of {length} bytes is too long", said)
+            self.assertIn(f"at most {longest - 8}", said)
+            self.assertEqual(os.listdir(self.directory), [])
+        self.made()
+        os.rename(self.path("a.db"), self.path("n" * longest))
+        self.assertIn("too long", self.refused("export", self.path("n" * longest), "--csv"))
+
+    def test_paths_that_are_too_long(self):
+        folder, made = self.directory, 0
+        while len(os.path.realpath(folder)) < 520:
+            os.mkdir(os.path.join(folder, "f" * 20))
+            folder = os.path.join(folder, "f" * 20)
+            path = os.path.join(folder, "a.db")
+            status, _, err = festoon("sweep", *SMALL, "-o", path)
+            if status == 0:
+                made += 1
+                self.good("export", path, "--csv")
+                last = folder
+            else:
+                self.assertEqual(status, 2, err)
+                self.assertIn("too long for SQLite", err)
+                self.assertGreater(len(os.path.realpath(path)), 400)
+                self.assertEqual(os.listdir(folder), [])
+        self.assertGreater(made, 10)
+        # A folder that was renamed: a database that is there needs less room than one that is to be made.
+        statuses = set()
+        for length in range(2, 140, 6):
+            longer = os.path.join(os.path.dirname(last), "g" * length)
+            os.rename(last, longer)
+            last = longer
+            status, _, err = festoon("export", os.path.join(last, "a.db"), "--csv")
+            self.assertEqual(status, 0 if len(os.path.realpath(last)) + len("/a.db-journal") <= 511 else 2, err)
+            self.assertIn("" if status == 0 else "too long for SQLite", err)
+            statuses.add(status)
+        self.assertEqual(statuses, {0, 2})
+
+    def test_few_files_may_be_open(self):
+        """Whatever is missing first, the sentence names the limit, and no permission."""
+        if not os.path.exists(os.path.join(os.environ["BUILD_DIR"], "tests", "faults.so")):
+            self.skipTest("sanitizers need open files of their own")
+        self.made()
+        for words in (("sweep", *SMALL, "-o", self.path("b.db")), ("sweep", *SMALL, "-o", self.path("a.db")),
+                      ("export", self.path("a.db"), "--csv")):
+            refusals = 0
+            for most in range(4, 12):
+                status, _, err = festoon(*words, preexec_fn=lambda most=most: resource.setrlimit(
+                    resource.RLIMIT_NOFILE, (most, most)))
+                self.assertIn(status, (0, 1, 127), err)  # 127: the program's libraries cannot be opened
+                if status == 1:
+                    refusals += 1
+                    self.assertIn(os.strerror(errno.EMFILE), err)
+                    self.assertNotIn("permission", err)
+            self.assertGreater(refusals, 0, words)
+            self.assertEqual(status, 0, err)
 
     def test_every_name_where_nothing_may_be_written(self):
         mount = self.path("small")
@@ -485,6 +575,37 @@ class Power(Journal):
             self.skipTest("on this file system a sweep has no write-ahead log")
         self.assertGreater(synced, 0)
         self.assertFalse(waits, "the last rows of the log were never synced")
+
+    def test_a_folder_that_cannot_be_synced(self):
+        """A name that may be lost with the power is no success, and what is there is of use to the next command."""
+        faults = os.path.join(os.environ["BUILD_DIR"], "tests", "faults.so")
+        if not os.path.exists(faults):
+            self.skipTest("nothing can be preloaded into a program with sanitizers")
+        environment = dict(os.environ, LD_PRELOAD=faults, FESTOON_FAULT_UNDER=self.directory,
+                           FESTOON_FAULT_FIRED=self.path("fired"))
+
+        def fate(number, *words):
+            found = festoon(*words, env=dict(environment, FESTOON_FAULT=f"festoon:fsync:{errno.EIO}:{number}"))
+            return found[0], found[2]
+
+        status, err = fate(2, "run", *SHORT, "-o", self.path("t.csv"))  # the first fsync is that of the file
+        self.assertEqual(status, 1, err)
+        self.assertIn("this file is complete, but may be lost with the power: its directory cannot be synced", err)
+        self.assertIn("# complete = true", content_of(self.path("t.csv"), "r"))
+        expected = self.made("right.db")
+        told, number = 0, 0
+        os.remove(self.path("fired"))
+        while number == 0 or os.path.exists(self.path("fired")):
+            number += 1
+            for name in ("fired", "a.db", "a.db-wal", "a.db-shm"):
+                if os.path.exists(self.path(name)):
+                    os.remove(self.path(name))
+            status, err = fate(number, "sweep", *SMALL, "-o", self.path("a.db"))
+            told += status == 1 and "its directory cannot be synced" in err
+            self.assertIn(status, (0, 1), (number, err))
+            if os.path.exists(self.path("fired")):
+                self.assertEqual(self.made(), expected)
+        self.assertEqual(told, 1)
 
 
 if __name__ == "__main__":

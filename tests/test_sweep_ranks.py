@@ -31,17 +31,6 @@ def start(ranks, *words):
                             stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=ENVIRONMENT)
 
 
-def ranks_of(process):
-    """The process numbers of the ranks; none once they have ended."""
-    try:
-        with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
-            found = [int(word) for word in file.read().split()]
-    except OSError:
-        return []
-    process.had_ranks = getattr(process, "had_ranks", False) or bool(found)
-    return found
-
-
 class RankCase(Case):
     def finish(self, process, timeout=events.HANG):
         """Status, output and messages.  An mpirun whose ranks were killed is known to hang at times when none of them
@@ -52,7 +41,7 @@ class RankCase(Case):
                 out, err = process.communicate(timeout=min(timeout, 2.0))
                 return process.returncode, out.decode(), err.decode(errors="replace")
             except subprocess.TimeoutExpired:
-                alone = alone + 1 if not ranks_of(process) and getattr(process, "had_ranks", False) else 0
+                alone = alone + 1 if events.lost_its_children(process) else 0
                 timeout -= 2.0
                 if alone == 5 or timeout <= 0:
                     process.kill()
@@ -107,7 +96,7 @@ class Deaths(RankCase):
 
     def wait_for_rows(self, process, path, more_than=0):
         """Whether rows were committed while the ranks were at work."""
-        return events.wait_for(process, lambda: events.rows(path) > more_than) and ranks_of(process)
+        return events.wait_for(process, lambda: events.rows(path) > more_than) and events.children_of(process)
 
     def test_a_killed_rank_costs_no_committed_row(self):
         rng = random.Random(7)
@@ -118,7 +107,7 @@ class Deaths(RankCase):
                 name, path = f"cut{count}-{i}.db", self.path(f"cut{count}-{i}.db")
                 process = start(2 + i % 2, "sweep", *medium(count), "-o", path)
                 self.wait_for_rows(process, path, rng.choice((0, rng.randrange(2 * count))))
-                before, victims = events.rows(path), ranks_of(process)
+                before, victims = events.rows(path), events.children_of(process)
                 try:
                     os.kill(victims[i % len(victims)], signal.SIGKILL)
                 except (IndexError, ProcessLookupError):  # all have done their work
@@ -196,7 +185,7 @@ class Deaths(RankCase):
                 process = start(2, "sweep", *words(periods), "-o", path)
                 events.wait_for(process, lambda: events.images(path) not in (0, before))
                 try:
-                    os.kill(ranks_of(process)[lives % 2], signal.SIGKILL)
+                    os.kill(events.children_of(process)[lives % 2], signal.SIGKILL)
                 except (IndexError, ProcessLookupError):  # it was over
                     pass
                 if self.finish(process)[0] == 0:

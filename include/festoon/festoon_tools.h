@@ -78,6 +78,7 @@ FST_API fst_status fst_run_dots_read(const char *path, const char *key, const ch
 typedef struct fst_trajectory fst_trajectory;
 FST_API fst_status fst_trajectory_create(const char *path, const fst_params *params,
                                          fst_trajectory **trajectory, fst_error *error);
+/* FST_BAD_INPUT: a number of the sample is not finite; such a file could not be read back. */
 FST_API fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *sample,
                                          fst_error *error);
 /* Finish the file: `result` (may be NULL) is stored in it; `complete` is 0 for an interrupted run, whose
@@ -101,6 +102,8 @@ typedef struct fst_table {
     fst_params params; /* the scene it was made by */
     int complete;
 } fst_table;
+/* FST_BAD_INPUT: no trajectory, cut off, damaged, or with a number that is not finite.  FST_NO_MEMORY: HDF5
+ * files are read into memory as a whole, if they take no more than half of it. */
 FST_API fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *error);
 FST_API void fst_table_free(fst_table *table);
 
@@ -134,7 +137,7 @@ FST_API fst_status fst_figure_trajectory(const fst_table *table, const char *out
 /* Draw a branch: `observable` ("mean_r", "mean_alpha_dot", "mean_nz", "festoons", "min_r", "period") over the
  * parameter, stable parts solid, unstable ones dashed, special points labelled, `dots` (pairs of abscissa and
  * ordinate, may be NULL) on top; or, with "multipliers", the multipliers in the complex plane with the unit
- * circle. */
+ * circle.  FST_BAD_INPUT: the branch has no points. */
 FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *observable, const double *dots,
                                      size_t dot_count, const char *out, fst_error *error);
 
@@ -189,7 +192,10 @@ FST_API fst_sweep_options fst_default_sweep_options(void);
  * call goes on. FST_BAD_INPUT: axes; a foreign or differently made file, or one that is damaged beyond repair,
  * which is left untouched.  FST_IO: full disk, no permission; another command is at work on the file; it was
  * deleted or renamed under way.  FST_INTERRUPTED: from `progress`.
- * `counts` is up to date whenever `progress` is told, and at the end. */
+ * `counts` is up to date whenever `progress` is told, and at the end.
+ *
+ * While this call is at work on a file, the same process must not open that file by itself: closing it would
+ * end SQLite's locks.  Further calls of fst_sweep() and of the readers below for that file end with FST_IO. */
 FST_API fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
                              fst_sweep_counts *counts, fst_error *error);
 
@@ -226,7 +232,8 @@ typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED } fst_shown_u
 FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, fst_shown_units units,
                                     const char *out, fst_error *error);
 
-/* Whether a file begins like a sweep's database. */
+/* Whether a file begins like a sweep's database, as any database of SQLite does; fst_sweep_read_grid() tells
+ * whether it is one. */
 FST_API int fst_is_sweep(const char *path);
 
 /* ------------------------------------------------------------------ films */

@@ -96,11 +96,10 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     return status;
 }
 
-/* A branch is a JSON file. */
-static int is_branch(const char *path)
+static int ends_in(const char *path, const char *ending)
 {
-    const size_t length = strlen(path);
-    return length > 5 && strcmp(path + length - 5, ".json") == 0;
+    const size_t length = strlen(path), wanted = strlen(ending);
+    return length > wanted && strcmp(path + length - wanted, ending) == 0;
 }
 
 static fst_status plot_branch(const arguments *given, const char *path, const char *to, fst_error *error)
@@ -168,9 +167,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "tell where the figure goes: -o FIG.svg");
-    if (is_branch(path))
+    if (ends_in(path, ".json")) /* a branch */
         return plot_branch(given, path, to, error);
-    if (fst_is_sweep(path))
+    if (fst_is_sweep(path) || ends_in(path, ".db"))
         return plot_sweep(given, path, to, error);
     if (option_value(given, "key") || option_value(given, "units"))
         return fail(error, FST_BAD_INPUT, path, "--key and --units belong to sweeps; this is none");

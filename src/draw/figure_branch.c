@@ -190,6 +190,10 @@ fst_status fst_figure_branch(const fst_branch *branch, const char *observable, c
     const struct observable *what = find_observable(observable);
     if (!what && !circle)
         return unknown_observable(observable, error);
+    if (branch->point_count == 0)
+        return fst_fail(error, FST_BAD_INPUT, branch->key,
+                        "this branch has no points, so that there is nothing to draw%s",
+                        branch->complete ? "" : ": it was interrupted before the first one; compute it again");
     columns c[CURVES] = {{NULL, NULL, 0}};
     fst_chart_curve curves[CURVES];
     const size_t most =

@@ -1,5 +1,6 @@
 #include "io/csv.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -163,14 +164,20 @@ static fst_status read_row(csv_reader *reader)
         return status;
     const char *at = reader->line;
     for (int i = 0; i < FST_COLUMN_COUNT; i++) {
-        char *end;
-        reader->table->columns[i][reader->table->rows] = strtod(at, &end);
+        char *end, sentence[160];
+        const double value = strtod(at, &end);
         if (end == at || *end != (i + 1 < FST_COLUMN_COUNT ? ',' : '\0')) {
-            char sentence[128];
             (void)snprintf(sentence, sizeof sentence, "this is no row of %d numbers: the column %s is wrong",
                            FST_COLUMN_COUNT, fst_column_at(i)->name);
             return fail_line(reader, sentence);
         }
+        if (!isfinite(value)) {
+            (void)snprintf(sentence, sizeof sentence,
+                           "the column %s holds \"%.*s\", which is not finite: every number of a trajectory is",
+                           fst_column_at(i)->name, (int)(end - at < 24 ? end - at : 24), at);
+            return fail_line(reader, sentence);
+        }
+        reader->table->columns[i][reader->table->rows] = value;
         at = end + 1;
     }
     reader->table->rows++;

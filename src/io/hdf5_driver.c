@@ -109,11 +109,19 @@ static herr_t write_file(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_t 
     return f->disk->reason ? keep_block(f->disk, begin, size, bytes) : 0;
 }
 
+off_t fst_hdf5_most(void)
+{
+    const long pages = sysconf(_SC_PHYS_PAGES), page = sysconf(_SC_PAGESIZE);
+    return pages > 0 && page > 0 ? (off_t)pages / 2 * page : (off_t)1 << 30;
+}
+
 int fst_hdf5_load(fst_hdf5_disk *disk)
 {
     struct stat there;
     if (fstat(disk->descriptor, &there) != 0)
         return errno;
+    if (there.st_size > fst_hdf5_most())
+        return EFBIG;
     fst_hdf5_block *block = malloc(sizeof *block + (size_t)there.st_size);
     if (!block)
         return ENOMEM;

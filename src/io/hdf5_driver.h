@@ -17,6 +17,7 @@
 
 #include <hdf5.h>
 #include <stddef.h>
+#include <sys/types.h>
 
 typedef struct fst_hdf5_block fst_hdf5_block;
 
@@ -27,7 +28,12 @@ typedef struct fst_hdf5_disk {
     fst_hdf5_block *oldest, *newest;
 } fst_hdf5_disk;
 
-/* Load a file that is only read; 0, or an errno.  The descriptor is not used again. */
+/* The greatest size in bytes of a file that is loaded: half of the memory of this computer, because the numbers
+ * that come out of it need at least as much again. */
+off_t fst_hdf5_most(void);
+
+/* Load a file that is only read; 0, or an errno: EFBIG where it is larger than that.  The descriptor is not
+ * used again. */
 int fst_hdf5_load(fst_hdf5_disk *disk);
 
 /* A list of access properties that leads to `disk`, which must outlive the file; negative: HDF5 has no memory.

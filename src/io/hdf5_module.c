@@ -401,6 +401,13 @@ static fst_status load(const char *path, fst_hdf5_disk *disk, fst_error *error)
     if (!reason)
         return FST_OK;
     fst_hdf5_forget(disk);
+    if (reason == EFBIG)
+        return fst_fail(
+            error, FST_NO_MEMORY, path,
+            "this HDF5 file is too large: it would be read into memory as a whole, and at most half of "
+            "this computer's memory, %.1f GiB, is used for that: use a computer with more memory, or a "
+            "run with fewer samples",
+            (double)fst_hdf5_most() / (1 << 30));
     if (reason == ENOMEM)
         return fst_fail(error, FST_NO_MEMORY, path, "no memory for this file");
     return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason));

@@ -106,6 +106,12 @@ fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *s
 {
     double values[FST_COLUMN_COUNT];
     fst_column_values(sample, values);
+    /* Such a file could not be read back. */
+    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+        if (!isfinite(values[i]))
+            return fst_fail(error, FST_BAD_INPUT, trajectory->file.path,
+                            "this sample is not written: its %s is %g, and a trajectory holds finite numbers",
+                            fst_column_at(i)->name, values[i]);
     if (trajectory->writer)
         return trajectory->module->row(trajectory->writer, values, error);
     fst_csv_row(trajectory->file.stream, values);
@@ -173,6 +179,20 @@ static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error
     return status;
 }
 
+/* Every quantity of a trajectory is a finite number: "nan" and "inf" come from another program, or from damage.
+ * (A CSV file was read with a check of its own, which names the line.) */
+static fst_status check_numbers(const char *path, const fst_table *table, fst_error *error)
+{
+    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+        for (size_t row = 0; row < table->rows; row++)
+            if (!isfinite(table->columns[i][row]))
+                return fst_fail(error, FST_BAD_INPUT, path,
+                                "row %zu: the column %s holds \"%g\", which is not finite: every number of a "
+                                "trajectory is",
+                                row + 1, fst_column_at(i)->name, table->columns[i][row]);
+    return FST_OK;
+}
+
 /* Times and turns of the drive rise: figures and films count on it. */
 static fst_status check_order(const char *path, const fst_table *table, fst_error *error)
 {
@@ -204,6 +224,8 @@ fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *er
         status = read_hdf5(path, table, error);
     else
         status = fst_csv_read(in, path, table, error);
+    if (status == FST_OK)
+        status = check_numbers(path, table, error);
     if (status == FST_OK)
         status = check_order(path, table, error);
     if (in)

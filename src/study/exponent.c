@@ -14,8 +14,9 @@
 #include "ensemble/lanes.h"
 #include "study/growth.h"
 
-/* The loosest tolerances that decide no regime otherwise and are lost in the exponents' errors:
- * docs/regimes.md. Without friction nothing damps the errors of the steps. */
+/* Exponents are computed at these tolerances where the run's own is tighter: the regime comes out the same, and
+ * what the steps' errors change is far less than the exponent's error bar (docs/regimes.md).  Without friction
+ * nothing damps the errors of the steps. */
 static const double LOOSEST = 1e-7, LOOSEST_WITHOUT_FRICTION = 1e-9;
 /* The first eleventh of the time turns the vector into place.  Pieces, at whose ends the vector is made short
  * again, are so many at least, and short enough for no direction to shrink to nothing meanwhile. */
@@ -34,7 +35,7 @@ typedef struct follower {
     double h, t, piece; /* the step size carried along; the time in the present piece, and a piece's length */
     double attempt;     /* size of the present try */
     int lands;          /* it ends the piece */
-    double aligning, pieces, done; /* pieces before the growth counts, and in all; those that are behind it */
+    double aligning, pieces, done; /* pieces before the growth counts; all pieces; pieces already done */
     double rtol;
     fst_growth growth;
     fst_growth_clock clock;
@@ -209,7 +210,7 @@ static int step(crew *c)
     return at_work;
 }
 
-/* How far the one is that has farthest to go. */
+/* The share of its work that the slowest bead has done. */
 static double fraction_done(const crew *c)
 {
     double least = 1.0;

@@ -12,6 +12,27 @@
 #include "host/file_system.h"
 #include "host/regular_file.h"
 
+/* A file that cannot be opened, or not for writing: the system's number says which of many reasons it is. */
+static fst_status fail_open(sqlite3 *database, const char *path, const char *detail, fst_error *error)
+{
+    const int reason = database ? sqlite3_system_errno(database) : 0;
+    if (reason == EMFILE || reason == ENFILE)
+        return fst_fail(
+            error, FST_IO, path,
+            "too many files are open (%s), and a database needs a few more: raise the limit (ulimit -n), "
+            "or close some; every row committed so far is safe",
+            strerror(reason));
+    if (reason != 0 && reason != EACCES && reason != EPERM && reason != EROFS && reason != ENOENT)
+        return fst_fail(
+            error, FST_IO, path,
+            "this database, or a file beside it, cannot be opened (%s: %s); every row committed so far "
+            "is safe",
+            detail, strerror(reason));
+    return fst_fail(
+        error, FST_IO, path,
+        "no permission to write this database or beside it (%s); every row committed so far is safe", detail);
+}
+
 fst_status fst_database_fail(sqlite3 *database, const char *path, fst_error *error)
 {
     const int code = database ? sqlite3_errcode(database) : SQLITE_NOMEM;
@@ -31,10 +52,7 @@ fst_status fst_database_fail(sqlite3 *database, const char *path, fst_error *err
     case SQLITE_READONLY:
     case SQLITE_PERM:
     case SQLITE_CANTOPEN:
-        return fst_fail(
-            error, FST_IO, path,
-            "no permission to write this database or beside it (%s); every row committed so far is safe",
-            detail);
+        return fail_open(database, path, detail, error);
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         return fst_fail(error, FST_IO, path,
@@ -52,11 +70,40 @@ int fst_database_is_damage(int code)
     return (code & 0xff) == SQLITE_CORRUPT || (code & 0xff) == SQLITE_NOTADB || code == SQLITE_IOERR_SHORT_READ;
 }
 
-fst_status fst_database_path(const char *path, char **absolute, fst_error *error)
+/* SQLite keeps files beside a database whose names are longer than its own: FILE-journal, FILE-wal, FILE-shm. A
+ * new one is filled under a temporary name (host/whole_file.c), which is longer still. */
+static fst_status check_length(const char *path, const char *absolute, int is_new, fst_error *error)
 {
-    *absolute = realpath(path, NULL);
-    if (*absolute)
-        return FST_OK;
+    enum {
+        LONGEST_PATH = 511, /* of SQLite: MAX_PATHNAME of its os_unix.c without the zero behind it */
+        LONGER = sizeof "-journal" - 1,
+        LONGER_NEW = 64
+    };
+    const char *name = strrchr(absolute, '/') + 1;
+    char *folder = strndup(absolute, (size_t)(name - absolute));
+    const long longest = folder ? pathconf(folder, _PC_NAME_MAX) : -1;
+    const int needed = is_new ? LONGER_NEW : LONGER;
+    free(folder);
+    if (longest > 0 && (long)strlen(name) + LONGER > longest)
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "this name of %zu bytes is too long for a database: names end at %ld bytes in this folder, "
+            "and SQLite needs %d of them for its files beside it (NAME-journal): choose one of at most "
+            "%ld",
+            strlen(name), longest, LONGER, longest - LONGER);
+    if (strlen(absolute) + (size_t)needed > LONGEST_PATH)
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "this path, which has %zu bytes from the root on, is too long for SQLite, whose paths end at "
+            "%d bytes and need %d of them for files beside the database: choose a folder with a shorter "
+            "path",
+            strlen(absolute), LONGEST_PATH, needed);
+    return FST_OK;
+}
+
+/* Where a file that is to be made will lie: the path of its folder from the root on, and its name. */
+static fst_status path_of_new(const char *path, char **absolute, fst_error *error)
+{
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     char *folder = slash == path ? strdup("/") : slash ? strndup(path, (size_t)(slash - path)) : strdup(".");
     char *found = folder ? realpath(folder, NULL) : NULL;
@@ -75,6 +122,16 @@ fst_status fst_database_path(const char *path, char **absolute, fst_error *error
         status = fst_fail(error, FST_BAD_INPUT, path, "this is no name of a file");
     else if (status == FST_OK && lstat(*absolute, &there) == 0 && S_ISLNK(there.st_mode))
         status = fst_fail(error, FST_BAD_INPUT, path, "this symbolic link leads to nothing that can be read");
+    return status;
+}
+
+fst_status fst_database_path(const char *path, char **absolute, fst_error *error)
+{
+    *absolute = realpath(path, NULL);
+    const int is_new = !*absolute;
+    fst_status status = is_new ? path_of_new(path, absolute, error) : FST_OK;
+    if (status == FST_OK)
+        status = check_length(path, *absolute, is_new, error);
     if (status != FST_OK) {
         free(*absolute);
         *absolute = NULL;
@@ -87,23 +144,44 @@ static uint32_t number_at(const unsigned char *bytes)
     return (uint32_t)bytes[0] << 24 | (uint32_t)bytes[1] << 16 | (uint32_t)bytes[2] << 8 | bytes[3];
 }
 
-fst_status fst_database_head(int descriptor, const char *path, char mark[FST_MARK_SIZE], fst_error *error)
+static const char SIGNATURE[16] = "SQLite format 3"; /* with the zero behind it */
+
+int fst_database_begins(int descriptor)
+{
+    char bytes[sizeof SIGNATURE];
+    return fst_read_at(descriptor, bytes, sizeof bytes, 0) == (ssize_t)sizeof bytes &&
+           memcmp(bytes, SIGNATURE, sizeof bytes) == 0;
+}
+
+fst_status fst_database_head(int descriptor, const char *path, int writable, char mark[FST_MARK_SIZE],
+                             fst_error *error)
 {
     enum { USER_VERSION = 60, APPLICATION = 68, HEAD = 100 };
     unsigned char page[4096] = {0};
+    const char *advice = writable ? "it was left untouched: choose another name"
+                                  : "give the name of a file that festoon sweep -o FILE.db made";
     const ssize_t have = fst_read_at(descriptor, page, sizeof page, 0);
     if (have < 0)
         return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(errno));
     mark[0] = '\0';
-    if (have < HEAD || memcmp(page, "SQLite format 3", 16) != 0 ||
-        number_at(page + APPLICATION) != FST_SWEEP_APPLICATION_ID)
-        return fst_fail(error, FST_BAD_INPUT, path,
-                        "this is no database of festoon sweep; it was left untouched: choose another name");
+    if (have < HEAD || memcmp(page, SIGNATURE, sizeof SIGNATURE) != 0)
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "this is no database of a sweep, or its beginning is damaged: a sweep's file begins with "
+            "\"%s\"; %s",
+            SIGNATURE, advice);
+    if (number_at(page + APPLICATION) != FST_SWEEP_APPLICATION_ID)
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "this is a database of SQLite, but not that of a sweep: another program made it, or its "
+            "beginning is damaged; %s",
+            advice);
     const uint32_t format = number_at(page + USER_VERSION);
     if (format == 1)
         return fst_fail(error, FST_BAD_INPUT, path,
                         "this sweep was made by an older festoon, whose rows have no checksums; it was left "
-                        "untouched: choose another file, or use that festoon to export it");
+                        "untouched: use that festoon to export it%s",
+                        writable ? ", or choose another file" : "");
     if (format != FST_SWEEP_FORMAT)
         return fst_fail(
             error, FST_BAD_INPUT, path,
@@ -116,7 +194,8 @@ fst_status fst_database_head(int descriptor, const char *path, char mark[FST_MAR
 
 /* ------------------------------------------------------------------ connecting */
 
-/* Text in the file can make SQLite run nothing: no triggers, no views, no functions, no extensions. */
+/* SQLite runs nothing that the file contains: no triggers, no views, no functions of its schema, no extensions.
+ */
 static void distrust(sqlite3 *database)
 {
     (void)sqlite3_extended_result_codes(database, 1);
@@ -136,7 +215,7 @@ void fst_database_allow_tidying(sqlite3 *database)
     (void)sqlite3_db_config(database, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, NULL);
 }
 
-/* `exclusive`: the log is read by this connection alone, for which it needs no memory shared by processes. */
+/* With `exclusive` this connection alone reads the log, so that SQLite needs no memory that processes share. */
 static fst_status connect_by(const char *name, int flags, const char *system, int exclusive, const char *path,
                              sqlite3 **database, fst_error *error)
 {
@@ -148,7 +227,7 @@ static fst_status connect_by(const char *name, int flags, const char *system, in
     return fst_database_do(*database, path, "SELECT count(*) FROM sqlite_master", error);
 }
 
-/* A path as an address in which every byte stands for itself. */
+/* A path as an address (URI) in which every byte but "/" is escaped, so that none has a meaning of its own. */
 static char *immutable_address(const char *path)
 {
     char *address = malloc(3 * strlen(path) + 32);
@@ -161,8 +240,8 @@ static char *immutable_address(const char *path)
     return address;
 }
 
-/* Where nothing may be written, SQLite reads a database with a log only if it needs no locks for it, and one
- * without a log only if told that it never changes. */
+/* Where nothing may be written, SQLite can make neither its locks nor its shared memory.  A database with a log
+ * is read without locks then, and one without a log as a file that never changes. */
 static fst_status connect_unwritable(const char *path, sqlite3 **database, fst_error *error)
 {
     char log[FST_LOG_NAME_SIZE];
@@ -181,7 +260,8 @@ static fst_status connect_unwritable(const char *path, sqlite3 **database, fst_e
 fst_status fst_database_connect(const char *path, int writable, sqlite3 **database, fst_error *error)
 {
     *database = NULL;
-    /* Readers too ask for writing, so that the log beside the file is tidied up; SQLite does with less. */
+    /* Readers ask for writing too, so that SQLite can move the log into the file; where that is not allowed, it
+     * opens the file for reading only. */
     fst_status status =
         connect_by(path, SQLITE_OPEN_READWRITE, NULL, fst_on_network(path), path, database, error);
     if (status == FST_IO && !writable) {

@@ -20,10 +20,14 @@ int fst_database_is_damage(int code);
  * meaning of its own to such a name.  To be freed. */
 fst_status fst_database_path(const char *path, char **absolute, fst_error *error);
 
+/* Whether a file begins as every database of SQLite does. */
+int fst_database_begins(int descriptor);
+
 /* Whether the first bytes of a file are those of a sweep's database (SQLite itself would touch the journal of a
- * foreign one); FST_BAD_INPUT if not, or if it is of an older format.  `mark` is that of the database, or empty
- * where it cannot be found. */
-fst_status fst_database_head(int descriptor, const char *path, char mark[FST_MARK_SIZE], fst_error *error);
+ * foreign one); FST_BAD_INPUT if not, or if it is of an older format.  `writable`: a sweep is to be written
+ * there, of which the advice speaks.  `mark` is that of the database, or empty where it cannot be found. */
+fst_status fst_database_head(int descriptor, const char *path, int writable, char mark[FST_MARK_SIZE],
+                             fst_error *error);
 
 /* Connect to a database, for reading only or for writing too.  Only the file and its log are read; a log is not
  * written into the file unless fst_database_allow_tidying() was called. */

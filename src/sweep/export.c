@@ -12,6 +12,7 @@
 #include "sweep/columns.h"
 #include "sweep/database.h"
 #include "sweep/file.h"
+#include "sweep/lock.h"
 
 typedef struct export_job {
     const char *path;
@@ -350,11 +351,11 @@ fst_status fst_sweep_export(const char *path, fst_export_format format, const ch
 int fst_is_sweep(const char *path)
 {
     int descriptor;
-    char mark[FST_MARK_SIZE];
-    fst_error error = {FST_OK, "", ""};
+    if (fst_lock_check_own(path, path, NULL) != FST_OK)
+        return 1;
     if (fst_open_regular(path, &descriptor, NULL) != FST_OK)
         return 0;
-    (void)fst_database_head(descriptor, path, mark, &error);
+    const int begins = fst_database_begins(descriptor);
     (void)close(descriptor);
-    return error.code == FST_OK;
+    return begins;
 }

@@ -105,12 +105,15 @@ static fst_status look_beside(fst_sweep_file *file, int descriptor, int locked, 
 static fst_status look_at_file(fst_sweep_file *file, int locked, fst_error *error)
 {
     int descriptor;
-    fst_status status = fst_open_regular(file->name, &descriptor, error);
+    fst_status status = locked ? FST_OK : fst_lock_check_own(file->name, file->name, error);
+    if (status != FST_OK)
+        return status;
+    status = fst_open_regular(file->name, &descriptor, error);
     if (status == FST_BAD_INPUT && locked && access(file->name, F_OK) != 0)
         return fst_fail(error, FST_IO, file->name, "this file was there a moment ago, and is removed");
     if (status != FST_OK)
         return status;
-    status = fst_database_head(descriptor, file->name, file->mark, error);
+    status = fst_database_head(descriptor, file->name, locked, file->mark, error);
     if (status == FST_OK && !file->mark[0])
         status = fail_tables(file, error);
     if (status == FST_OK && fstat(descriptor, &file->there) != 0)

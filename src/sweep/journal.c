@@ -83,29 +83,45 @@ static void release(fst_journal *journal)
     free(journal);
 }
 
+/* Open an existing file; *descriptor is -1 where it has gone in the meantime. */
+static fst_status open_existing(const char *name, const char *path, int *descriptor, fst_error *error)
+{
+    *descriptor = -1;
+    const fst_status status = fst_lock_check_own(path, name, error);
+    if (status != FST_OK)
+        return status;
+    *descriptor = open(path, O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (*descriptor >= 0 || errno == ENOENT)
+        return FST_OK;
+    if (errno == EISDIR)
+        return fst_fail(error, FST_BAD_INPUT, name, "this is a directory, not a file");
+    if (errno == EACCES || errno == EPERM || errno == EROFS)
+        return fst_fail(error, FST_IO, name, "no permission to write this database (%s)", strerror(errno));
+    return fst_fail(error, FST_IO, name, "this database cannot be opened: %s", strerror(errno));
+}
+
 /* Open an existing file and take its lock; *descriptor is -1 where the file has gone in the meantime. */
 static fst_status lock_existing(const char *name, const char *path, int last, int *descriptor, fst_error *error)
 {
     char mark[FST_MARK_SIZE];
     struct stat opened;
-    *descriptor = open(path, O_RDWR | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (*descriptor < 0 && errno == ENOENT)
-        return FST_OK;
-    if (*descriptor < 0 && errno == EISDIR)
-        return fst_fail(error, FST_BAD_INPUT, name, "this is a directory, not a file");
+    fst_status status = open_existing(name, path, descriptor, error);
     if (*descriptor < 0)
-        return fst_fail(error, FST_IO, name, "no permission to write this database (%s)", strerror(errno));
-    fst_status status = FST_OK;
+        return status;
     if (fstat(*descriptor, &opened) != 0 || !S_ISREG(opened.st_mode))
         status = fst_fail(error, FST_BAD_INPUT, name, "this is a device or a pipe; a regular file is needed");
     if (status == FST_OK)
-        status = fst_database_head(*descriptor, name, mark, error);
+        status = fst_database_head(*descriptor, name, 1, mark, error);
     const fst_lock_state state = status == FST_OK ? fst_lock_take(*descriptor) : FST_LOCK_FREE;
     if (state == FST_LOCK_IMPOSSIBLE)
         status =
             fst_fail(error, FST_IO, name, "this file cannot be locked (%s): choose one on another file system",
                      strerror(errno));
-    else if (state == FST_LOCK_TAKEN && last)
+    if (state == FST_LOCK_TAKEN && fst_lock_is_own(*descriptor, name, error)) {
+        *descriptor = -1; /* it stays open: closing it would end the locks of the other call */
+        return FST_IO;
+    }
+    if (state == FST_LOCK_TAKEN && last)
         status = fst_lock_fail(*descriptor, name, error);
     if (status == FST_OK && state == FST_LOCK_MINE && fst_sweep_file_is_there(path, &opened)) {
         fst_sweep_tidy(path);

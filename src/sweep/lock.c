@@ -1,7 +1,12 @@
 #include "sweep/lock.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -45,6 +50,62 @@ void fst_lock_owner(int descriptor, char owner[FST_LOCK_OWNER_SIZE])
                        host[0] ? host : "another computer");
     else
         (void)snprintf(owner, FST_LOCK_OWNER_SIZE, "another command");
+}
+
+/* ------------------------------------------------------------------ a sweep of this process */
+
+/* How fst_lock_owner() names this process. */
+static void name_of_this(char owner[FST_LOCK_OWNER_SIZE])
+{
+    char host[HOST_LETTERS + 1] = "";
+    (void)gethostname(host, sizeof host - 1);
+    (void)snprintf(owner, FST_LOCK_OWNER_SIZE, "process %ld on %s", (long)getpid(), host);
+}
+
+static int is_of_this_process(int descriptor)
+{
+    char owner[FST_LOCK_OWNER_SIZE], this[FST_LOCK_OWNER_SIZE];
+    name_of_this(this);
+    fst_lock_owner(descriptor, owner);
+    return fst_lock_look(descriptor) == FST_LOCK_TAKEN && strcmp(owner, this) == 0;
+}
+
+static fst_status fail_own(const char *name, fst_error *error)
+{
+    return fst_fail(error, FST_IO, name,
+                    "this process is itself at work on this sweep, in another call; nothing was changed: wait "
+                    "until that call has ended, or read the file in another process");
+}
+
+/* The journal has two descriptors of its file at least, of which SQLite's does not hold the lock and sees it.
+ */
+fst_status fst_lock_check_own(const char *path, const char *name, fst_error *error)
+{
+    struct stat wanted, found;
+    DIR *open_files = stat(path, &wanted) == 0 ? opendir("/proc/self/fd") : NULL;
+    int own = 0;
+    for (struct dirent *entry = open_files ? readdir(open_files) : NULL; entry && !own;
+         entry = readdir(open_files)) {
+        const int descriptor = entry->d_name[0] == '.' ? -1 : (int)strtol(entry->d_name, NULL, 10);
+        own = descriptor >= 0 && fstat(descriptor, &found) == 0 && found.st_dev == wanted.st_dev &&
+              found.st_ino == wanted.st_ino && is_of_this_process(descriptor);
+    }
+    if (open_files)
+        (void)closedir(open_files);
+    return own ? fail_own(name, error) : FST_OK;
+}
+
+/* The thread with the lock may be about to say whose it is. */
+int fst_lock_is_own(int descriptor, const char *name, fst_error *error)
+{
+    enum { TRIES = 20 };
+    const struct timespec moment = {0, 1000000};
+    int own = is_of_this_process(descriptor);
+    for (int i = 0; i < TRIES && !own && fst_locked_byte(descriptor, PROCESS_PLACES, (off_t)1 << 31) < 0; ++i) {
+        (void)nanosleep(&moment, NULL);
+        own = is_of_this_process(descriptor);
+    }
+    return own ? (fail_own(name, error), 1) : 0;
 }
 
 fst_status fst_lock_fail(int descriptor, const char *path, fst_error *error)

@@ -28,6 +28,17 @@ enum { FST_LOCK_OWNER_SIZE = 96 };
 /* "process 123 on HOST", or what is known of it. */
 void fst_lock_owner(int descriptor, char owner[FST_LOCK_OWNER_SIZE]);
 
+/* A sweep of this very process on the file.  SQLite's own locks (F_SETLK) are those of a process: all of them
+ * end as soon as any descriptor of the file is closed in it, whatever it was opened for, and then other
+ * programs write into a database that is being written.  So this function, which opens nothing, comes before
+ * any opening: FST_IO with a sentence where this process is at work on the file, which must not be opened then.
+ */
+fst_status fst_lock_check_own(const char *path, const char *name, fst_error *error);
+
+/* The same of a descriptor that found the lock taken, because another thread opened the file at the same time:
+ * 1 if that thread has the lock, with a sentence in `error`; closing the descriptor would then do the harm. */
+int fst_lock_is_own(int descriptor, const char *name, fst_error *error);
+
 /* FST_IO: who is at work on `path`, the file of the descriptor. */
 fst_status fst_lock_fail(int descriptor, const char *path, fst_error *error);
 

@@ -1,15 +1,17 @@
 #!/usr/bin/env python3
-"""Put faults into the code, one at a time, and count which ones the tests notice: `make mutants`.
+"""Put faults into the code, one at a time, and count how many of them the tests notice: `make mutants`.
 
-The faults are listed in tests/mutants/*.mutants (entries.py tells their form).  The tree is copied to
-build-mutants/tree-N and built there as `make test` builds it.  Then, for each fault: apply it, build, run its likely
-tests; if these pass, run the rest of the tests that are not long.  A test that fails, crashes or hangs (its time limit
-follows from the time that it takes without a fault) notices the fault.  What does not compile is invalid, and what
-compiles to the same object files is equivalent: neither counts.
+The files tests/mutants/*.mutants list the faults (entries.py describes the form).  The script copies the tree to
+build-mutants/tree-N and builds it there as `make test` does.  Then it takes one fault after another: it changes the
+file, builds, and runs the tests that are likely to notice; if all of them pass, it runs every other test that is not
+long.  The fault is noticed when a test fails, crashes or hangs (a test's time limit follows from the time that it takes
+without a fault).  A fault that does not compile is invalid, and one that compiles to the same object files is
+equivalent; neither counts.
 
-Results are kept in build-mutants/results, a file a fault, so that the work can be interrupted and goes on from there.
-They are used again until the fault, its file or, for a survivor, any other file of the tree changes; --fresh forgets
-them.  The exit status is 0 if every fault applies, at least 95 % were noticed, and each survivor has a reason (`why:`).
+Results are kept in build-mutants/results, one file for each fault, so that interrupted work goes on where it stopped.  A
+result is used again until its fault or the faulty file changes; the result of a fault that survived, until any file of
+the tree changes.  --fresh forgets all results.  The exit status is 0 if every fault applies, at least 95 % were noticed,
+and each survivor has a reason (`why:`).
 """
 
 import argparse
@@ -331,7 +333,7 @@ def work(trees, entries, results, quick):
 
 
 def tabulate(entries, results):
-    """Rows by room and in all: faults that count, noticed, survived, those that do not count, per cent."""
+    """Rows by room and in all: faults that count, noticed, survived, faults that do not count, per cent."""
     rows, whole = [], collections.Counter()
     for room in dict.fromkeys(entry.room for entry in entries):
         counts = collections.Counter(results.get(entry).get("outcome", "not tried") for entry in entries

@@ -68,28 +68,47 @@ static void put(const char *entry, const void *bytes, size_t size)
         abort();
 }
 
-__attribute__((format(printf, 1, 2))) static void note(const char *format, ...)
+/* One call at a time is made and written down: begin(), the call, and its end by record() or by finish(). */
+static void begin(void)
 {
+    (void)pthread_mutex_lock(&order);
+}
+
+static int finish(int answer)
+{
+    const int reason = errno;
+    (void)pthread_mutex_unlock(&order);
+    errno = reason;
+    return answer;
+}
+
+/* The end of a call that answered `failed`: an entry if it did not fail and this path is watched. */
+__attribute__((format(printf, 3, 4))) static int record(int failed, const char *watched, const char *format,
+                                                        ...)
+{
+    const int reason = errno;
     char entry[9000];
     va_list values;
-    va_start(values, format);
-    (void)vsnprintf(entry, sizeof entry, format, values);
-    va_end(values);
-    put(entry, NULL, 0);
+    if (failed == 0 && is_watched(watched)) {
+        va_start(values, format);
+        (void)vsnprintf(entry, sizeof entry, format, values);
+        va_end(values);
+        put(entry, NULL, 0);
+    }
+    errno = reason;
+    return finish(failed);
 }
 
 static int open_recorded(const char *path, int flags, mode_t mode)
 {
     if (!(flags & O_CREAT) || !is_watched(path))
         return NEXT(open)(path, flags, mode);
-    (void)pthread_mutex_lock(&order);
+    begin();
     const int is_new = access(path, F_OK) != 0;
     const int descriptor = NEXT(open)(path, flags, mode);
-    const int reason = errno;
-    if (descriptor >= 0 && is_new)
-        note("C %lu %s\n", inode_of(descriptor), path);
-    (void)pthread_mutex_unlock(&order);
-    errno = reason;
+    if (descriptor < 0 || !is_new)
+        return finish(descriptor);
+    (void)record(0, path, "C %lu %s\n", inode_of(descriptor), path);
     return descriptor;
 }
 
@@ -121,15 +140,13 @@ static ssize_t pwrite_recorded(int descriptor, const void *bytes, size_t size, o
     char path[4096], entry[100];
     if (!is_watched_file(descriptor, path))
         return NEXT(pwrite)(descriptor, bytes, size, place);
-    (void)pthread_mutex_lock(&order);
+    begin();
     const ssize_t done = NEXT(pwrite)(descriptor, bytes, size, place);
-    const int reason = errno;
     if (done > 0) {
         (void)snprintf(entry, sizeof entry, "W %lu %lld %zd\n", inode_of(descriptor), (long long)place, done);
         put(entry, bytes, (size_t)done);
     }
-    (void)pthread_mutex_unlock(&order);
-    errno = reason;
+    (void)finish(0);
     return done;
 }
 
@@ -156,12 +173,10 @@ VISIBLE ssize_t write(int descriptor, const void *bytes, size_t size)
 static int truncate_recorded(int descriptor, off_t size)
 {
     char path[4096];
-    (void)pthread_mutex_lock(&order);
-    const int failed = NEXT(ftruncate)(descriptor, size);
-    if (!failed && is_watched_file(descriptor, path))
-        note("T %lu %lld\n", inode_of(descriptor), (long long)size);
-    (void)pthread_mutex_unlock(&order);
-    return failed;
+    (void)is_watched_file(descriptor, path);
+    begin();
+    return record(NEXT(ftruncate)(descriptor, size), path, "T %lu %lld\n", inode_of(descriptor),
+                  (long long)size);
 }
 
 VISIBLE int ftruncate(int descriptor, off_t size)
@@ -177,17 +192,13 @@ VISIBLE int ftruncate64(int descriptor, off_t size)
 static int sync_recorded(int descriptor, int (*sync)(int))
 {
     char path[4096];
-    struct stat there;
-    (void)pthread_mutex_lock(&order);
+    struct stat there = {.st_mode = 0};
+    (void)is_watched_file(descriptor, path);
+    begin();
     const int failed = sync(descriptor);
-    if (!failed && is_watched_file(descriptor, path) && fstat(descriptor, &there) == 0) {
-        if (S_ISDIR(there.st_mode))
-            note("D %s\n", path);
-        else
-            note("S %lu\n", (unsigned long)there.st_ino);
-    }
-    (void)pthread_mutex_unlock(&order);
-    return failed;
+    if (!failed && fstat(descriptor, &there) == 0 && S_ISDIR(there.st_mode))
+        return record(failed, path, "D %s\n", path);
+    return record(failed, path, "S %lu\n", (unsigned long)there.st_ino);
 }
 
 VISIBLE int fsync(int descriptor)
@@ -202,48 +213,24 @@ VISIBLE int fdatasync(int descriptor)
 
 VISIBLE int unlink(const char *path)
 {
-    (void)pthread_mutex_lock(&order);
-    const int failed = NEXT(unlink)(path);
-    const int reason = errno;
-    if (!failed && is_watched(path))
-        note("U %s\n", path);
-    (void)pthread_mutex_unlock(&order);
-    errno = reason;
-    return failed;
+    begin();
+    return record(NEXT(unlink)(path), path, "U %s\n", path);
 }
 
 VISIBLE int rename(const char *from, const char *to)
 {
-    (void)pthread_mutex_lock(&order);
-    const int failed = NEXT(rename)(from, to);
-    const int reason = errno;
-    if (!failed && is_watched(to))
-        note("R %s\n%s\n", from, to);
-    (void)pthread_mutex_unlock(&order);
-    errno = reason;
-    return failed;
+    begin();
+    return record(NEXT(rename)(from, to), to, "R %s\n%s\n", from, to);
 }
 
 VISIBLE int renameat2(int from_folder, const char *from, int to_folder, const char *to, unsigned int flags)
 {
-    (void)pthread_mutex_lock(&order);
-    const int failed = NEXT(renameat2)(from_folder, from, to_folder, to, flags);
-    const int reason = errno;
-    if (!failed && is_watched(to))
-        note("R %s\n%s\n", from, to);
-    (void)pthread_mutex_unlock(&order);
-    errno = reason;
-    return failed;
+    begin();
+    return record(NEXT(renameat2)(from_folder, from, to_folder, to, flags), to, "R %s\n%s\n", from, to);
 }
 
 VISIBLE int link(const char *from, const char *to)
 {
-    (void)pthread_mutex_lock(&order);
-    const int failed = NEXT(link)(from, to);
-    const int reason = errno;
-    if (!failed && is_watched(to))
-        note("L %s\n%s\n", from, to);
-    (void)pthread_mutex_unlock(&order);
-    errno = reason;
-    return failed;
+    begin();
+    return record(NEXT(link)(from, to), to, "L %s\n%s\n", from, to);
 }

@@ -107,7 +107,7 @@ def finish(process):
     alone = 0
     while "mpirun" in process.args and alive(process) and alone < 200:
         time.sleep(0.05)
-        alone = alone + 1 if not children_of(process) and getattr(process, "had_ranks", False) else 0
+        alone = alone + 1 if events.lost_its_children(process) else 0
     if alone == 200:
         os.kill(process.pid, signal.SIGKILL)
     _, status, usage = os.wait4(process.pid, 0)
@@ -153,21 +153,11 @@ def moment(kind, path, rng):
     return lambda: time.monotonic() >= until
 
 
-def children_of(process):
-    try:
-        with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
-            found = [int(word) for word in file.read().split()]
-    except OSError:
-        return []
-    process.had_ranks = getattr(process, "had_ranks", False) or bool(found)
-    return found
-
-
 def strike(kind, process, rng):
     """One of the ranks, or the program itself."""
     victim = process.pid
     if kind.ranks:
-        ranks = children_of(process)
+        ranks = events.children_of(process)
         if not ranks:
             return
         victim = rng.choice(ranks)

@@ -11,7 +11,6 @@ moment was over, with the same bits, and `festoon sweep` must come to the rows o
 Environment: FESTOON, SOURCE_DIR, BUILD_DIR.  Status 1: a promise was broken; 77: no recorder (sanitizers).
 """
 
-import argparse
 import os
 import random
 import shutil
@@ -351,20 +350,10 @@ attack finds rows lost by a program that never syncs. Not simulated: disks that 
 
 
 def main():
-    options = argparse.ArgumentParser()
-    options.add_argument("--count", type=int, default=1000)
-    options.add_argument("--seed", type=int, default=1)
-    options.add_argument("--write", action="store_true")
-    given = options.parse_args()
     if not os.path.exists(RECORDER):
         print("skipped: nothing can be preloaded into a program with sanitizers")
         return 77
-    rows, wrong = campaign(given.count, given.seed)
-    text = report(rows, given.count, given.seed, wrong)
-    print(text)
-    if given.write:
-        section.write("power", text)
-    return 1 if wrong else 0
+    return section.run("power", campaign, report)
 
 
 if __name__ == "__main__":

@@ -11,7 +11,6 @@ either comes to the right rows or refuses the file.
 Environment: FESTOON, SOURCE_DIR, BUILD_DIR.  Status 1: something was silently wrong.
 """
 
-import argparse
 import os
 import random
 import shutil
@@ -144,19 +143,5 @@ were hit). Silently wrong: {len(wrong)}.
                     rows))
 
 
-def main():
-    options = argparse.ArgumentParser()
-    options.add_argument("--count", type=int, default=1000)
-    options.add_argument("--seed", type=int, default=1)
-    options.add_argument("--write", action="store_true")
-    given = options.parse_args()
-    counts, wrong = campaign(given.count, given.seed)
-    text = report(counts, given.count, given.seed, wrong)
-    print(text)
-    if given.write:
-        section.write("rot", text)
-    return 1 if wrong else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(section.run("rot", campaign, report))

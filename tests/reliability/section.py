@@ -3,6 +3,7 @@
 A section stands between two comment lines, <!-- begin NAME --> and <!-- end NAME -->.
 """
 
+import argparse
 import os
 import re
 import textwrap
@@ -51,3 +52,19 @@ def write(name, text):
     with open(part, "w", encoding="utf-8") as file:
         file.write(after)
     os.replace(part, page())
+
+
+def run(name, campaign, report, count=1000):
+    """The main program of a campaign of `count` blows: campaign(count, seed) gives what was found and a list of the
+    promises that were broken, report() of these the text of the section `name`.  The status of the program."""
+    options = argparse.ArgumentParser()
+    options.add_argument("--count", type=int, default=count)
+    options.add_argument("--seed", type=int, default=1)
+    options.add_argument("--write", action="store_true")
+    given = options.parse_args()
+    found, wrong = campaign(given.count, given.seed)
+    text = report(found, given.count, given.seed, wrong)
+    print(text)
+    if given.write:
+        write(name, text)
+    return 1 if wrong else 0
