@@ -1,12 +1,13 @@
+/* nearest.c - the valid name that is nearest to a wrong one, for "did you mean". */
 #include <festoon/festoon.h>
 
 #include <stdio.h>
 #include <string.h>
 
-/* Longer words are compared by their beginnings: no name comes near this. */
+/* Longer words are compared by their first 63 letters: every valid name is shorter. */
 #define LONGEST 63
 
-/* Costs are counted in halves: a wrong letter 2, a letter in the wrong case 1. */
+/* Costs are counted in halves: a wrong letter costs 2, a letter in the wrong case 1. */
 #define EDIT_COST 2U
 #define CASE_COST 1U
 
@@ -27,8 +28,8 @@ static unsigned replacing(char a, char b)
     return lower((unsigned char)a) == lower((unsigned char)b) ? CASE_COST : EDIT_COST;
 }
 
-/* Edit distance in halves, by the usual table kept as three rows: letters left out, put in, replaced, and two
- * neighbours exchanged each cost one edit. */
+/* The edit distance in halves.  A letter left out, put in or replaced costs one edit, and so do two neighbours
+ * exchanged.  It is the usual table of dynamic programming, of which three rows are kept. */
 static unsigned distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
     unsigned rows[3][LONGEST + 1];

@@ -1,8 +1,9 @@
+/* text.c - text from outside, made harmless for terminals, figures and pages, and quoted for messages. */
 #include "base/text.h"
 
 #include <string.h>
 
-/* The length of the UTF-8 character at `text` and its number; 0 where there is none (stray or missing bytes,
+/* The length of the UTF-8 character at `text`, and its number; 0 where there is none (stray or missing bytes,
  * forms longer than needed, surrogates). */
 static size_t character_at(const unsigned char *text, unsigned long *number)
 {
@@ -26,7 +27,7 @@ static size_t character_at(const unsigned char *text, unsigned long *number)
     return 0;
 }
 
-/* What a terminal may obey, or what makes a line look like another one. */
+/* Characters that a terminal may obey, or that make a line look like another one. */
 static int is_wild(unsigned long c)
 {
     return c < 0x20 || (c >= 0x7F && c <= 0x9F) || (c >= 0x200E && c <= 0x200F) ||
@@ -52,7 +53,7 @@ void fst_text_tame(char *text)
 
 const char *fst_quote(const char *text, char quoted[FST_QUOTE_SIZE])
 {
-    const size_t longest = FST_QUOTE_SIZE - 6; /* two quotes, three dots, the final zero */
+    const size_t longest = FST_QUOTE_SIZE - 6; /* room for two quotes, three dots and the final zero */
     size_t length = strlen(text);
     size_t shown = length < longest ? length : longest;
     /* A cut must not leave half of a UTF-8 character. */
