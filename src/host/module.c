@@ -1,3 +1,4 @@
+/* module.c - loading a module, and finding out whether it could be loaded. */
 /* dladdr() is an extension of the C library. */
 #define _GNU_SOURCE
 #include "host/module.h"
@@ -7,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Where modules lie, seen from this library: in the build tree, and installed. */
+/* Where modules lie relative to this library: in the build tree, and installed. */
 static const char *const places[] = {"/", "/festoon/"};
 
 const void *fst_module_table(const char *file, const char *symbol, int *found)
