@@ -1,7 +1,13 @@
-/* sweep.c - a sweep as a job: threads compute rows, one thread of one process keeps the journal.
+/* sweep.c - a sweep as a job: threads compute rows, and one thread of one process keeps the journal.
  *
- * That thread looks in the journal for points without a row, gives them to its own workers and, where mpirun
- * started several processes, to those of the others, and writes the rows that come back.
+ *  grid --> points without a row --> tasks queue --> workers --> rows queue --> journal --> FILE.db
+ *           look_for_tasks()         workers.c       workers.c   workers.c      journal.c
+ *
+ * That one thread, the caller's, goes round in keep_journal(): it fills the queue of tasks from the journal,
+ * hands tasks to the other ranks where mpirun started several processes (ranks.h), writes the rows and images
+ * that came back, commits now and then, and tells the caller's progress.  A stop (Ctrl-C, a failure) goes the
+ * same way: no new tasks, unfinished runs leave their images, and everything is committed before the call
+ * returns.
  */
 #include "sweep/sweep.h"
 
@@ -19,8 +25,11 @@
 
 enum { OPTIONS_COOKIE = 0x53574550, COMMIT_ROWS = 256 };
 static const double COMMIT_SECONDS = 0.5;
-static const double WAIT_SECONDS = 0.05, WAIT_SECONDS_RANKS = 0.002; /* for rows; between looks for messages */
-static const double FAREWELL_SECONDS = 10.0;                         /* for followers that were told to stop */
+static const double
+    WAIT_SECONDS = 0.05,
+    WAIT_SECONDS_RANKS =
+        0.002; /* how long to wait for rows; the second, where messages of ranks are looked for */
+static const double FAREWELL_SECONDS = 10.0; /* how long to wait for followers that were told to stop */
 
 typedef struct job {
     fst_sweep_identity identity;
@@ -30,13 +39,13 @@ typedef struct job {
     fst_ranks ranks;
     fst_leader *leader; /* NULL where there is one rank */
     fst_workers *workers;
-    int64_t next;             /* point or chain from which on the journal is yet to be looked through */
-    fst_sweep_counts *counts; /* the caller's */
+    int64_t next;             /* the points or chains before this one were looked up in the journal */
+    fst_sweep_counts *counts; /* the caller's, always up to date */
     double started, committed;
     double processor_started, journal_started;
-    int uncommitted; /* rows and images */
-    int stopping;    /* nothing waits for company any more: what comes is committed at once */
-    int no_answer;   /* a follower that was told to stop said nothing more */
+    int uncommitted; /* rows and images added since the last commit */
+    int stopping;    /* the sweep is ending: commit whatever comes at once */
+    int no_answer;   /* a follower was told to stop and did not answer */
 } job;
 
 fst_sweep_options fst_default_sweep_options(void)
@@ -56,7 +65,7 @@ static double read_clock(clockid_t clock)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* What the job has taken so far. */
+/* Note how much time the job has taken so far. */
 static void read_clocks(job *j)
 {
     j->counts->seconds = fst_clock_seconds() - j->started;
@@ -71,7 +80,7 @@ static double fraction_done(const job *j)
 
 /* ------------------------------------------------------------------ tasks */
 
-/* The task that goes on with a chain, if there is anything left of it. */
+/* The task that goes on with a chain; *found is 0 where the chain is finished. */
 static fst_status resume_chain(job *j, int64_t chain, fst_sweep_task *t, int *found, fst_error *error)
 {
     const int64_t count = fst_chain_length(&j->identity);
@@ -94,7 +103,7 @@ static fst_status resume_chain(job *j, int64_t chain, fst_sweep_task *t, int *fo
     return FST_OK;
 }
 
-/* Tasks from the journal into `fresh`; *found is 0 when there are no more. */
+/* Find tasks for points without a row; *found is 0 when there are no more. */
 static fst_status look_for_tasks(job *j, fst_sweep_task *fresh, int room, int *found, fst_error *error)
 {
     fst_status status = FST_OK;
@@ -116,7 +125,7 @@ static fst_status look_for_tasks(job *j, fst_sweep_task *fresh, int room, int *f
     return status;
 }
 
-/* The images of runs that were broken off go to the workers before their tasks. */
+/* Give the workers the images of unfinished runs, before the tasks that go on from them. */
 static void find_images(job *j, const fst_sweep_task *tasks, int count)
 {
     for (int i = 0; i < count; ++i) {
@@ -129,7 +138,7 @@ static void find_images(job *j, const fst_sweep_task *tasks, int count)
     }
 }
 
-/* Fill the workers' queue of tasks up. */
+/* Fill up the workers' queue of tasks. */
 static fst_status refill(job *j, fst_error *error)
 {
     const int room = fst_workers_room(j->workers);
@@ -158,7 +167,7 @@ static fst_status commit(job *j, fst_error *error)
     return status;
 }
 
-/* Write what has come, and commit now and then. */
+/* Write rows, and commit now and then. */
 static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fst_error *error)
 {
     fst_status status = FST_OK;
@@ -180,7 +189,7 @@ static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fs
     return status;
 }
 
-/* Images of runs that are not over; the list is freed. */
+/* Write images of unfinished runs, and free the list. */
 static fst_status write_images(job *j, fst_image *images, fst_error *error)
 {
     fst_status status = FST_OK;
@@ -192,8 +201,8 @@ static fst_status write_images(job *j, fst_image *images, fst_error *error)
     return status;
 }
 
-/* The rows of the other ranks.  What failed there is put into *outcome: rows that have come are written all the
- * same, unless the journal has failed. */
+/* Write the rows of the other ranks.  A failure there is put into *outcome: rows that have come are written all
+ * the same, unless the journal itself has failed. */
 static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, fst_status *outcome,
                                  fst_error *error)
 {
@@ -219,7 +228,7 @@ static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, 
     return status;
 }
 
-/* What the workers have done: rows for which it is waited so long, and images of runs that are not over. */
+/* Write the rows and images of our own workers; wait up to `seconds` for rows. */
 static fst_status hear_workers(job *j, fst_sweep_record *rows, double seconds, int abandoned, int *busy,
                                fst_error *error)
 {
@@ -233,8 +242,8 @@ static fst_status hear_workers(job *j, fst_sweep_record *rows, double seconds, i
     return status == FST_OK ? write_rows(j, rows, count, error) : status;
 }
 
-/* No more runs are wanted.  The first thing to do is to make safe what there is: whoever ends the other ranks
- * may end this one soon. */
+/* Begin no more runs.  First commit what is there: the program that ends the other ranks may soon end this one.
+ */
 static fst_status stop(job *j, fst_sweep_record *rows, fst_status status, fst_error *error)
 {
     int busy;
@@ -259,7 +268,7 @@ static void wait_for_messages(const job *j, int busy)
         (void)nanosleep(&time, NULL);
 }
 
-/* Keep the journal until nobody works any more.  An interruption still writes what was done. */
+/* Keep the journal until no worker works any more.  After an interruption this still writes what was done. */
 static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
 {
     const double seconds = j->leader ? WAIT_SECONDS_RANKS : WAIT_SECONDS;
@@ -299,7 +308,7 @@ static int thread_count(const job *j)
     return wanted > tasks ? (int)tasks : wanted;
 }
 
-/* Images are written by one process: the more runs there are, the rarer each is saved. */
+/* One process writes all images.  So the more runs there are, the more rarely each is saved. */
 static fst_workers_plan workers_plan(const job *j)
 {
     enum { THREADS_AT_FULL_RATE = 8 };
@@ -353,7 +362,7 @@ static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid
     return FST_OK;
 }
 
-/* The rank with the journal, or the only one. */
+/* The part of rank 0, or of the only process: it has the journal. */
 static fst_status lead(job *j, const char *path, fst_error *error)
 {
     fst_status status =
@@ -386,7 +395,7 @@ static fst_status lead(job *j, const char *path, fst_error *error)
     return status;
 }
 
-/* Another rank: it computes what the leader computes, or says that it cannot. */
+/* The part of any other rank: it computes what the leader computes, or says that it cannot. */
 static fst_status follow(job *j, fst_error *error)
 {
     fst_ranks_start start;
@@ -404,7 +413,7 @@ static fst_status follow(job *j, fst_error *error)
     return fst_follow(&j->ranks, &j->identity, j->options, &plan, status, error);
 }
 
-/* Lead, follow, or work alone.  What happened to followers, the leader tells. */
+/* Lead, follow, or work alone.  The leader reports what happened to followers. */
 static fst_status run_job(job *j, const char *path, fst_error *error)
 {
     fst_status status = j->options->with_ranks ? fst_ranks_open(&j->ranks, error) : FST_OK;
@@ -440,7 +449,7 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
                  .ranks = {.count = 1, .neighbours = 1}};
         counts->points = fst_grid_points(grid);
         j.started = fst_clock_seconds();
-        j.committed = j.started - COMMIT_SECONDS; /* the first row does not wait */
+        j.committed = j.started - COMMIT_SECONDS; /* the first row is committed at once */
         j.processor_started = read_clock(CLOCK_PROCESS_CPUTIME_ID);
         j.journal_started = read_clock(CLOCK_THREAD_CPUTIME_ID);
         status = run_job(&j, path, error);
