@@ -21,7 +21,7 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-/* Both ends must be values that the key can have, and the equations of motion must depend on it. */
+/* Check that the key can have both values, and that the equations of motion depend on it. */
 static fst_status check_range(const char *name, const char *key, const char *low, const char *high,
                               fst_error *error)
 {
@@ -41,7 +41,7 @@ static fst_status check_range(const char *name, const char *key, const char *low
     return FST_OK;
 }
 
-/* KEY=LO:HI of an option into key and ends; values may carry the key's unit. */
+/* Read KEY=LO:HI of an option; the values may carry the key's unit. */
 static fst_status read_range(const char *name, const char *text, char key[64], double *from, double *to,
                              fst_error *error)
 {
@@ -76,7 +76,7 @@ static fst_status read_range(const char *name, const char *text, char key[64], d
     return check_range(name, key, low, high, error);
 }
 
-/* The second parameter, and the type of the special points that are followed over both. */
+/* Read the second parameter, and the type of special points that are followed over both. */
 static fst_status read_second(const arguments *given, char key[64], fst_branch_options *o, fst_error *error)
 {
     const char *with = option_value(given, "with"), *follow = option_value(given, "follow");
@@ -143,21 +143,21 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
     return status;
 }
 
-/* Whether a file can be made there, before any work is done for it. */
+/* Whether a file can be made at this place.  It is asked before any work is done for it. */
 static fst_status check_place(const char *path, fst_error *error)
 {
     char directory[1024];
     const char *slash = strrchr(path, '/');
     const int length = slash == path ? 1 : slash ? (int)(slash - path) : 0;
     if ((size_t)length >= sizeof directory)
-        return FST_OK; /* writing will tell */
+        return FST_OK; /* the writing will tell */
     (void)snprintf(directory, sizeof directory, "%.*s", length, path);
     return access(length ? directory : ".", W_OK) == 0
                ? FST_OK
                : fail(error, FST_IO, path, "cannot write here: %s", strerror(errno));
 }
 
-/* A curve over two parameters: a few of its points. */
+/* Print a curve over two parameters: some of its points. */
 static void print_curve(FILE *out, const fst_branch *b, int curve)
 {
     size_t first = 0, count = 0;
@@ -203,7 +203,7 @@ static void print_branch(FILE *out, const fst_branch *b)
                       b->ends[i].reason);
 }
 
-/* At either end of the range; one word is enough. */
+/* Warn if the bead of either end contradicts any material; one warning is enough. */
 static void warn_of_ends(const fst_params *params, const fst_branch_options *o)
 {
     const double ends[2] = {o->from, o->to};

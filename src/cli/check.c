@@ -1,4 +1,4 @@
-/* check.c - festoon check: read a scene, and tell what it means without running it. */
+/* check.c - festoon check: reading a scene, and telling what it means without running it. */
 #include <stdlib.h>
 
 #include "cli/command.h"

@@ -30,7 +30,7 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
     double at[2];
     fst_model *model = NULL;
     fst_status status = read_numbers("--at", option_value(given, "at"), at, 2, error);
-    static const double farthest = 1e50; /* beyond, powers of the distance leave the range of a double */
+    static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
     if (status == FST_OK)

@@ -1,4 +1,5 @@
-/* main.c - the program: finds the subcommand, reads its options, and turns a status into an exit status. */
+/* main.c - the program: finding the command, reading its options, running it, and turning its status into an
+ * exit status. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -86,7 +87,7 @@ static int asks_for_help(int count, char **words)
     return 0;
 }
 
-/* words[0] is the first word behind the program's name. */
+/* words[0] is the first word after the program's name. */
 static fst_status perform(int count, char **words, FILE *out, fst_error *error)
 {
     if (count == 0)
@@ -112,7 +113,7 @@ static fst_status perform(int count, char **words, FILE *out, fst_error *error)
     if (status != FST_OK)
         return status;
     status = wanted->perform(&given, out, error);
-    /* The signal reached a helper process such as gnuplot first. */
+    /* The signal reached a helper program such as gnuplot first. */
     if (wanted->has_helpers && status != FST_OK && status != FST_INTERRUPTED && interrupted())
         status = fail(error, FST_INTERRUPTED, "", "interrupted");
     return status;
@@ -132,7 +133,7 @@ static int exit_status(fst_status status)
     }
 }
 
-/* An error without a sentence has been told by another process of the same job. */
+/* An error without a sentence was reported by another process of the same job. */
 static void print_error(const fst_error *error)
 {
     if (!error->sentence[0])
@@ -140,11 +141,11 @@ static void print_error(const fst_error *error)
     (void)fprintf(stderr, "festoon: %s%s%s\n", error->where, error->where[0] ? ": " : "", error->sentence);
 }
 
-/* Standard output is written only when all is well: until then it waits in memory, or, where there is much of
+/* Standard output is written only if all went well.  Until then it waits in memory or, where there is much of
  * it, in a file. */
 typedef struct waiting_output {
     FILE *stream;
-    char *text; /* NULL: in a file */
+    char *text; /* NULL: it is in a file */
     size_t size;
 } waiting_output;
 

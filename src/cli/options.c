@@ -1,3 +1,4 @@
+/* options.c - reading a command line by a table of options. */
 #include "cli/options.h"
 
 #include <stdio.h>
@@ -5,7 +6,7 @@
 
 #include "cli/command.h"
 
-/* The row of "--name" (length counts the name alone) or of "-o". */
+/* The row of the table for "--name" (length counts the name alone) or for "-o". */
 static const option *find_long(const option *table, const char *name, size_t length)
 {
     for (; table->name; table++)
@@ -35,7 +36,7 @@ static fst_status unknown_option(const option *table, const char *word, fst_erro
     return fail(error, FST_BAD_INPUT, "", "unknown option %s; the nearest is %s", written, nearest);
 }
 
-/* Whether `word` names an option of the table: then it is no value of another. */
+/* Whether `word` is an option of the table: then it is not the value of another one. */
 static int is_option(const option *table, const char *word)
 {
     if (word[0] != '-')
@@ -55,7 +56,8 @@ static fst_status keep_option(arguments *given, const option *row, const char *v
     return FST_OK;
 }
 
-/* The option words[*at], with its value in the same word or the next one; moves *at to its last word. */
+/* Read the option words[*at], whose value is in the same word or in the next one; moves *at to its
+ * last word. */
 static fst_status read_option(const option *table, int count, char **words, int *at, arguments *given,
                               fst_error *error)
 {

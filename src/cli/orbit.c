@@ -1,4 +1,5 @@
-/* orbit.c - festoon orbit: the periodic orbit that a start leads to, or that has so many festoons. */
+/* orbit.c - festoon orbit: the periodic orbit to which a start leads, or the one with a given number of
+ * festoons. */
 #include "cli/command.h"
 #include "cli/terminal.h"
 

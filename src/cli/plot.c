@@ -1,4 +1,4 @@
-/* plot.c - festoon plot: figures of a trajectory. */
+/* plot.c - festoon plot: figures of trajectories, branches and sweeps. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -124,7 +124,7 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     return status;
 }
 
-/* Curves over one axis, a map over two. */
+/* Draw a sweep: curves over one axis, a map over two. */
 static fst_status plot_sweep(const arguments *given, const char *path, const char *to, fst_error *error)
 {
     enum { MOST_KEYS = 16 };

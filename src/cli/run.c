@@ -21,7 +21,7 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-/* What a run pushes its findings into. */
+/* Where the samples and ramp points of a run go. */
 typedef struct run_outputs {
     fst_trajectory *files[2];
     const char *paths[2];
@@ -58,7 +58,7 @@ static fst_status take_ramp_point(void *user, const fst_ramp_point *point, fst_e
 
 /* ---------------------------------------------------------------- options */
 
-/* One end of a ramp as omega. */
+/* Read an end of a ramp as omega. */
 static fst_status read_ramp_end(const char *text, int scaled, double gamma, double *omega, fst_error *error)
 {
     fst_status status = fst_parse_value(text, scaled ? FST_UNIT_NUMBER : FST_UNIT_FREQUENCY, omega, error);
@@ -75,7 +75,7 @@ static fst_status read_ramp_end(const char *text, int scaled, double gamma, doub
     return FST_OK;
 }
 
-/* A number that only a ramp needs, within bounds. */
+/* Read a number that only a ramp needs, within bounds. */
 static fst_status read_of_ramp(const arguments *given, const char *name, double greatest, double *value,
                                fst_error *error)
 {
@@ -138,7 +138,7 @@ static fst_status open_files(const arguments *given, const fst_params *params, r
     return status;
 }
 
-/* A finished or interrupted run is kept, a failed one is not. */
+/* Close the files: keep them for a finished or interrupted run, discard them for a failed one. */
 static fst_status close_files(run_outputs *outputs, fst_status status, const fst_run_result *result,
                               fst_error *error)
 {

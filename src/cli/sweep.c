@@ -85,15 +85,15 @@ static fst_status read_sweep(const arguments *given, const char **axes, fst_swee
     return status;
 }
 
-/* What is shown while the sweep is at work. */
+/* What the progress line shows while the sweep is at work. */
 typedef struct display {
     progress_line line;
     fst_sweep_counts counts;  /* the library keeps them up to date */
-    fst_params contradiction; /* a point whose bead no material makes */
+    fst_params contradiction; /* a point whose bead cannot be made of any material */
     int to_warn;
 } display;
 
-/* Of several ranks one warns. */
+/* Warn once; of several ranks only rank 0 does. */
 static void warn_once(display *shown, int rank)
 {
     if (shown->to_warn && rank == 0)
@@ -101,7 +101,7 @@ static void warn_once(display *shown, int rank)
     shown->to_warn = 0;
 }
 
-/* Look at the ends of the grid: one word is enough. */
+/* Look for a contradiction at both ends of the grid; one warning is enough. */
 static void look_for_contradiction(display *shown, const fst_params *params, const fst_sweep_options *sweep)
 {
     char sentence[512];
@@ -125,7 +125,7 @@ static fst_status show(void *user, double fraction, const char *part, fst_error 
     warn_once(all, p->rank);
     if (p->rank != 0)
         return interrupted() ? fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
-    /* A sweep that goes on counts what is there, but hopes for the speed of this call. */
+    /* The fraction counts all rows, but the time left follows from the speed of this call. */
     const double rate = p->seconds > 0 ? (double)p->added / p->seconds : 0.0;
     (void)snprintf(what, sizeof what, "%lld of %lld points, %.3g a second", (long long)p->there,
                    (long long)p->points, rate);
@@ -187,8 +187,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     progress_end(&shown.line);
     if (status == FST_OK)
         warn_once(&shown, shown.counts.rank);
-    /* Rank 0 tells what happened to all, in words and by its status: mpirun kills the others as soon as one
-     * process has ended with a status of its own, be rank 0 still about to speak. */
+    /* Rank 0 reports what happened to all, by its words and its status.  The others end with status 0, because
+     * mpirun kills all ranks as soon as one has ended with another status, even if rank 0 is still about to
+     * speak. */
     if (shown.counts.rank != 0)
         return FST_OK;
     if (shown.counts.repaired)

@@ -1,3 +1,4 @@
+/* chart.c - writing a chart (chart.h) as a gnuplot script with its data. */
 #include "draw/chart.h"
 
 #include <math.h>
@@ -6,7 +7,7 @@ enum { USUAL_WIDTH = 720, PANEL_HEIGHT = 260, HEAD_HEIGHT = 112, FOOT_HEIGHT = 6
 
 /* ------------------------------------------------------------------ data */
 
-/* Blocks "NAMEi-curvej" of the curves. */
+/* Write the curves as data blocks "NAMEi-curvej". */
 static void write_blocks(fst_figure_file *figure, const char *name, int number, const fst_chart_curve *curves,
                          int count)
 {
@@ -16,7 +17,7 @@ static void write_blocks(fst_figure_file *figure, const char *name, int number, 
         (void)snprintf(block, sizeof block, "%s%d-curve%d", name, number, c + 1);
         fst_figure_block(figure, block, curve->title ? curve->title : "x y");
         for (size_t i = 0; i < curve->count; i++) {
-            /* gnuplot breaks a line at an empty line, and steps over a missing value. */
+            /* gnuplot breaks a line at an empty line, but steps over a missing value. */
             if (isfinite(curve->x[i]) && isfinite(curve->y[i]))
                 (void)fprintf(figure->data, "%.9g %.9g\n", curve->x[i], curve->y[i]);
             else if (i > 0 && isfinite(curve->x[i - 1]) && isfinite(curve->y[i - 1]))
@@ -50,7 +51,7 @@ static void write_label(fst_figure_file *figure, const char *axis, const char *t
     (void)fprintf(figure->script, " textcolor rgb '%s'\n", fst_colour_code(colour));
 }
 
-/* The tics of the abscissa; only the panel at the bottom names them. */
+/* The tics of the abscissa; only the panel at the bottom shows their numbers. */
 static void write_tics(FILE *script, const char *tics, int named)
 {
     int in_name = 0;
@@ -139,7 +140,7 @@ static void write_curves(fst_figure_file *figure, const char *name, int number, 
     (void)fputc('\n', figure->script);
 }
 
-/* "[low:high]", where NAN leaves an end to the data. */
+/* Write "[low:high]"; NAN leaves an end to the data. */
 static void write_range(FILE *script, const char *axis, double low, double high)
 {
     (void)fprintf(script, "set %srange [", axis);
@@ -147,7 +148,7 @@ static void write_range(FILE *script, const char *axis, double low, double high)
     (void)(isfinite(high) ? fprintf(script, "%.9g]\n", high) : fputs("*]\n", script));
 }
 
-/* The inset of the panel whose frame is given in parts of the screen. */
+/* Draw the inset of a panel whose frame is given in parts of the screen. */
 static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, int number,
                         const double frame[4])
 {

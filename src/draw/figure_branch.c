@@ -47,7 +47,7 @@ static double value_of(const fst_branch_point *p, const struct observable *what)
     return value;
 }
 
-/* Two columns of numbers for a curve. */
+/* Write a curve as two columns of numbers. */
 typedef struct columns {
     double *x, *y;
     size_t count;
@@ -67,8 +67,9 @@ static void put(columns *c, double x, double y)
     c->y[c->count++] = y;
 }
 
-/* Where between two neighbours the stability changes: at the special point there, if one is known; else half
- * way.  A fold lies a little beyond both, so the search reaches out by their distance. */
+/* Where the stability changes between two neighbouring points: at the special point there, if one is known;
+ * otherwise half way.  A fold lies a little beyond both points, so the search extends to both sides by their
+ * distance. */
 static void put_border(columns *c, const fst_branch *b, const fst_branch_point *p, const fst_branch_point *q,
                        const struct observable *what)
 {
@@ -87,7 +88,7 @@ static void put_border(columns *c, const fst_branch *b, const fst_branch_point *
         put(c, x, 0.5 * (value_of(p, what) + value_of(q, what)));
 }
 
-/* Whether a branch would be drawn over the one whose image under S2 it is: <n_z> and Phi tell them apart. */
+/* Whether a branch would be drawn exactly over its image under S2; only <n_z> and Phi tell the two apart. */
 static int is_hidden(const fst_branch *b, const struct observable *what, int branch)
 {
     if (strcmp(what->name, "mean_nz") == 0 || strcmp(what->name, "phi_deg") == 0)
@@ -98,7 +99,7 @@ static int is_hidden(const fst_branch *b, const struct observable *what, int bra
     return 0;
 }
 
-/* The pieces of one stability, a gap between them. */
+/* Write the pieces of one stability, with a gap between them. */
 static void put_pieces(columns *c, const fst_branch *b, const struct observable *what, int stable)
 {
     for (size_t i = 0; i < b->point_count; i++) {

@@ -15,8 +15,8 @@ enum {
     BOTTOM = 112,
     COLUMNS = 181, /* of the map */
     ROWS = 145,
-    ARROW_STEP = 9, /* an arrow every so many map points */
-    MAXIMA = 8      /* at most so many are marked */
+    ARROW_STEP = 9, /* map points from one arrow to the next */
+    MAXIMA = 8      /* the most maxima that are marked */
 };
 
 typedef struct field_map {
@@ -46,7 +46,7 @@ static double row_y(const field_map *map, int row)
 
 /* ------------------------------------------------------------------ maxima */
 
-/* Climb from a map point to the maximum: steps along both axes, halved where none leads up. */
+/* Climb from a map point to the maximum: step along both axes, and halve the step where none leads up. */
 static void climb(const fst_model *model, double step, double place[2])
 {
     double here = strength(model, place[0], place[1]);
@@ -108,7 +108,8 @@ static void write_map(fst_figure_file *figure, const field_map *map)
     }
 }
 
-/* In-plane arrows: the length goes with the square root of the strength, so that weak fields show too. */
+/* Arrows of the field in the plane.  Their length goes with the square root of the strength, so that weak
+ * fields show too. */
 static void write_arrows(fst_figure_file *figure, const field_map *map)
 {
     double greatest = 0.0;
@@ -207,7 +208,7 @@ fst_status fst_figure_field(const fst_params *params, const char *out, fst_error
     if (status != FST_OK)
         return status;
     field_map map = {.model = model, .groups = fst_model_groups(model)};
-    /* The poles and the magnet's corners with room about them, whatever its shape. */
+    /* The map shows the poles and the magnet's corners, with room about them, whatever the magnet's shape. */
     double half_lines = 0.5 * (map.groups.lines - 1) * map.groups.lambda;
     map.half_width = 1.0 + 0.9 * map.groups.h + 0.3;
     map.half_height = half_lines + 0.9 * map.groups.h;

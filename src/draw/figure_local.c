@@ -6,7 +6,7 @@
 
 enum { WIDTH = 760, HEIGHT = 460 };
 
-/* One view of the unit sphere: the path's projection on two of the local axes. */
+/* One view of the unit sphere: the path projected on two of the local axes. */
 static void write_panel(fst_figure_file *figure, double left, const char *title, const char *label, int column)
 {
     (void)fprintf(figure->script,

@@ -9,7 +9,8 @@
 
 #define PI 3.14159265358979323846
 
-/* Phi folded into half a revolution of the magnet; a fold gets a NAN row, so that the line breaks there. */
+/* Fold Phi into half a revolution of the magnet.  Each fold gets a row of NAN, so that the line
+ * breaks there. */
 typedef struct folded {
     double *phi, *r, *b;
     size_t count;

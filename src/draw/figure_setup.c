@@ -1,17 +1,18 @@
+/* figure_setup.c - the sketch of the experiment, and the path as the paper's camera would see it. */
 #include "draw/figure_setup.h"
 
 #include "draw/style.h"
 
 #include <math.h>
 
-#define FRAMES_A_SECOND 200.0 /* the paper's camera (section 3) */
+#define FRAMES_A_SECOND 200.0 /* the paper's camera (section III) */
 #define PIXELS_A_MM 10.0      /* the paper gives no scale */
-#define MAGNET_THICKNESS 9.0  /* mm, the paper's magnet (section 1) */
+#define MAGNET_THICKNESS 9.0  /* mm, the paper's magnet (section II) */
 
 enum { CAMERA_SECONDS = 2, CAMERA_WIDTH = 690, CAMERA_HEIGHT = 640, SKETCH_WIDTH = 760, SKETCH_HEIGHT = 430 };
 
 static const double degree = 0.017453292519943295;
-static const double MOMENT_ANGLE = 110.0; /* of the sketched moment against e_r */
+static const double MOMENT_ANGLE = 110.0; /* the angle of the sketched moment against e_r */
 
 /* ------------------------------------------------------------------ the sketch */
 
@@ -22,7 +23,7 @@ static void write_circle(fst_figure_file *figure, const char *name, double x, do
         (void)fprintf(figure->data, "%.6g %.6g\n", x + radius * cos(i * degree), y + radius * sin(i * degree));
 }
 
-/* From the angle `from` to `to`, in degrees, about (x, y). */
+/* Draw an arc from the angle `from` to `to`, in degrees, about (x, y). */
 static void write_arc(fst_figure_file *figure, const char *name, double x, double y, double radius, double from,
                       double to)
 {
@@ -33,7 +34,8 @@ static void write_arc(fst_figure_file *figure, const char *name, double x, doubl
     }
 }
 
-/* Short vectors along an arc about the axis, the last with the sense of the turning: anticlockwise. */
+/* Draw an arc about the axis by short vectors; the head of the last one shows the sense of turning,
+ * anticlockwise. */
 static void write_turning(fst_figure_file *figure)
 {
     fst_figure_block(figure, "turning", "x/mm y/mm dx dy: the sense of the magnet's turning");
@@ -44,7 +46,7 @@ static void write_turning(fst_figure_file *figure)
     }
 }
 
-/* A rectangle of half sides a, b about (x, y), turned by `angle` degrees. */
+/* Draw a rectangle of half sides a, b about (x, y), turned by `angle` degrees. */
 static void write_box(fst_figure_file *figure, const char *name, const double box[4], double angle)
 {
     static const double corners[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};

@@ -1,3 +1,4 @@
+/* style.c - colours, palettes and logarithmic axes of all figures. */
 #include "draw/style.h"
 
 #include <math.h>
@@ -33,7 +34,7 @@ void fst_unit_symbols(const char *unit, char *text, size_t size)
 
 void fst_figure_palette(fst_figure_file *figure, fst_palette palette)
 {
-    /* "line" is viridis turned round, without its yellow end, which is lost on white. */
+    /* "line" is viridis in reverse order, without its yellow end, which cannot be seen on white. */
     static const char *const definitions[] = {
         [FST_PALETTE_DIVERGING] = "-1 '#123f8c', -0.5 '#4f86cf', 0 '#bdbdbd', 0.5 '#e8894a', 1 '#b03000'",
         [FST_PALETTE_LINE] =

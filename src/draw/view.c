@@ -1,3 +1,4 @@
+/* view.c - finding the part of a trajectory that a figure shows, and its columns. */
 #include "draw/view.h"
 
 #include "base/error.h"
@@ -72,7 +73,8 @@ double fst_view_between(double x0, double v0, double x1, double v1, double h, do
            part * part * ((1.0 + 2.0 * rest) * x1 - rest * h * v1);
 }
 
-/* Find the rows; `turns` of the bead or `periods` of the drive end an open view. */
+/* Find the rows that are shown; where the options leave the end open, `turns` of the bead or `periods` of the
+ * drive end the view. */
 static fst_status choose_rows(fst_view *view, const fst_figure_options *options, double turns, double periods,
                               fst_error *error)
 {

@@ -1,4 +1,4 @@
-/* cairo_module.c - festoon-cairo.so: paints the frames of films. */
+/* cairo_module.c - festoon-cairo.so: painting one frame of a film with Cairo. */
 #include <cairo.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,8 +14,7 @@ struct fst_film_canvas {
     cairo_t *pen;
 };
 
-/* Colours as the figures have them (style.c): from light green to violet, and from blue over grey to vermilion.
- */
+/* The colours of the figures (style.c): from light green to violet, and from blue over grey to vermilion. */
 static const double line_palette[][4] = {{0.0, 0.659, 0.859, 0.204}, {0.2, 0.290, 0.757, 0.427},
                                          {0.4, 0.122, 0.631, 0.529}, {0.6, 0.176, 0.439, 0.557},
                                          {0.8, 0.255, 0.267, 0.529}, {1.0, 0.267, 0.004, 0.329}};
@@ -46,8 +45,8 @@ static void write_at(cairo_t *pen, double x, double y, double size, const char *
     cairo_show_text(pen, text);
 }
 
-/* ------------------------------------------------------------------ from above; the pen works in mm, y upwards
- */
+/* ------------------------------------------------------------------ from above; the pen works in
+ * mm, y upwards */
 
 static void paint_magnet(cairo_t *pen, const fst_film_stage *stage, double angle)
 {
@@ -79,8 +78,8 @@ static void paint_trail(cairo_t *pen, const fst_film_stage *stage, const fst_fil
     }
 }
 
-/* A vector of the bead's body as seen along the third axis of `turn`; `view` 0: from above, 1: from the front
- * (against y, z upwards). */
+/* A vector of the bead's body as seen along the third axis of `turn`; `view` is 0 from above, 1 from the front
+ * (along y, with z upwards). */
 static void seen(const double turn[3][3], const double body[3], int view, double *x, double *y, double *towards)
 {
     double v[3];
@@ -91,7 +90,8 @@ static void seen(const double turn[3][3], const double body[3], int view, double
     *towards = view == 0 ? v[2] : -v[1];
 }
 
-/* The poles as caps, the equator as a line, and marks that lie at no symmetric place, where they face us. */
+/* The poles as caps, the equator as a line, and marks at places without symmetry; each is drawn where it faces
+ * the viewer. */
 static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, int view)
 {
     static const double marks[][3] = {{0.85, 0.0, 0.527}, {-0.5, 0.7, 0.51},   {0.1, -0.9, 0.424},
@@ -176,7 +176,7 @@ static void paint_plate(cairo_t *pen, const fst_film_stage *stage, const fst_fil
 
 /* ------------------------------------------------------------------ around it, in pixels */
 
-/* From the front: the plate, the magnet's slab below it, and the bead on it. */
+/* The view from the front: the plate, the magnet's slab below it, and the bead on it. */
 static void paint_side(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame)
 {
     double width = 0.30 * stage->width, scale = width / (2.0 * stage->reach);
@@ -280,7 +280,7 @@ static void paint(fst_film_canvas *canvas, const fst_film_stage *stage, const fs
 {
     cairo_t *pen = canvas->pen;
     int side = stage->width < stage->height ? stage->width : stage->height;
-    /* So small that the bead passes the view from the front without being hidden by it. */
+    /* It is small enough for the bead to pass it without being hidden. */
     double scale = 0.84 * side / (2.0 * stage->reach);
     cairo_set_source_rgb(pen, 1.0, 1.0, 1.0);
     cairo_paint(pen);

@@ -1,3 +1,10 @@
+/* motion.c - where bead and magnet are at any moment between the samples of a trajectory.
+ *
+ * Positions and the magnet's angle are interpolated linearly.  The bead's rotation is not a part of the state:
+ * it is integrated from W, sample by sample, and after each step its third axis is put on the n of the
+ * trajectory, so that the poles in the film are always right.  The spin about n has no such reference and may
+ * drift a little.
+ */
 #include "film/motion.h"
 
 #include "base/error.h"
@@ -25,8 +32,8 @@ static fst_status find_colour(fst_film_motion *motion, const char *colour, fst_e
     return fst_fail(error, FST_BAD_INPUT, "film", "no column \"%.60s\"; the nearest is %s", colour, nearest);
 }
 
-/* The same ranges as in figures: n_z from -1 to 1, both signs alike, and from 0 where the least is close to it.
- */
+/* The same ranges as in figures: from -1 to 1 for n_z, symmetric for both signs, and from 0 where the least
+ * value is close to 0. */
 static void find_range(fst_film_motion *motion)
 {
     double low = INFINITY, high = -INFINITY;
@@ -49,8 +56,8 @@ static void find_range(fst_film_motion *motion)
     motion->high = high;
 }
 
-/* The rotation whose third axis is n and whose first is as near to its former one as that allows: what
- * integrating W has lost against the n of the trajectory is put right. */
+/* The rotation whose third axis is n and whose first axis is as near as possible to its former place.  It puts
+ * right what integrating W has lost against the n of the trajectory. */
 static void straighten(double turn[3][3], const double n[3])
 {
     double first[3], along = 0.0, length = 0.0;
@@ -71,7 +78,7 @@ static void straighten(double turn[3][3], const double n[3])
     }
 }
 
-/* Turn the columns by the rotation vector `angle` (Rodrigues). */
+/* Turn the columns by the rotation vector `angle` (Rodrigues' formula). */
 static void rotate(double turn[3][3], const double angle[3])
 {
     double size = sqrt(angle[0] * angle[0] + angle[1] * angle[1] + angle[2] * angle[2]);
@@ -87,7 +94,7 @@ static void rotate(double turn[3][3], const double angle[3])
     }
 }
 
-/* From a row, by `part` of the way to the next. */
+/* Turn the bead from a row by `part` of the way to the next. */
 static void roll(const fst_film_motion *motion, size_t row, double part, double turn[3][3])
 {
     double step = part * (motion->t[row + 1] - motion->t[row]), angle[3], n[3], length = 0.0;
@@ -117,7 +124,7 @@ fst_status fst_film_motion_begin(fst_film_motion *motion, const fst_table *table
     if (status != FST_OK)
         return status;
     size_t first = 0, end = table->rows;
-    const double slack = 1e-9; /* samples lie on their turn but for rounding */
+    const double slack = 1e-9; /* samples lie on their turn except for rounding */
     while (first < end && !isnan(from) && motion->drive_turns[first] < from - slack)
         first++;
     while (end > first && !isnan(to) && motion->drive_turns[end - 1] > to + slack)

@@ -1,3 +1,4 @@
+/* collect.c - a run whose samples are collected in memory, as a table like that of a trajectory file. */
 #include "io/collect.h"
 
 #include "base/error.h"

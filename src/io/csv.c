@@ -1,3 +1,4 @@
+/* csv.c - trajectories as text: writing them, and reading them back. */
 #include "io/csv.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 #include "base/error.h"
 #include "base/number.h"
 
-/* The lines that the reader looks for. */
+/* The lines that the reader recognises. */
 #define FIRST_LINE "# festoon trajectory"
 #define SCENE_LINE "# scene:"
 #define SCENE_INDENT "#   "
@@ -53,15 +54,15 @@ typedef struct csv_reader {
     FILE *in;
     const char *path;
     char *line; /* LONGEST_LINE bytes, without the newline */
-    int number; /* of the line, from 1 */
+    int number; /* of the present line, from 1 */
     char *scene;
     size_t scene_length;
-    size_t room; /* rows allocated */
+    size_t room; /* rows for which there is memory */
     fst_table *table;
     fst_error *error;
 } csv_reader;
 
-/* Rows take about 1000 bytes and the result about 5000. */
+/* Longer than any line: a row takes about 1000 bytes, the result about 5000. */
 #define LONGEST_LINE 65536
 
 static fst_status fail_line(csv_reader *reader, const char *sentence)
@@ -71,7 +72,7 @@ static fst_status fail_line(csv_reader *reader, const char *sentence)
     return fst_fail(reader->error, FST_BAD_INPUT, where, "%s", sentence);
 }
 
-/* 1 with the next line, 0 at the end of the file or where no whole line is left. */
+/* Read the next line: 1, or 0 at the end of the file or where its last line has no newline. */
 static int next_line(csv_reader *reader)
 {
     if (!fgets(reader->line, LONGEST_LINE, reader->in))
@@ -122,7 +123,7 @@ static fst_status read_head(csv_reader *reader)
                            &reader->table->params, reader->error);
 }
 
-/* The line of column names, which read_head() has left in reader->line. */
+/* Check the line of column names, which read_head() has left in reader->line. */
 static fst_status check_names(csv_reader *reader)
 {
     const char *at = reader->line;
@@ -184,7 +185,7 @@ static fst_status read_row(csv_reader *reader)
     return FST_OK;
 }
 
-/* Rows, then the commented end with the line that says whether the run was complete. */
+/* Read the rows, then the commented end, which says whether the run was complete. */
 static fst_status read_rows(csv_reader *reader)
 {
     int ended = 0;

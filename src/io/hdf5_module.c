@@ -16,7 +16,7 @@
 #include "base/error.h"
 #include "io/hdf5_driver.h"
 
-/* Rows in a chunk: also what is held in memory, so that a trajectory's length does not matter. */
+/* Rows in a chunk.  One chunk is held in memory, so memory does not grow with the trajectory. */
 #define CHUNK 4096
 
 #define PROGRAM "festoon"
@@ -34,18 +34,18 @@
 struct fst_hdf5_writer {
     hid_t file;
     fst_hdf5_disk disk;
-    hid_t *sets; /* data set of each column */
+    hid_t *sets; /* the data set of each column */
     const fst_column_info *const *columns;
     int count;
     hsize_t written;  /* rows in the file */
     size_t pending;   /* rows in the buffer */
     double *buffer;   /* count columns of CHUNK rows */
-    const char *name; /* of the file that it will become, for messages */
+    const char *name; /* the name that the file will have, for messages */
 };
 
-/* HDF5 prints its errors unless told not to; the caller's setting is put back.  Where it is used for the first
- * time, it is also told to do nothing at the end of the program: we close what we open, and objects that it
- * failed to close in a damaged file would make it print and crash there. */
+/* HDF5 prints its errors unless told not to; the caller's setting is restored.  The first time, HDF5 is also
+ * told to do nothing at the end of the program: we close what we open, and HDF5 would print and crash there
+ * over objects that it failed to close in a damaged file. */
 typedef struct quiet {
     H5E_auto2_t function;
     void *data;
@@ -153,12 +153,12 @@ static fst_status fail_write(const fst_hdf5_writer *writer, fst_error *error)
                     writer->disk.reason ? strerror(writer->disk.reason) : "HDF5 refuses, and does not say why");
 }
 
-/* Chunked, checksummed, and compressed where this HDF5 can. */
+/* Chunked, with checksums, and compressed where this HDF5 can. */
 static hid_t storage_of_column(void)
 {
     const hsize_t chunk = CHUNK;
     hid_t storage = H5Pcreate(H5P_DATASET_CREATE);
-    (void)H5Pset_obj_track_times(storage, 0); /* the same run gives the same bytes */
+    (void)H5Pset_obj_track_times(storage, 0); /* without times the same run gives the same bytes */
     (void)H5Pset_chunk(storage, 1, &chunk);
     (void)H5Pset_shuffle(storage);
     if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0)
@@ -172,7 +172,7 @@ static int create_columns(fst_hdf5_writer *writer)
     const hsize_t none = 0, unlimited = H5S_UNLIMITED;
     hid_t space = H5Screate_simple(1, &none, &unlimited);
     hid_t storage = storage_of_column();
-    /* Whole chunks are written at once: a cache would only hold copies of them. */
+    /* Whole chunks are written at once, so a cache would only hold copies of them. */
     hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
     (void)H5Pset_chunk_cache(access, 1, 0, 1.0);
     int failed = 0;
@@ -189,7 +189,7 @@ static int create_columns(fst_hdf5_writer *writer)
     return failed;
 }
 
-/* Close everything and free the writer; an errno if not everything is in the file. */
+/* Close everything and free the writer.  Returns an errno if not everything is in the file. */
 static int close_writer(fst_hdf5_writer *writer)
 {
     int failed = 0;
@@ -217,8 +217,8 @@ static int open_file(fst_hdf5_writer *writer, const char *path)
         return 1;
     }
     const hid_t access = fst_hdf5_access(&writer->disk), root = H5Pcreate(H5P_FILE_CREATE);
-    /* From this format on everything in a file has a checksum: what rots is found, and does not mislead HDF5.
-     */
+    /* From this format on HDF5 keeps a checksum of everything in a file, so it notices damage instead of
+     * following it. */
     if (access >= 0 && root >= 0 && H5Pset_libver_bounds(access, FORMAT, FORMAT) >= 0 &&
         H5Pset_obj_track_times(root, 0) >= 0)
         writer->file = H5Fcreate(path, H5F_ACC_TRUNC, root, access);
@@ -324,7 +324,7 @@ static void abandon(fst_hdf5_writer *writer)
 
 /* ---------------------------------------------------------------- reading */
 
-/* Read one column; the first one sets the number of rows. */
+/* Read one column.  The first one sets the number of rows. */
 static fst_status read_column(hid_t file, const char *path, const char *name, int first, double **data,
                               size_t *rows, fst_error *error)
 {

@@ -34,7 +34,7 @@ static json_t *symmetry_of(fst_symmetry symmetry)
 static json_t *orbit_object(const fst_params *params, const fst_orbit *orbit)
 {
     json_t *object = fst_json_run(params, &orbit->means);
-    /* What speaks of a run and its length does not apply. */
+    /* Remove what describes a run and its length: an orbit has neither. */
     static const char *const of_runs[] = {"reason",        "returns",          "rhs_calls",
                                           "accepted",      "rejected",         "final_state",
                                           "periods",       "window_periods",   "end_time",
@@ -156,7 +156,8 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
            *crossings = json_array();
     for (size_t i = 0; i < branch->point_count; i++)
         json_array_append_new(points, point_object(&branch->points[i]));
-    for (size_t i = 0; i < branch->special_count; i++) /* nothing is born or lost where families only cross */
+    for (size_t i = 0; i < branch->special_count;
+         i++) /* nothing is born or ends where two families only cross */
         json_array_append_new(branch->specials[i].type == FST_SPECIAL_TRANSCRITICAL ? crossings : specials,
                               special_object(branch, &branch->specials[i]));
     for (size_t i = 0; i < branch->end_count; i++) {
@@ -233,7 +234,7 @@ char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *l)
 
 /* ---------------------------------------------------------------- simulated points */
 
-/* The parameter `key` of a run's document: the drive from its results, the rest from its scene. */
+/* The parameter `key` in the document of a run: the drive from its results, any other from its scene. */
 static const json_t *parameter_of(const json_t *run, const char *key)
 {
     if (strcmp(key, "drive.omega") == 0)
@@ -243,7 +244,7 @@ static const json_t *parameter_of(const json_t *run, const char *key)
     return json_object_get(json_object_get(run, "scene"), key);
 }
 
-/* A point from a run's document, if it has both numbers; 0 where memory is short. */
+/* Take a point from a run's document, if it has both numbers; 0 where memory is short. */
 static int add_dot(const json_t *run, const char *key, const char *observable, double **dots, size_t *count)
 {
     const json_t *x = parameter_of(run, key), *y = json_object_get(run, observable);

@@ -28,8 +28,8 @@ static void free_curves(curves *all)
         free(all->memory[i]);
 }
 
-/* Add the curve of `y` over `x` through the runs of one or two scans (the second may be FST_SCAN_COUNT: none).
- */
+/* Add the curve of `y` over `x` through the runs of one or two scans (the second may be
+ * FST_SCAN_COUNT: none). */
 static void add(curves *all, const fst_paper_state *paper, const fst_scan through[2], fst_dynamics dynamics,
                 reading x, reading y, fst_chart_curve style)
 {

@@ -1,5 +1,5 @@
-/* probe_charts.c - the paper's figures of the experiment, drawn from the model, and those of the probes.
- */
+/* probe_charts.c - the paper's figures of the experiment, drawn from the model, and those of
+ * the probes. */
 #include "base/error.h"
 #include "draw/chart.h"
 #include "draw/figure_setup.h"
@@ -20,8 +20,8 @@ typedef struct halving_curves {
     fst_chart_label labels[2];
 } halving_curves;
 
-/* Mark two successive swings of r(t) by vertical lines from a maximum to the next minimum: Delta+ and Delta-.
- */
+/* Mark two successive swings of r(t) by vertical lines from a maximum to the next minimum: Delta+
+ * and Delta-. */
 static void mark_swings(const double *r, halving_curves *c)
 {
     int found = 0, top = -1;

@@ -1,5 +1,5 @@
-/* runs.h - the computations: runs, periodic orbits, thresholds, probes.  Each fills its part of the state in.
- */
+/* runs.h - the computations: runs, periodic orbits, thresholds, probes.  Each fills its part of
+ * the state in. */
 #ifndef FST_PAPER_RUNS_H
 #define FST_PAPER_RUNS_H
 

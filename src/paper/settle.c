@@ -7,8 +7,8 @@
 
 /* A run that has not settled is made again, twice as long and without what it was, so many times at most. */
 enum { MOST_DOUBLINGS = 3 };
-/* Errors of the means, relative, from which on a mean is not known: the verdicts ask for a hundredth at best.
- */
+/* Errors of the means, relative, from which on a mean is not known: the verdicts ask for a
+ * hundredth at best. */
 static const double KNOWN = 1e-3;
 
 static int is_known(double mean, double error, double scale)

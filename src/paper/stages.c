@@ -44,8 +44,8 @@ static fst_status halving_piece(fst_paper_state *paper, int index, fst_error *er
     halving->points[point] = (fst_halving_point){NAN, NAN, NAN, NAN};
     if (!isfinite(centre))
         return FST_OK;
-    /* A reduced paper knows the threshold less well and follows the motion for less long: it keeps further off.
-     */
+    /* A reduced paper knows the threshold less well and follows the motion for less long: it keeps
+     * further off. */
     double wider = paper->options->reduced ? 4.0 : 1.0;
     double offset = wider * halving_offsets[point];
     fst_params params = probe_params(dynamics, centre + offset);

@@ -44,8 +44,8 @@ typedef enum {
     FST_RULE_SYMMETRY,
     FST_RULE_COUNT
 } fst_rule;
-/* The rules in words: a name, what the paper prints, when a value reproduces it, when it is close ("": never).
- */
+/* The rules in words: a name, what the paper prints, when a value reproduces it, when it is close
+ * ("": never). */
 typedef struct fst_rule_words {
     const char *name, *kind, *reproduced, *close;
 } fst_rule_words;

@@ -1,5 +1,5 @@
-/* work.c - how a stage of the paper is done: on all processors, with its time noted; and where its files lie.
- */
+/* work.c - how a stage of the paper is done: on all processors, with its time noted; and where its
+ * files lie. */
 #include "paper/work.h"
 
 #include "base/clock.h"

@@ -14,8 +14,8 @@ typedef struct fst_paper_stage {
 } fst_paper_stage;
 fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_stage *stage, fst_error *error);
 
-/* Note that `what` took the time since `began` of fst_clock_seconds(); time that was noted before is added to.
- */
+/* Note that `what` took the time since `began` of fst_clock_seconds(); time that was noted before
+ * is added to. */
 void fst_paper_note_time(fst_paper_state *paper, const char *what, double began);
 
 /* Arithmetic, compiler and machine in words. */

@@ -89,8 +89,8 @@ static uint64_t sum_real(uint64_t sum, double value)
 
 /* ------------------------------------------------------------------ writing */
 
-/* Values are bound and added to the checksum one after the other, in the form in which SQLite will return them.
- */
+/* Values are bound and added to the checksum one after the other, in the form in which SQLite will
+ * return them. */
 typedef struct binding {
     sqlite3_stmt *insert;
     int place;

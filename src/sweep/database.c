@@ -196,8 +196,8 @@ fst_status fst_database_head(int descriptor, const char *path, int writable, cha
 
 /* ------------------------------------------------------------------ connecting */
 
-/* SQLite must run nothing that the file contains: no triggers, views, functions of its schema, or extensions.
- */
+/* SQLite must run nothing that the file contains: no triggers, views, functions of its schema,
+ * or extensions. */
 static void distrust(sqlite3 *database)
 {
     (void)sqlite3_extended_result_codes(database, 1);

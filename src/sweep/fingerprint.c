@@ -27,8 +27,8 @@ static int next_probe(void *user, fst_row_job *job)
     return 1;
 }
 
-/* Add a number's bits to the hash (FNV-1a).  The numbers are chosen so that every part of a run goes into them.
- */
+/* Add a number's bits to the hash (FNV-1a).  The numbers are chosen so that every part of a run goes
+ * into them. */
 static void add(uint64_t *hash, double number)
 {
     unsigned char bytes[sizeof number];

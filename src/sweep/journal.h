@@ -53,8 +53,8 @@ fst_status fst_journal_begin(fst_journal *journal, fst_error *error);
 struct sqlite3 *fst_journal_database(const fst_journal *journal);
 const char *fst_journal_path(const fst_journal *journal);
 
-/* Commit what was added: it is then on the disk.  Also FST_IO where the file was deleted, renamed or replaced.
- */
+/* Commit what was added: it is then on the disk.  Also FST_IO where the file was deleted, renamed
+ * or replaced. */
 fst_status fst_journal_commit(fst_journal *journal, fst_error *error);
 
 /* The number of rows. */

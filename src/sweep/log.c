@@ -130,8 +130,8 @@ static void add_up(const log_walk *w, const unsigned char *bytes, size_t size, u
     }
 }
 
-/* Read exactly `size` bytes; 0 where the file ends before, or where reading failed, with its errno in *reason.
- */
+/* Read exactly `size` bytes; 0 where the file ends before, or where reading failed, with its errno
+ * in *reason. */
 static int read_all(int descriptor, void *bytes, size_t size, off_t place, int *reason)
 {
     const ssize_t got = fst_read_at(descriptor, bytes, size, place);

@@ -242,8 +242,8 @@ static fst_status hear_workers(job *j, fst_sweep_record *rows, double seconds, i
     return status == FST_OK ? write_rows(j, rows, count, error) : status;
 }
 
-/* Begin no more runs.  First commit what is there: the program that ends the other ranks may soon end this one.
- */
+/* Begin no more runs.  First commit what is there: the program that ends the other ranks may soon
+ * end this one. */
 static fst_status stop(job *j, fst_sweep_record *rows, fst_status status, fst_error *error)
 {
     int busy;
