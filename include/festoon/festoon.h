@@ -238,7 +238,7 @@ FST_API void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE],
 FST_API void fst_jacobian(const fst_model *model, const double state[FST_STATE_SIZE],
                           double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], double by_omega[FST_STATE_SIZE]);
 
-/* What can be read off a state (paper, section 4 and appendix; vectors in local components r, alpha, z). */
+/* What can be read off a state (paper, section IV and appendix; vectors in local components r, alpha, z). */
 typedef struct fst_observation {
     double r, cos_phi, sin_phi; /* distance; cos and sin of Phi, the bead's angle against the magnet */
     double n[3], b[3];          /* moment and field in (r, alpha, z) */

@@ -141,7 +141,7 @@ FST_API fst_status fst_figure_trajectory(const fst_table *table, const char *out
 FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *observable, const double *dots,
                                      size_t dot_count, const char *out, fst_error *error);
 
-/* The map of the magnet's field on the plane of the bead's centre (the paper's Fig. portrait). */
+/* The map of the magnet's field on the plane of the bead's centre (the paper's Fig. 5). */
 FST_API fst_status fst_figure_field(const fst_params *params, const char *out, fst_error *error);
 
 /* ------------------------------------------------------------------ sweeps */

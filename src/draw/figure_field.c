@@ -1,4 +1,4 @@
-/* figure_field.c - the magnet's field on the plane of the bead's centre (the paper's Fig. portrait). */
+/* figure_field.c - the magnet's field on the plane of the bead's centre (the paper's Fig. 5). */
 #include "base/error.h"
 #include "draw/style.h"
 

@@ -1,4 +1,4 @@
-/* figure_local.c - the path of the moment n in the local frame (inset of the paper's Fig. om04). */
+/* figure_local.c - the path of the moment n in the local frame (inset of the paper's Fig. 9). */
 #include "draw/figure_trajectory.h"
 
 #include "draw/style.h"

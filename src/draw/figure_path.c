@@ -1,4 +1,4 @@
-/* figure_path.c - the bead's path over the plate (the paper's Figs. f4, f4detail, om04). */
+/* figure_path.c - the bead's path over the plate (the paper's Figs. 7, 8, 9). */
 #include "draw/figure_trajectory.h"
 
 #include "base/error.h"

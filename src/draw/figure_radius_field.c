@@ -1,4 +1,4 @@
-/* figure_radius_field.c - r and |B| while the magnet passes under the bead (the paper's Fig. magint). */
+/* figure_radius_field.c - r and |B| while the magnet passes under the bead (the paper's Fig. 13). */
 #include "draw/figure_trajectory.h"
 
 #include "base/error.h"

@@ -1,4 +1,4 @@
-/* figure_sweep_curves.c - keys of a sweep against its one axis, in the style of the paper's Fig. comparison. */
+/* figure_sweep_curves.c - keys of a sweep against its one axis, in the style of the paper's Fig. 6. */
 #include "draw/figure_sweep.h"
 
 #include "base/error.h"

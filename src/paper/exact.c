@@ -1,5 +1,5 @@
-/* exact.c - what needs no run: the drives at which patterns close, where the period halves and where
- * counter-rotation ends, on the branch of periodic orbits. */
+/* exact.c - what the branches of periodic orbits and of locked states tell without any run: the drives at which
+ * patterns close, where the period halves, and where counter-rotation ends. */
 #include "paper/runs.h"
 #include "paper/statements.h"
 
@@ -8,14 +8,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Drives between which the branch is followed: the experiment's range and beyond, to the fold at which the
- * orbit ends. */
+/* The branch is followed between these drives: through the experiment's range and beyond, to the fold at which
+ * the orbit ends. */
 static const double BRANCH_FROM = 0.17, BRANCH_TO = 4.0;
 static const double BRANCH_START = 0.3; /* a drive at which the bead counter-rotates */
-/* Drives between which the last locked state loses its stability. */
+/* The last locked state loses its stability between these drives. */
 static const double LOCKED_FROM = 0.14, LOCKED_TO = 0.17;
 static const double LOCKED_AT = 0.02; /* the slowest drive of the runs */
-/* A small kappa, and a drive at which so weakly held a bead stays locked. */
+/* A small kappa, and a drive at which a bead that is held so weakly stays locked. */
 static const double WEAK = 0.015, WEAK_DRIVE = 0.001;
 
 static fst_params params_at(fst_dynamics dynamics, double omega)
@@ -27,7 +27,7 @@ static fst_params params_at(fst_dynamics dynamics, double omega)
     return params;
 }
 
-/* Each row of Table 1 whose pattern closes somewhere on the stable branch. */
+/* Find for each row of Table 1 the drive at which its pattern closes on the stable branch. */
 static fst_status close_patterns(const fst_params *params, const fst_branch *branch,
                                  const fst_progress *progress, fst_paper_exact *exact, fst_error *error)
 {
@@ -38,7 +38,7 @@ static fst_status close_patterns(const fst_params *params, const fst_branch *bra
         if (status == FST_OK)
             exact->closed[row] = (fst_paper_pattern){list.omegas[0], list.orbits[0].means.symmetry};
         fst_festoons_free(&list);
-        status = status == FST_NO_CONVERGENCE ? FST_OK : status; /* it closes nowhere */
+        status = status == FST_NO_CONVERGENCE ? FST_OK : status; /* this pattern closes nowhere */
     }
     return status;
 }
@@ -63,7 +63,7 @@ static void read_branch(const fst_branch *branch, fst_paper_exact *exact)
     }
 }
 
-/* The point at which the stable locked states end that reach highest. */
+/* Find where the stable locked states end that reach the highest drive. */
 static fst_status find_locked_end(const fst_params *params, const fst_progress *progress,
                                   fst_paper_exact *exact, fst_error *error)
 {
@@ -102,7 +102,8 @@ static fst_status count_minima(fst_dynamics dynamics, const fst_progress *progre
     return FST_OK;
 }
 
-/* The damping ratio -Re/|lambda| of the least damped swing about a stable locked state at a small kappa. */
+/* Find the damping ratio -Re/|lambda| of the least damped swing about a stable locked state at a
+ * small kappa. */
 static fst_status find_damping(fst_dynamics dynamics, const fst_progress *progress, fst_paper_exact *exact,
                                fst_error *error)
 {
@@ -148,7 +149,8 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
         status = count_minima(dynamics, progress, exact, &why);
     if (status == FST_OK)
         status = find_damping(dynamics, progress, exact, &why);
-    /* Without LAPACK, or where the method fails, the rest of the paper stands, and this sentence instead. */
+    /* Without LAPACK, or where the method fails, this sentence stands for these numbers; the rest of the paper
+     * stays. */
     if (status == FST_UNAVAILABLE || status == FST_NO_CONVERGENCE) {
         (void)snprintf(exact->missing, sizeof exact->missing, "%s", why.sentence);
         return FST_OK;

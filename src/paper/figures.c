@@ -1,4 +1,5 @@
-/* figures.c - the table of the paper's figures. */
+/* figures.c - the table of the paper's figures: what each shows, how it is drawn, and which statements decide
+ * its verdict. */
 #include "paper/figures.h"
 #include "paper/runs.h"
 #include "paper/work.h"
@@ -36,7 +37,7 @@ static fst_status draw_field(const fst_paper_state *paper, const fst_paper_figur
 
 static const fst_paper_figure figures[] = {
     {.name = "sketch",
-     .source = "Fig. 0",
+     .source = "Fig. 1",
      .title = "The setup to scale",
      .caption = "A bead (vermilion) on a plate, and below it a bar magnet that turns anticlockwise; blue: the "
                 "lines of dipoles that model it. The moment n has the angle θ against e_r; φ is the angle in "
@@ -45,7 +46,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_FOLD4,
      .draw = fst_paper_draw_sketch},
     {.name = "camera",
-     .source = "Fig. blender",
+     .source = "Fig. 2",
      .title = "A path at 10.7 Hz, as filmed",
      .caption =
          "The simulated path sampled like the experiment's, at 200 frames a second. The paper gives no scale; "
@@ -55,7 +56,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_FOLD4,
      .draw = fst_paper_draw_camera},
     {.name = "radius",
-     .source = "Fig. radius",
+     .source = "Fig. 3",
      .title = "Radius and its deviation in the laboratory's units",
      .caption =
          "Mean radius of the path and its standard deviation against the magnet's frequency, where the bead "
@@ -64,7 +65,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_radius},
     {.name = "supercritical",
-     .source = "Fig. supercritical",
+     .source = "Fig. 10",
      .title = "The period halving is supercritical",
      .caption = "Ratio p of successive swings of r where it is under 6 (inset: r(t) under the threshold, two "
                 "unequal swings in "
@@ -86,7 +87,7 @@ static const fst_paper_figure figures[] = {
      .step = FST_PAPER_STEP_REMANENCE,
      .draw = fst_paper_draw_remanence},
     {.name = "portrait",
-     .source = "Fig. portrait",
+     .source = "Fig. 5",
      .title = "The magnet's field",
      .caption =
          "The field in which the bead moves: five lines of dipoles, two poles. Colour: strength; arrows: "
@@ -95,7 +96,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_FOLD15,
      .draw = draw_field},
     {.name = "comparison",
-     .source = "Figs. radius and comparison",
+     .source = "Figs. 3 and 6",
      .title = "Radius, speed and fluctuation against the drive",
      .caption = "Mean radius (left ordinate) and mean angular velocity of the bead about the axis (right; "
                 "negative: against "
@@ -108,7 +109,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_comparison},
     {.name = "dotal",
-     .source = "Fig. dotal",
+     .source = "Fig. 4",
      .title = "How fast the bead circles",
      .caption = "The bead goes round with the magnet at low drives, and against it, more slowly, at high ones. "
                 "Lines: counter-rotation from the rolling start, enlarged in the inset; circles: beads "
@@ -117,7 +118,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_dotal},
     {.name = "f4",
-     .source = "Fig. f4",
+     .source = "Fig. 7",
      .title = "Four festoons at 10.7 Hz",
      .caption =
          "Two revolutions of the bead at the drive 0.215. Colour: vertical part of the moment; arrows: its "
@@ -127,7 +128,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_FOLD4,
      .draw = draw_trajectory},
     {.name = "f4detail-angle",
-     .source = "Fig. f4detail, top",
+     .source = "Fig. 8, top",
      .title = "The moment follows the field",
      .caption = "The upper right corner of the same path, coloured by the angle between moment and field.",
      .each = 1,
@@ -137,7 +138,7 @@ static const fst_paper_figure figures[] = {
      .colour = "angle",
      .zoomed = 1},
     {.name = "f4detail-slip",
-     .source = "Fig. f4detail, bottom",
+     .source = "Fig. 8, bottom",
      .title = "Friction acts at the turning points",
      .caption =
          "The same corner, coloured by the speed of the contact point, which friction is proportional to.",
@@ -148,7 +149,7 @@ static const fst_paper_figure figures[] = {
      .colour = "slip",
      .zoomed = 1},
     {.name = "om04",
-     .source = "Fig. om04",
+     .source = "Fig. 9",
      .title = "Many festoons at 19.9 Hz",
      .caption =
          "Two revolutions of the bead at the drive 0.4, coloured by the speed of the contact point; inset: the "
@@ -161,7 +162,7 @@ static const fst_paper_figure figures[] = {
      .draw = draw_trajectory,
      .colour = "slip"},
     {.name = "om04-n",
-     .source = "Fig. om04, inset, larger and from two sides",
+     .source = "Fig. 9, inset, larger and from two sides",
      .title = "The closed path of the moment",
      .caption = "The moment's direction in the local frame at the drive 0.4, seen along the radius and along "
                 "the circle; grey: the unit sphere's outline.",
@@ -171,7 +172,7 @@ static const fst_paper_figure figures[] = {
      .draw = draw_trajectory,
      .kind = FST_FIGURE_LOCAL_N},
     {.name = "magint",
-     .source = "Fig. magint",
+     .source = "Fig. 13",
      .title = "Where the festoons come from",
      .caption = "Radius and field strength while the magnet turns by half a revolution under the bead, at "
                 "the drive 0.4: the pole draws the bead inwards, between the poles it swings out.",
@@ -181,7 +182,7 @@ static const fst_paper_figure figures[] = {
      .draw = draw_trajectory,
      .kind = FST_FIGURE_RADIUS_FIELD},
     {.name = "test",
-     .source = "Fig. test",
+     .source = "Fig. 11",
      .title = "Free rolling at high drives",
      .caption =
          "Solid: mean angular velocities of the bead about the axis and of its moment; dashed: the paper's "
@@ -191,9 +192,9 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_test},
     {.name = "evolution",
-     .source = "Fig. evolution",
+     .source = "Fig. 12",
      .title = "The radial balance of forces",
-     .caption = "The three terms of the averaged radial equation (eq21); their exact sum is zero. The paper "
+     .caption = "The three terms of the averaged radial equation (12); their exact sum is zero. The paper "
                 "drops n_r from the magnetic term: dashed.",
      .each = 1,
      .statements = "friction|spin-term|magnetic-term|asymptotic-hz",
@@ -230,7 +231,7 @@ fst_paper_figure fst_paper_figure_at(int index)
     return figure;
 }
 
-/* Does the list "one|two" have `id`? */
+/* Whether the list "one|two" contains `id`. */
 static int lists(const char *ids, const char *id)
 {
     size_t length = strlen(id);
@@ -259,7 +260,7 @@ int fst_paper_figure_verdict(const fst_paper_state *paper, const fst_paper_figur
     return 1;
 }
 
-/* The options of `festoon plot` that make the figure. */
+/* Write the options of `festoon plot` that draw this figure. */
 static void plot_options(const fst_paper_state *paper, const fst_paper_figure *figure, char *text, size_t size)
 {
     static const char *const kinds[] = {[FST_FIGURE_PATH] = "",
@@ -306,7 +307,7 @@ typedef struct gallery {
     int list[FST_MOST_FIGURES], count;
 } gallery;
 
-/* Each figure has its own place in `drawn`. */
+/* Figures are drawn at the same time: each has its own place in `drawn`. */
 static fst_status draw_piece(void *user, int place, fst_error *error)
 {
     const gallery *all = user;

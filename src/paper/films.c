@@ -15,7 +15,7 @@ static const struct {
     double periods;
 } films[FST_FILM_COUNT] = {{FST_SCAN_FOLD4, 24.0}, {FST_SCAN_FOLD15, 16.0}};
 
-/* As the paper has them: by the printed equations. */
+/* The paper's films show motions by its printed equations, and so do these. */
 fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error)
 {
     double began = fst_clock_seconds();

@@ -25,7 +25,7 @@ static json_t *closed_symmetry(const fst_paper_pattern *pattern)
     return name ? json_string(name) : json_null();
 }
 
-/* What the branch of periodic orbits says, and where it is missing, why. */
+/* What the branch of periodic orbits tells or, where it is missing, why it is. */
 static json_t *orbits_object(const fst_paper_state *paper)
 {
     json_t *object = json_object();
@@ -116,7 +116,8 @@ static json_t *statement_value(const fst_statement *statement, double value)
     return statement->rule == FST_RULE_SYMMETRY ? symmetry(value) : fst_json_number(value);
 }
 
-/* What was published are the printed equations: their verdict, command and the rest have the bare names. */
+/* The printed equations are what was published.  So their verdict, command and so on have the plain names, and
+ * those of the exact equations begin with "rigid_". */
 static void add_dynamics(json_t *object, const fst_statement *statement, const fst_paper_state *paper,
                          const fst_finding *finding, fst_dynamics dynamics)
 {

@@ -1,3 +1,5 @@
+/* measures.c - numbers of the paper measured on the runs: the field's maxima, the two patterns, r against Phi,
+ * curves over the drive, balances. */
 #include "paper/measures_parts.h"
 
 #include <complex.h>
@@ -38,8 +40,8 @@ MEASURE(maxima_distance)
     return at_centre;
 }
 
-/* The length of the lines with which the maxima are 41 mm apart at the bead's height, all else in millimetres
- * as it is. */
+/* The length of the lines for which the maxima are 41 mm apart at the bead's height, with all other lengths as
+ * they are in millimetres. */
 MEASURE(fitted_length)
 {
     fst_params params = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->params;
@@ -132,7 +134,7 @@ MEASURE(fold15_symmetry)
     return result->symmetry == FST_SYMMETRY_NONE ? NAN : result->symmetry == FST_SYMMETRY_S1 ? 1.0 : 2.0;
 }
 
-/* Eigenvalues of a symmetric matrix, least first (the trigonometric solution of the cubic). */
+/* Eigenvalues of a symmetric 3 x 3 matrix, least first (the trigonometric solution of the cubic). */
 static void eigenvalues(double a[3][3], double values[3])
 {
     double mean = (a[0][0] + a[1][1] + a[2][2]) / 3.0;
@@ -179,8 +181,8 @@ MEASURE(fold15_roundness)
 
 /* ------------------------------------------------------------------ r against Phi */
 
-/* Mean angle Phi, modulo pi, of the local extremes of r (sign +1: maxima, -1: minima), in degrees from -90 to
- * 90; each is placed by a parabola through three samples. */
+/* The mean angle Phi, modulo pi, of the local extremes of r (sign +1: maxima, -1: minima), in degrees from -90
+ * to 90.  A parabola through three samples places each extreme. */
 static double extreme_phi(const fst_table *table, double sign)
 {
     const double *r = fst_collected(table, "r"), *phi = fst_collected(table, "Phi");
@@ -335,12 +337,12 @@ MEASURE(bell)
         return NAN;
     (void)snprintf(note, size, "⟨α′⟩ = %.4f γ there; the runs are about a quarter of a hertz apart",
                    runs[best].result.mean_alpha_dot);
-    /* The slope of alpha' jumps at the period halving, close by: a parabola through three points would pretend
-     * to more than they say. */
+    /* The slope of alpha' jumps at the period halving, which is close by, so a parabola through three points
+     * would pretend to more than they tell. */
     return runs[best].result.frequency_hz;
 }
 
-/* Runs beside the top of the bell, on either side, where |alpha'| falls away from it. */
+/* Runs on either side of the top of the bell at which |alpha'| does not fall away from it. */
 MEASURE(bell_shape)
 {
     const fst_paper_run *runs = paper->scans[FST_SCAN_COMPARISON][dynamics];
@@ -398,8 +400,8 @@ MEASURE(slowness)
 
 /* ------------------------------------------------------------------ free rolling and balances */
 
-/* The greatest relative deviation of a mean from its free-rolling value over the fast scan, in %; the paper's
- * formulas (predictions) with the <r> of the run. */
+/* The greatest relative deviation of a mean from its value for free rolling over the fast scan, in %, by the
+ * paper's Eq. (15) with the <r> of the run. */
 static double rolling_deviation(const fst_paper_state *paper, fst_dynamics dynamics, int of_phi, char *note,
                                 size_t size)
 {

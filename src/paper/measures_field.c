@@ -19,8 +19,8 @@ static int add_field(const fst_params *scene, const double place[3], double weig
     return 1;
 }
 
-/* The mean of B over the ball, on three shells by Gauss's rule in z (six points) and twelve points round: exact
- * on each shell to the eleventh degree, and what follows falls as (eps/h)^12. */
+/* The mean of B over the ball, on three shells, by Gauss's rule in z (six points) and twelve points round.  On
+ * each shell it is exact to the eleventh degree; the error falls as (eps/h)^12. */
 MEASURE(ball_mean)
 {
     static const double zs[6] = {-0.932469514203152, -0.661209386466265, -0.238619186083197,
@@ -49,7 +49,7 @@ MEASURE(ball_mean)
     return good ? sqrt(off / (centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2])) : NAN;
 }
 
-/* The magnetic averages of Eqs. (eq21), (eq22) and (eq23) on a circle of radius r for phi = rate Phi + chi, and
+/* The magnetic averages of Eqs. (12), (13) and (14) on a circle of radius r for phi = rate Phi + chi, and
  * the mean of n.B. */
 static void averages_at(const fst_model *model, double r, double rate, double chi, double terms[4])
 {
@@ -76,7 +76,7 @@ static void averages(const fst_model *model, double r, double chi, double terms[
     averages_at(model, r, -1.0, chi, terms);
 }
 
-/* The mean radial force is A cos(chi) + B sin(chi); that of each other whole rate over that of -1. */
+/* The mean radial force is A cos(chi) + B sin(chi).  Compare it at each other whole rate with that at -1. */
 MEASURE(resonance)
 {
     fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
@@ -105,8 +105,8 @@ MEASURE(resonance)
     return greatest / size_of[2];
 }
 
-/* How much of the field on the circle r = 0.9 has the appendix's structure: the mean of B.(sin(Phi) e_alpha +
- * cos(Phi) e_z) over the root mean square of B, with either sign of the magnet. */
+/* How much of the field on the circle r = 0.9 has the structure that the appendix assumes: the mean of
+ * B.(sin(Phi) e_alpha + cos(Phi) e_z) over the root mean square of B, with the better sign of the magnet. */
 MEASURE(field_structure)
 {
     enum { ANGLES = 360 };
@@ -156,14 +156,15 @@ MEASURE(least_energy)
     averages(model, r, PI, at_pi);
     averages(model, r, 0.0, at_zero);
     fst_model_free(model);
-    /* The energy is -n.B: -1 says that it changes its sign, and is negative at pi if n.B is positive there. */
+    /* The energy is -n.B. -1: it changes its sign between 0 and pi; it is negative at pi if n.B is positive
+     * there. */
     return at_pi[3] > 0.0 ? at_pi[3] / at_zero[3] : NAN;
 }
 
 /* ------------------------------------------------------------------ the model's magnet */
 
-/* Dipoles along one line, integrated by Gauss's rule with five points on each of 40 pieces, beside the charges
- * at its ends. */
+/* The field of dipoles along one line, integrated by Gauss's rule with five points on each of 40 pieces, to
+ * compare with that of the charges at its ends. */
 MEASURE(line_of_dipoles)
 {
     static const double nodes[5] = {-0.906179845938664, -0.538469310105683, 0.0, 0.538469310105683,
@@ -189,7 +190,7 @@ MEASURE(line_of_dipoles)
                 sum[k] += weight * (3.0 * d[0] * d[k] / square - (k == 0)) / cube;
         }
         fst_field(model, x, y, b, grad);
-        for (int k = 0; k < 3; k++) /* one line has the strength of the five */
+        for (int k = 0; k < 3; k++) /* one line has the strength of all five */
             off += (5.0 * sum[k] - b[k]) * (5.0 * sum[k] - b[k]);
         worst = fmax(worst, sqrt(off / (b[0] * b[0] + b[1] * b[1] + b[2] * b[2])));
     }
@@ -215,7 +216,7 @@ MEASURE(slow_parallel)
     return paper->scans[FST_SCAN_SLOW][dynamics][0].result.max_angle_deg;
 }
 
-/* Of the runs at which the bead is locked, that with the most friction. */
+/* Of the locked runs, the one with the most friction. */
 MEASURE(slow_friction)
 {
     const fst_run_result *most = NULL, *slowest = &paper->scans[FST_SCAN_SLOW][dynamics][0].result;
@@ -238,7 +239,7 @@ MEASURE(slow_friction)
     return 100.0 * most->mean_friction_power / single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
 }
 
-/* ------------------------------------------------------------------ the assumptions of section 6 */
+/* ------------------------------------------------------------------ the assumptions of section VI */
 
 MEASURE(theta)
 {
@@ -247,7 +248,7 @@ MEASURE(theta)
     double sum = 0.0;
     for (size_t i = 0; i < table->rows; i++)
         sum += n_r[i] * n_r[i];
-    (void)snprintf(note, size, "it is what Eq. (eq21) lacks: see the exact magnetic term");
+    (void)snprintf(note, size, "it is what Eq. (12) lacks: see the exact magnetic term");
     return sqrt(sum / (double)table->rows);
 }
 
@@ -258,7 +259,7 @@ MEASURE(steady_radius)
     return result->std_r / result->mean_r;
 }
 
-/* The magnet's force on the bead of a sample, along the axes of the turning frame. */
+/* The magnet's force on the bead of a sample, along the turning axes. */
 static void pull_at(const fst_model *model, const fst_table *table, size_t row, double pull[2])
 {
     double b[3], g[3][3];
@@ -270,8 +271,8 @@ static void pull_at(const fst_model *model, const fst_table *table, size_t row, 
         pull[i] = groups.kappa * groups.eps * groups.eps * (n[0] * g[0][i] + n[1] * g[1][i] + n[2] * g[2][i]);
 }
 
-/* Mean size of the magnet's force where the bead is within pi/8 of an end of the magnet, and of its middle, and
- * how it pulls inwards at both. */
+/* The mean size of the magnet's force where the bead is within pi/8 of an end of the magnet, and of its middle,
+ * and how strongly it pulls inwards at both. */
 typedef struct pulls {
     double force[2], inwards[2];
     int count[2];
@@ -344,7 +345,7 @@ MEASURE(modulation)
     return squared;
 }
 
-/* Over the samples with r in the topmost tenth of its range. */
+/* Taken over the samples with r in the topmost tenth of its range. */
 MEASURE(friction_outside)
 {
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD4, dynamics);

@@ -16,8 +16,8 @@ static int nearer(const void *one, const void *other)
     return (a > b) - (a < b);
 }
 
-/* Pieces of the path between the first and the last turning point (greatest r), each with the time to the
- * nearest of them, its length and what friction took on it; free() it. */
+/* Pieces of the path between the first and the last turning point (where r is greatest), each with the time to
+ * the nearest turning point, its length, and the energy that friction took on it; free() it. */
 static piece *cut_at_turning_points(const fst_table *table, size_t *count)
 {
     const double *r = fst_collected(table, "r"), *t = fst_collected(table, "t");
@@ -133,7 +133,7 @@ MEASURE(strict_corotation)
 
 /* ------------------------------------------------------------------ the shape of the path */
 
-/* The part of x + iy that turns at `rate`: its amplitude over `rows` samples. */
+/* The amplitude of the part of x + iy that turns at `rate`, over `rows` samples. */
 static double turning_part(const double *x, const double *y, const double *t, size_t rows, double rate)
 {
     double complex sum = 0.0;
@@ -142,9 +142,9 @@ static double turning_part(const double *x, const double *y, const double *t, si
     return cabs(sum) / (double)rows;
 }
 
-/* In the laboratory the path is a sum of circular motions at alpha' + k (omega - alpha'). A hypotrochoid has
- * two: the share of the strongest one that turns against the bead in all that is not the bead's own circling.
- */
+/* In the laboratory the path is a sum of circular motions at alpha' + k (omega - alpha').  A hypotrochoid has
+ * two of them.  This is the share of the strongest one that turns against the bead, among all except the bead's
+ * own circling. */
 static double trochoid_share(const fst_paper_run *run, int *best)
 {
     const fst_table *table = &run->trajectory;
@@ -152,7 +152,7 @@ static double trochoid_share(const fst_paper_run *run, int *best)
     double circling = run->result.mean_alpha_dot, meeting = run->result.omega - circling, all = 0.0, most = 0.0;
     if (table->rows < 2)
         return NAN;
-    /* Whole meetings of bead and magnet, two at a time for S1 and S2 alike. */
+    /* The samples over whole meetings of bead and magnet, two at a time, which suits both S1 and S2. */
     double turn = 2.0 * PI / meeting, last = turn * floor((t[table->rows - 1] - t[0]) / turn);
     size_t rows = 0;
     for (; rows < table->rows && t[rows] - t[0] < last; rows++)
@@ -271,7 +271,7 @@ MEASURE(dropped_part)
 
 /* ------------------------------------------------------------------ far beyond */
 
-/* Of <alpha'> from free rolling, %; NAN where the bead does not counter-rotate. */
+/* The deviation of <alpha'> from free rolling, in %; NAN where the bead does not counter-rotate. */
 static double off_rolling(const fst_paper_run *run)
 {
     double rolling = -eps_of(run) * run->result.omega / (run->result.mean_r - eps_of(run));
@@ -304,7 +304,7 @@ MEASURE(asymptotic_frequency)
 {
     static const fst_scan beyond[2] = {FST_SCAN_ASYMPTOTIC, FST_SCAN_FAST};
     double from = NAN, first = NAN;
-    int negligible = 1; /* from the drive that is looked at upwards */
+    int negligible = 1; /* whether friction is negligible from this drive upwards */
     for (int s = 0; s < 2; s++) {
         for (int i = paper->counts[beyond[s]] - 1; i >= 0; i--) {
             const fst_paper_run *run = &paper->scans[beyond[s]][dynamics][i];
@@ -338,7 +338,7 @@ MEASURE(rolling_below)
 
 /* ------------------------------------------------------------------ the period halving */
 
-/* The exponent with which a quantity goes with the distance from the threshold. */
+/* The exponent with which a quantity grows with the distance from the threshold. */
 static double exponent(const fst_paper_state *paper, fst_dynamics dynamics, size_t offset, int first, int count)
 {
     double x[FST_HALVING_POINTS], y[FST_HALVING_POINTS];

@@ -144,7 +144,7 @@ MEASURE(counter_force)
     if (!model)
         return NAN;
     int outwards = 0, radii = 0;
-    double turns = NAN; /* the radius beyond which it points inwards */
+    double turns = NAN; /* beyond this radius the force points inwards */
     for (double r = 0.9; r < 1.505; r += 0.01, radii++) {
         int inwards = fst_ansatz_force(model, r, -1) < 0.0;
         outwards += !inwards;
@@ -226,8 +226,8 @@ MEASURE(friction_on_centre)
     return worst_residual(paper, dynamics, FST_BALANCE_KINETIC, note, size);
 }
 
-/* Motions in which a mean is not positive; NAN where one has not settled and none of the others is an
- * exception. */
+/* The number of motions in which a mean is not positive; NAN where a motion has not settled and none of the
+ * others is an exception. */
 static double not_positive(const fst_paper_state *paper, fst_dynamics dynamics, fst_balance_kind kind,
                            char *note, size_t size)
 {
@@ -278,7 +278,7 @@ MEASURE(splitting)
     return fastest->of[FST_BALANCE_KINETIC].friction / product;
 }
 
-/* What the field adds to dW/dt, at places, speeds and turns of all kinds. */
+/* What the field adds to dW/dt, at places, speeds and rotations of all kinds. */
 MEASURE(paramagnet_torque)
 {
     NO_NOTE;

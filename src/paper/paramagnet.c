@@ -1,3 +1,5 @@
+/* paramagnet.c - following beads that the field magnetises: do they circle against the magnet, do the paper's
+ * identities hold, and how much remanence do they need? */
 #include "paper/paramagnet.h"
 
 #include "base/error.h"
@@ -8,7 +10,7 @@
 
 #define PI 3.14159265358979323846
 
-static const double STANDS = 1e-4; /* |<alpha'>| in units of omega that is no circling */
+static const double STANDS = 1e-4; /* a mean |alpha'| below this, in units of omega, is no circling */
 
 typedef struct followed {
     fst_model *model;
@@ -45,7 +47,7 @@ static const unsigned leaving = 1u << FST_STOP_TIME | 1u << FST_STOP_EDGE | 1u <
 
 /* ------------------------------------------------------------------ one bead, followed */
 
-/* Go on to t1 and say how the bead circled between the middle of that stretch and its end. */
+/* Go on to t1, and say how the bead circled between the middle of that time and its end. */
 static fst_status fate_until(followed *bead, double t1, fst_fate *fate, double *mean_alpha_dot,
                              fst_error *error)
 {
@@ -130,7 +132,7 @@ fst_status fst_search_one(int index, fst_dynamics dynamics, fst_search_entry *en
 
 /* ------------------------------------------------------------------ the identities */
 
-/* What is averaged, and what only its change counts of. */
+/* The quantities that are averaged, and the quantities of which only the change matters. */
 typedef struct moment_in_time {
     double slip2, field_moment, friction_moment, friction_on_centre, crossed;
     double energy, angular_momentum, kinetic_less_field, rolling_momentum, alpha;
@@ -158,12 +160,12 @@ static void look(const followed *bead, moment_in_time *now)
     now->angular_momentum = x * s[FST_VY] - y * s[FST_VX];
     now->kinetic_less_field = 0.5 * v2 - a * b2;
     now->crossed = 0.4 * (s[FST_VX] * slip_y - s[FST_VY] * slip_x);
-    /* p = v - (2 eps/5) e x W is what friction leaves alone: dp/dt is the magnet's force. */
+    /* Friction does not change p = v - (2 eps/5) e x W: dp/dt is the magnet's force. */
     double p_x = s[FST_VX] + 0.4 * eps * s[FST_WY], p_y = s[FST_VY] - 0.4 * eps * s[FST_WX];
     now->rolling_momentum = x * p_y - y * p_x;
 }
 
-/* Add `weight` times what is averaged. */
+/* Add `weight` times the quantities that are averaged. */
 static void accumulate(moment_in_time *sum, const moment_in_time *now, double weight)
 {
     sum->slip2 += weight * now->slip2;
@@ -182,8 +184,8 @@ static fst_status look_at(followed *bead, double t, moment_in_time *now, fst_err
     return status;
 }
 
-/* Means over `panels` panels of length `panel` from t0 by Gauss's rule with five points, on which the flow
- * lands. */
+/* Means over `panels` panels of length `panel` from t0, by Gauss's rule with five points; the flow lands on
+ * each. */
 static fst_status average(followed *bead, double t0, int panels, double panel, moment_in_time *mean,
                           fst_error *error)
 {
@@ -234,7 +236,9 @@ static fst_status balances_over(const fst_params *params, double discard, double
 fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
                                    fst_balances *balances, fst_error *error)
 {
-    enum { PANELS = 240 }; /* per drive period: the printed equations have the moment turn over in bursts */
+    enum {
+        PANELS = 240
+    }; /* panels per drive period: by the printed equations the moment turns over in bursts */
     return balances_over(params, discard, periods, PANELS, balances, error);
 }
 
@@ -269,8 +273,8 @@ int fst_balances_settled(const fst_balances *balances)
 
 /* ------------------------------------------------------------------ how much remanence */
 
-/* What a run of the same length says.  An irregular motion goes against the magnet for a while too, and the
- * sign of its mean is chance. */
+/* How a run of the same length ends.  An irregular motion goes against the magnet for a while too, and the sign
+ * of its mean is chance. */
 static fst_status confirm(const fst_params *tried, double periods, int *does, fst_error *error)
 {
     fst_params params = *tried;
@@ -283,7 +287,7 @@ static fst_status confirm(const fst_params *tried, double periods, int *does, fs
     return status;
 }
 
-/* Does a bead counter-rotate from any of the starts, and still after four times as long? */
+/* Whether the bead counter-rotates from any of the starts, and still does after four times as long. */
 static fst_status counter_rotates(const fst_params *params, const fst_kappa_scan *scan, double kappa, int *does,
                                   fst_error *error)
 {
@@ -295,7 +299,7 @@ static fst_status counter_rotates(const fst_params *params, const fst_kappa_scan
         followed bead;
         fst_fate fate = FST_FATE_AWAY;
         double speed;
-        /* Half a turn further the start is the image under S2 of this one: the same motion. */
+        /* Half a turn further, a start is the image of this one under S2 and gives the same motion. */
         tried.start_phi = params->start_phi + 180.0 * start / scan->starts;
         status = fst_tell(scan->progress, 0.0, NULL, error);
         if (status != FST_OK)

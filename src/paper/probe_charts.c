@@ -1,5 +1,5 @@
-/* probe_charts.c - the paper's figures of the experiment, drawn from the model, and those of
- * the probes. */
+/* probe_charts.c - figures of the probes (Fig. 10, remanence), the sketch of the experiment (Fig. 1) and the
+ * camera's view (Fig. 2). */
 #include "base/error.h"
 #include "draw/chart.h"
 #include "draw/figure_setup.h"
@@ -9,7 +9,7 @@
 
 #include <stdlib.h>
 
-/* ------------------------------------------------------------------ Fig. supercritical */
+/* ------------------------------------------------------------------ Fig. 10 */
 
 enum { LINE = 64 };
 
@@ -20,7 +20,7 @@ typedef struct halving_curves {
     fst_chart_label labels[2];
 } halving_curves;
 
-/* Mark two successive swings of r(t) by vertical lines from a maximum to the next minimum: Delta+
+/* Mark two successive swings of r(t), from a maximum to the next minimum, by vertical lines: Delta+
  * and Delta-. */
 static void mark_swings(const double *r, halving_curves *c)
 {
@@ -44,7 +44,7 @@ static void mark_swings(const double *r, halving_curves *c)
 static void read_halving(const fst_paper_state *paper, fst_dynamics dynamics, halving_curves *c)
 {
     const fst_halving_point *points = paper->halving[dynamics].points;
-    const fst_halving_point *near = &points[FST_HALVING_BELOW - 3]; /* the line goes through it */
+    const fst_halving_point *near = &points[FST_HALVING_BELOW - 3]; /* the line goes through this point */
     *c = (halving_curves){.threshold = fst_paper_halving_drive(paper, dynamics)};
     for (int i = 0; i < FST_HALVING_POINTS; i++) {
         c->omega[i] = points[i].omega;
@@ -53,7 +53,7 @@ static void read_halving(const fst_paper_state *paper, fst_dynamics dynamics, ha
         c->tau[i] = 1e-3 * points[i].relaxation;
     }
     double factor = near->mean_nz / sqrt(fabs(c->threshold - near->omega));
-    for (int i = 0; i < LINE; i++) { /* closer and closer to the threshold, where the line is steep */
+    for (int i = 0; i < LINE; i++) { /* points close up to the threshold, where the line is steep */
         double part = 1.0 - i / (LINE - 1.0);
         c->line_x[i] = c->threshold - (c->threshold - c->omega[0]) * part * part;
         c->line_y[i] = factor * sqrt(fmax(c->threshold - c->line_x[i], 0.0));

@@ -1,3 +1,4 @@
+/* probes.c - the period halving seen by long runs close to it, and beads set on the corotating motion. */
 #include "paper/probes.h"
 
 #include "base/error.h"
@@ -6,12 +7,12 @@
 
 #define PI 3.14159265358979323846
 
-/* A model and a flow on it, which belong together here. */
+/* A model and a flow on it, made and freed together. */
 typedef struct probe {
     fst_model *model;
     fst_flow *flow;
     fst_groups groups;
-    double period; /* of the drive */
+    double period; /* the period of the drive */
 } probe;
 
 static fst_status probe_begin(probe *p, const fst_params *params, fst_error *error)
@@ -44,11 +45,11 @@ static void probe_end(probe *p)
 
 enum {
     MOST_RETURNS = 16384,
-    LOOKED_AT = 24 /* drive periods at the end in which p and <n_z> are taken */
+    LOOKED_AT = 24 /* drive periods at the end over which p and <n_z> are taken */
 };
 
-/* Half returns of the bead to Phi = pi/2 or -pi/2.  Under S2 n_z changes its sign from one to the next, so that
- * the sum of two successive ones is zero: it measures the asymmetry without integrals. */
+/* Half returns of the bead to Phi = pi/2 or -pi/2.  Under S2 n_z changes its sign from one to the next, so the
+ * sum of two successive values is zero.  That sum measures the asymmetry without integrals. */
 typedef struct returns {
     double t[MOST_RETURNS], asymmetry[MOST_RETURNS];
     int count;
@@ -65,8 +66,8 @@ static void take_return(returns *all, const fst_flow_info *info)
     all->last_nz = nz;
 }
 
-/* The settling rate by least squares through the logarithm of the distance from the last value, where that
- * distance is small enough for the linear regime and large enough to be seen. */
+/* The rate of settling, by least squares through the logarithm of the distance from the last value, where the
+ * distance is small enough to be linear and large enough to be seen. */
 static double relaxation_time(const returns *all)
 {
     if (all->count < 32)
@@ -88,7 +89,7 @@ static double relaxation_time(const returns *all)
     return s0 >= 8.0 && slope < 0.0 ? -1.0 / slope : NAN;
 }
 
-/* Whether the asymmetry, over the last eighth of the time, has stayed where it is. */
+/* Whether the asymmetry did not change over the last eighth of the time. */
 static int is_settled(const returns *all)
 {
     if (all->count < 32)
@@ -97,7 +98,7 @@ static int is_settled(const returns *all)
     return fabs(last - before) < 1e-4 * last + 1e-6;
 }
 
-/* Successive extremes of r, each by a parabola through three values, and from them p. */
+/* Find successive extremes of r, each by a parabola through three values, and p from them. */
 static double order_parameter(const double *r, int count)
 {
     double extremes[256];
@@ -120,7 +121,7 @@ static double order_parameter(const double *r, int count)
     return pairs > 0 ? sum / pairs : NAN;
 }
 
-/* The end of the motion in small steps: r, and n_z averaged over whole returns. */
+/* Follow the end of the motion in small steps: r, and n_z averaged over whole returns. */
 static fst_status watch_end(probe *p, double t0, fst_halving_point *point, double *r_of_t, int kept,
                             fst_error *error)
 {
@@ -138,7 +139,7 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
         else
             partial += 0.5 * (nz_before + info.state[FST_NZ]);
         nz_before = info.state[FST_NZ];
-        /* Whole turns of Phi alone count; the last one that is complete is kept. */
+        /* Only whole turns of Phi count; the last complete one is kept. */
         double turns = fabs(info.phi - phi_first) / (2.0 * PI);
         if (i > 0 && floor(turns) > weight) {
             weight = floor(turns);
@@ -221,7 +222,7 @@ double fst_line_zero(const double *x, const double *y, int count)
 
 double fst_ansatz_force(const fst_model *model, double r, int sense)
 {
-    enum { ANGLES = 256 }; /* the mean of a smooth periodic function converges faster than any power */
+    enum { ANGLES = 256 }; /* the mean of a smooth periodic function converges faster than any power of this */
     fst_groups g = fst_model_groups(model);
     double sum = 0.0;
     for (int i = 0; i < ANGLES; i++) {
@@ -275,7 +276,7 @@ fst_status fst_probe_ansatz(const fst_params *params, double r, double phi, doub
         before = info.alpha;
         if (k == (int)periods / 2)
             middle = info.alpha;
-        if (stop == FST_STOP_EDGE) /* off the plate, with a speed that says nothing */
+        if (stop == FST_STOP_EDGE) /* it left the plate, where its speed means nothing */
             break;
         if (k + 1 == (int)periods)
             *speed = (info.alpha - middle) / ((k - (int)periods / 2) * wanted);

@@ -1,4 +1,4 @@
-/* report.c - report.html: the comparison for people, in one file that needs nothing else. */
+/* report.c - report.html: the comparison for people, in one file that needs no other. */
 #include "paper/figures.h"
 #include "paper/report.h"
 #include "paper/runs.h"
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns show the printed equations first: they are what was published. */
+/* The printed equations come first in every table: they are what was published. */
 static const fst_dynamics order[FST_PAPER_DYNAMICS] = {FST_DYNAMICS_FARAGO2020, FST_DYNAMICS_RIGID};
 
 /* ------------------------------------------------------------------ the first page */
@@ -150,7 +150,7 @@ static void write_notes(FILE *out, const fst_finding *finding)
     fputs(".</p>", out);
 }
 
-/* The rules come before what they judge. */
+/* The rules come before the statements that they judge. */
 static void write_rules(FILE *out)
 {
     fputs("<p id=\"rules\">One set of rules holds for all of them. It asks how the paper prints what it says, "
@@ -250,7 +250,7 @@ static fst_status write_figure(FILE *out, const fst_paper_state *paper, int inde
 static void write_regimes(FILE *out, const fst_paper_state *paper)
 {
     fputs("<h2 id=\"regimes\">What was met on the way</h2>\n"
-          "<p>How the runs of Fig. comparison ended:</p><div "
+          "<p>How the runs of Fig. 6 ended:</p><div "
           "class=\"scroll\"><table><thead><tr><th>motion</th><th>farago2020</th><th>rigid</th></tr></"
           "thead><tbody>\n",
           out);

@@ -1,3 +1,4 @@
+/* report_parts.c - pieces of HTML: the head with its style, safe text, badges, and figures inside the page. */
 #include "paper/report_parts.h"
 
 #include "base/error.h"
@@ -92,7 +93,7 @@ void fst_report_badge(FILE *out, fst_verdict verdict)
     fprintf(out, "<span class=\"badge %s\">%s</span>", classes[verdict], fst_verdict_name(verdict));
 }
 
-/* Three bytes become four letters. */
+/* Base 64: three bytes become four letters. */
 static void write_base64(FILE *out, FILE *in)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -114,7 +115,7 @@ fst_status fst_report_image(FILE *out, const char *path, const char *alternative
         return fst_fail(error, FST_IO, path, "cannot read the figure again: %s", strerror(errno));
     fputs("<img alt=\"", out);
     fst_report_text(out, alternative);
-    /* As an image of its own a figure keeps its names and styles to itself. */
+    /* A figure that is an image of its own keeps its names and styles to itself. */
     fputs("\" src=\"data:image/svg+xml;base64,", out);
     write_base64(out, in);
     fputs("\">\n", out);

@@ -1,19 +1,19 @@
-/* settle.c - runs that are followed until their motion has settled, so that no statement rests on means
- * of one that has not. */
+/* settle.c - runs that are made longer until their motion has settled, so that no statement rests on the means
+ * of a transient. */
 #include "io/collect.h"
 #include "paper/runs.h"
 
 #include <stdio.h>
 
-/* A run that has not settled is made again, twice as long and without what it was, so many times at most. */
+/* A run that has not settled is made again, twice as long and with all of the earlier time discarded, at most
+ * so many times. */
 enum { MOST_DOUBLINGS = 3 };
-/* Errors of the means, relative, from which on a mean is not known: the verdicts ask for a
- * hundredth at best. */
+/* A mean with a greater relative error than this is not known: the verdicts ask for a hundredth at best. */
 static const double KNOWN = 1e-3;
 
 static int is_known(double mean, double error, double scale)
 {
-    return error <= KNOWN * fmax(fabs(mean), scale); /* and not where it is undefined */
+    return error <= KNOWN * fmax(fabs(mean), scale); /* false where the error is undefined */
 }
 
 int fst_paper_is_settled(const fst_run_result *result)
@@ -32,7 +32,7 @@ int fst_paper_may_settle(const fst_run_result *result)
            result->regime != FST_REGIME_EJECTED && result->regime != FST_REGIME_LIFTED;
 }
 
-/* All means undefined, so that nothing can rest on them. */
+/* Make all means undefined, so that nothing can rest on them. */
 static void forget_means(fst_run_result *result)
 {
     const double omega = result->omega, frequency = result->frequency_hz, periods = result->periods;

@@ -1,4 +1,5 @@
-/* statements.c - what the paper says in words, held against the runs; verdicts.c judges it. */
+/* statements.c - the list of the paper's statements, each with the command that gives its number again;
+ * verdicts.c judges them. */
 #include "paper/measures.h"
 #include "paper/runs.h"
 #include "paper/statements.h"

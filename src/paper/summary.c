@@ -1,4 +1,4 @@
-/* summary.c - what `festoon paper` says on a terminal. */
+/* summary.c - what `festoon paper` prints on a terminal. */
 #include "paper/report.h"
 
 #include <stdio.h>

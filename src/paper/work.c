@@ -1,5 +1,5 @@
-/* work.c - how a stage of the paper is done: on all processors, with its time noted; and where its
- * files lie. */
+/* work.c - doing a stage of the paper on all processors and noting its time; names of files; the machine in
+ * words. */
 #include "paper/work.h"
 
 #include "base/clock.h"
