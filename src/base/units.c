@@ -129,8 +129,8 @@ static fst_status wrong_unit(const char *text, fst_unit kind, const char *writte
     fst_quote(text, quoted_text);
     fst_quote(written, quoted);
     if (kind == FST_UNIT_NUMBER)
-        return fst_fail(error, FST_BAD_INPUT, "value", "%s has the unit %s where a number without unit belongs",
-                        quoted_text, quoted);
+        return fst_fail(error, FST_BAD_INPUT, "value",
+                        "%s has the unit %s, but this value is a number without a unit", quoted_text, quoted);
     char names[256] = "", nearest[16];
     for (size_t i = 0; i < unit_row_count; i++)
         if (unit_rows[i].kind == kind) {

@@ -118,7 +118,7 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
             found = 1;
         }
     if (!kind)
-        return fail(error, FST_BAD_INPUT, "--kind", "tell which: --kind counter, --kind locked or --kind all");
+        return fail(error, FST_BAD_INPUT, "--kind", "say which: --kind counter, --kind locked or --kind all");
     if (!found) {
         char nearest[32];
         (void)fst_nearest_name(kind, "counter|locked|all", nearest, sizeof nearest);
@@ -126,7 +126,7 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
                     "unknown kind \"%.60s\"; the nearest is %s (counter|locked|all)", kind, nearest);
     }
     if (!over)
-        return fail(error, FST_BAD_INPUT, "--over", "tell over what: --over drive.omega=0.2:3");
+        return fail(error, FST_BAD_INPUT, "--over", "say over which parameter: --over drive.omega=0.2:3");
     fst_status status = read_range("--over", over, keys[0], &o->from, &o->to, error);
     o->key = keys[0];
     if (status == FST_OK)

@@ -50,7 +50,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_params params;
     const char *at = option_value(given, "at"), *figure = option_value(given, "output");
     if (!at && !figure)
-        return fail(error, FST_BAD_INPUT, "", "tell where with --at X,Y, or draw a map with -o FIG.svg");
+        return fail(error, FST_BAD_INPUT, "", "say where with --at X,Y, or draw a map with -o FIG.svg");
     if (option_value(given, "json") && !at)
         return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
     fst_status status = read_scene(given, operand(given), &params, error);

@@ -164,7 +164,8 @@ static fst_status end_output(waiting_output *out, fst_status status, fst_error *
 {
     int reason = 0;
     if ((fflush(out->stream) != 0 || ferror(out->stream)) && status == FST_OK)
-        status = fail(error, FST_IO, "standard output", "no room to gather it, in memory or in $TMPDIR");
+        status =
+            fail(error, FST_IO, "standard output", "there is no room to collect it, in memory or in $TMPDIR");
     if (status == FST_OK)
         reason =
             out->text ? write_standard_output(out->text, out->size) : spool_to_standard_output(out->stream);

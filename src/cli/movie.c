@@ -62,7 +62,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (!path)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
-        return fail(error, FST_BAD_INPUT, "", "tell where the film goes: -o FILM.mp4");
+        return fail(error, FST_BAD_INPUT, "", "say where the film goes: -o FILM.mp4");
     fst_status status = read_film(given, &film, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);

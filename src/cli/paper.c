@@ -33,7 +33,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (only && (directory || option_value(given, "films")))
         return fail(error, FST_BAD_INPUT, "--only", "it writes no files: leave -o and --films away");
     if (!directory && !only)
-        return fail(error, FST_BAD_INPUT, "", "tell where the results go: -o DIR");
+        return fail(error, FST_BAD_INPUT, "", "say where the results go: -o DIR");
     progress_line line;
     const fst_progress progress = {&line, progress_tell};
     fst_paper_options paper = fst_default_paper_options();

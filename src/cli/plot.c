@@ -166,7 +166,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (!path)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
-        return fail(error, FST_BAD_INPUT, "", "tell where the figure goes: -o FIG.svg");
+        return fail(error, FST_BAD_INPUT, "", "say where the figure goes: -o FIG.svg");
     if (ends_in(path, ".json")) /* a branch */
         return plot_branch(given, path, to, error);
     if (fst_is_sweep(path) || ends_in(path, ".db"))

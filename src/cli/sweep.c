@@ -171,7 +171,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_sweep_options sweep;
     const char *axes[OPTION_LIMIT], *path = option_value(given, "output");
     if (!path)
-        return fail(error, FST_BAD_INPUT, "", "tell where the rows go: -o FILE.db");
+        return fail(error, FST_BAD_INPUT, "", "say where the rows go: -o FILE.db");
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
         status = read_sweep(given, axes, &sweep, error);

@@ -62,7 +62,7 @@ static fst_status check_zoom(const fst_view *view, const path_columns *columns, 
         beside = beside || zoom[2 * i] > greatest[i] || zoom[2 * i + 1] < least[i];
     }
     return beside ? fst_fail(error, FST_BAD_INPUT, "figure",
-                             "the zoom is beside the path, which lies within %.4g,%.4g,%.4g,%.4g (mm)",
+                             "the zoom lies outside of the path, which is within %.4g,%.4g,%.4g,%.4g (mm)",
                              least[0], greatest[0], least[1], greatest[1])
                   : FST_OK;
 }

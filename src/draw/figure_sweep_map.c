@@ -247,7 +247,7 @@ fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_qu
              .regimes = strcmp(quantity->key, "regime") == 0,
              .factor = quantity->factor};
     if (fst_grid_axis_stride(table->grid, axes[0].index) == fst_grid_axis_stride(table->grid, axes[1].index))
-        return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: festoon export them");
+        return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: use festoon export");
     const fst_status status = draw(&m, quantity, out, error);
     free(m.up.places);
     free(m.up.edges);

@@ -110,7 +110,7 @@ static const char *check_mp4(FILE *in, uint64_t size, int frames)
         if (film.pictures != frames)
             problem = "pictures are missing";
         else if (film.picture_bytes == 0 || film.picture_bytes > film.mdat)
-            problem = "the contents of pictures are missing";
+            problem = "the pictures themselves are missing";
     }
     free(film.moov);
     return problem;
@@ -159,7 +159,7 @@ static const char *check_gif(FILE *in)
             return cut;
         }
     }
-    return images == 0 ? "it has no picture" : fgetc(in) != EOF ? "something stands behind its end" : NULL;
+    return images == 0 ? "it has no picture" : fgetc(in) != EOF ? "there is something after its end" : NULL;
 }
 
 /* ------------------------------------------------------------------ */

@@ -345,7 +345,7 @@ fst_status fst_whole_file_commit(fst_whole_file *file, fst_error *error)
     } else if ((reason = fst_sync_directory_of(file->path)) != 0) {
         status = fst_fail(
             error, FST_IO, file->path,
-            "this file is complete, but may be lost with the power: its directory cannot be synced: %s",
+            "this file is complete, but a loss of power may undo it: its directory cannot be synced: %s",
             strerror(reason));
     }
     forget(file);

@@ -133,8 +133,8 @@ static fst_status check_names(csv_reader *reader)
         (void)snprintf(expected, sizeof expected, "%s [%s]%s", info->name, info->unit,
                        i + 1 < FST_COLUMN_COUNT ? "," : "");
         if (strncmp(at, expected, strlen(expected)) != 0) {
-            (void)snprintf(sentence, sizeof sentence, "the column \"%s [%s]\" is missing in its place",
-                           info->name, info->unit);
+            (void)snprintf(sentence, sizeof sentence, "the column \"%s [%s]\" is missing here", info->name,
+                           info->unit);
             return fail_line(reader, sentence);
         }
         at += strlen(expected);
@@ -173,9 +173,10 @@ static fst_status read_row(csv_reader *reader)
             return fail_line(reader, sentence);
         }
         if (!isfinite(value)) {
-            (void)snprintf(sentence, sizeof sentence,
-                           "the column %s holds \"%.*s\", which is not finite: every number of a trajectory is",
-                           fst_column_at(i)->name, (int)(end - at < 24 ? end - at : 24), at);
+            (void)snprintf(
+                sentence, sizeof sentence,
+                "the column %s holds \"%.*s\", which is not finite, as every number of a trajectory must be",
+                fst_column_at(i)->name, (int)(end - at < 24 ? end - at : 24), at);
             return fail_line(reader, sentence);
         }
         reader->table->columns[i][reader->table->rows] = value;
@@ -191,8 +192,8 @@ static fst_status read_rows(csv_reader *reader)
     int ended = 0;
     while (next_line(reader)) {
         if (reader->line[0] != '#') {
-            fst_status status = ended ? fail_line(reader, "there is a row behind the end of this trajectory")
-                                      : read_row(reader);
+            fst_status status =
+                ended ? fail_line(reader, "there is a row after the end of this trajectory") : read_row(reader);
             if (status != FST_OK)
                 return status;
         } else if (strncmp(reader->line, COMPLETE_LINE, strlen(COMPLETE_LINE)) == 0) {

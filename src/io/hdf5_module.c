@@ -150,7 +150,7 @@ static int read_boolean(hid_t object, const char *name)
 static fst_status fail_write(const fst_hdf5_writer *writer, fst_error *error)
 {
     return fst_fail(error, FST_IO, writer->name, "writing this file failed: %s",
-                    writer->disk.reason ? strerror(writer->disk.reason) : "HDF5 refuses, and does not say why");
+                    writer->disk.reason ? strerror(writer->disk.reason) : "HDF5 refused, and did not say why");
 }
 
 /* Chunked, with checksums, and compressed where this HDF5 can. */

@@ -285,7 +285,7 @@ fst_status fst_run_dots_read(const char *path, const char *key, const char *obse
     free(text);
     if (status == FST_OK && *count == 0)
         status = fst_fail(error, FST_BAD_INPUT, path,
-                          "no document of festoon run --json with %s and %s is in it", key, observable);
+                          "it contains no document of festoon run --json that has %s and %s", key, observable);
     if (status != FST_OK) {
         free(*dots);
         *dots = NULL;

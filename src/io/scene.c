@@ -320,8 +320,8 @@ static fst_status check_forms(scene_reader *reader)
             continue;
         char sentence[256];
         (void)snprintf(sentence, sizeof sentence,
-                       "%s is given here and %s%s on line %d: they say the same, keep one", key, other,
-                       strength ? " (with bead.moment)" : "", first);
+                       "%s is given here and %s%s on line %d: they give the same quantity, keep one", key,
+                       other, strength ? " (with bead.moment)" : "", first);
         return fail_at(reader, reader->lines[i], sentence);
     }
     return FST_OK;

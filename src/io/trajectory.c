@@ -204,7 +204,7 @@ static fst_status check_order(const char *path, const fst_table *table, fst_erro
         for (size_t row = 0; row < table->rows; row++)
             if (!(fabs(values[row]) < 1e15) || (row > 0 && !(values[row] >= values[row - 1])))
                 return fst_fail(error, FST_BAD_INPUT, path,
-                                "row %zu: the column %s does not rise as in a trajectory", row + 1,
+                                "row %zu: the column %s does not rise, as it must in a trajectory", row + 1,
                                 fst_column_at(rising[i])->name);
     }
     return FST_OK;

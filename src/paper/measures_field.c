@@ -248,7 +248,7 @@ MEASURE(theta)
     double sum = 0.0;
     for (size_t i = 0; i < table->rows; i++)
         sum += n_r[i] * n_r[i];
-    (void)snprintf(note, size, "it is what Eq. (12) lacks: see the exact magnetic term");
+    (void)snprintf(note, size, "Eq. (12) as printed lacks it: see the exact magnetic term");
     return sqrt(sum / (double)table->rows);
 }
 
@@ -362,8 +362,9 @@ MEASURE(friction_outside)
         *(r[row] > limit ? &all : &inside_all) += slip[row] + force;
     }
     fst_model_free(model);
-    (void)snprintf(note, size,
-                   "|V| over |V| + |F|, where r is in the topmost tenth of its range; elsewhere %.0f %%",
-                   100.0 * inside_friction / inside_all);
+    (void)snprintf(
+        note, size,
+        "|V| over |V| + |F|, where r is in the topmost tenth of its range; outside of these samples %.0f %%",
+        100.0 * inside_friction / inside_all);
     return 100.0 * friction / all;
 }

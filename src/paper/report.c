@@ -153,9 +153,8 @@ static void write_notes(FILE *out, const fst_finding *finding)
 /* The rules come before the statements that they judge. */
 static void write_rules(FILE *out)
 {
-    fputs("<p id=\"rules\">One set of rules holds for all of them. It asks how the paper prints what it says, "
-          "not "
-          "what came out here:</p>\n<dl class=\"rules\">\n",
+    fputs("<p id=\"rules\">One set of rules holds for all of them. The rules depend on how the paper prints a "
+          "number, not on what was computed here:</p>\n<dl class=\"rules\">\n",
           out);
     for (int rule = 0; rule < FST_RULE_COUNT; rule++) {
         fprintf(out, "<dt>%s: ", fst_rules[rule].name);
@@ -249,7 +248,7 @@ static fst_status write_figure(FILE *out, const fst_paper_state *paper, int inde
 
 static void write_regimes(FILE *out, const fst_paper_state *paper)
 {
-    fputs("<h2 id=\"regimes\">What was met on the way</h2>\n"
+    fputs("<h2 id=\"regimes\">How the runs ended</h2>\n"
           "<p>How the runs of Fig. 6 ended:</p><div "
           "class=\"scroll\"><table><thead><tr><th>motion</th><th>farago2020</th><th>rigid</th></tr></"
           "thead><tbody>\n",

@@ -54,8 +54,9 @@ const char fst_report_introduction[] =
     "whereas the printed equation sends it along a great circle. So the first column says whether the "
     "paper's computation is repeated, the second what a bead does.</p>\n"
     "<p>Lengths are in ℓ = 23 mm (half the length of the lines that model the magnet), times in 1/γ = 3.2 "
-    "ms, so that a drive ω = 0.201 is 10 Hz. Every number can be had again with the command below it, which "
-    "prints JSON; after the # stands how the number is read off that. Put <code>rigid</code> for "
+    "ms, so that a drive ω = 0.201 is 10 Hz. The command below a number "
+    "computes it again and prints JSON; the text after the # says how to read the number off that. Put "
+    "<code>rigid</code> for "
     "<code>farago2020</code> to get the other column, and a drive for <code>OMEGA</code>.</p>\n";
 
 void fst_report_text(FILE *out, const char *text)

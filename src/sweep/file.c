@@ -106,11 +106,11 @@ static fst_status look_beside(fst_sweep_file *file, int descriptor, int locked, 
         return fst_fail(error, FST_IO, log, "reading this file failed: %s", strerror(reason));
     if (file->log != FST_LOG_FOREIGN)
         return FST_OK;
-    return fst_fail(
-        error, FST_BAD_INPUT, file->name,
-        "beside this database lies the log of another one, or one older than it, %s; nothing was changed: "
-        "move the log back to its database, or remove it",
-        log);
+    return fst_fail(error, FST_BAD_INPUT, file->name,
+                    "beside this database lies the log of another database, or an older log of this one, %s; "
+                    "nothing was changed: "
+                    "move the log back to its database, or remove it",
+                    log);
 }
 
 /* The head of the file and the log beside it are checked before SQLite sees them. */
@@ -122,7 +122,7 @@ static fst_status look_at_file(fst_sweep_file *file, int locked, fst_error *erro
         return status;
     status = fst_open_regular(file->name, &descriptor, error);
     if (status == FST_BAD_INPUT && locked && access(file->name, F_OK) != 0)
-        return fst_fail(error, FST_IO, file->name, "this file was there a moment ago, and is removed");
+        return fst_fail(error, FST_IO, file->name, "this file was there a moment ago, and was removed");
     if (status != FST_OK)
         return status;
     status = fst_database_head(descriptor, file->name, locked, file->mark, error);

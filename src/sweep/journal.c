@@ -184,7 +184,8 @@ static fst_status take_file(const char *name, const char *path, const fst_sweep_
                                          : fst_sweep_make(name, path, identity, descriptor, error);
     }
     if (status == FST_OK && *descriptor < 0)
-        status = fst_fail(error, FST_IO, name, "other commands make this file and remove it all the time");
+        status =
+            fst_fail(error, FST_IO, name, "other commands keep making and removing this file: try again later");
     return status;
 }
 

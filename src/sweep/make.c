@@ -178,7 +178,7 @@ static fst_status lock_making(const char *lock, const char *name, int *descripto
         if (state == FST_LOCK_TAKEN)
             wait_a_little();
     }
-    return fst_fail(error, FST_IO, name, "other commands make this file and remove it all the time");
+    return fst_fail(error, FST_IO, name, "other commands keep making and removing this file: try again later");
 }
 
 void fst_sweep_tidy(const char *path)

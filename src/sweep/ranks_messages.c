@@ -175,7 +175,7 @@ fst_status fst_leader_attend(fst_leader *leader, fst_workers *workers, fst_sweep
                             : tag == TAG_ROWS ? FST_WORKERS_ROWS * sizeof *rows
                                               : sizeof last;
         if (size > most || !r->mpi->receive(r->link, from, tag, into, size))
-            return fst_fail(error, FST_IO, "MPI", "rank %d sent what nobody understands", from);
+            return fst_fail(error, FST_IO, "MPI", "rank %d sent a message of an unknown kind", from);
         if (tag == TAG_ASK)
             leader->room[from] = room;
         else if (tag == TAG_ROWS)

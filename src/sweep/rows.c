@@ -141,7 +141,7 @@ fst_status fst_sweep_rows_fail(const fst_sweep_rows *rows, const char *others, f
     else if (file->log == FST_LOG_DAMAGED)
         (void)snprintf(what, sizeof what, "part of its log cannot be read, and the last rows may be lost");
     else
-        (void)snprintf(what, sizeof what, "no row is seen to be lost, but some may be missing");
+        (void)snprintf(what, sizeof what, "no lost row was found, but some may be missing");
     return fst_fail(
         error, FST_BAD_INPUT, file->name,
         "this sweep database is damaged%s%s%s: %s. %sThe same sweep command computes lost rows again",
