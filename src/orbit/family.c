@@ -5,13 +5,14 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "model/jacobian.inl"
-#include "ode/bead_step.inl"
+#include "model/tangent.inl"
+#include "ode/flow.h"
 
 /* ------------------------------------------------------------------ the state with its tangents */
 
 /* A try of a step, in evaluations of the equations alone: twelve, each with its Jacobian and the columns. */
 enum { TRY_WORK = 50 };
+static const double FIRST_SIZE = 0.1; /* of a step; the controller mends it within a few */
 
 typedef struct bundle_context {
     const fst_setup *setup;
@@ -22,35 +23,31 @@ static void bundle_rhs(const bundle_context *context, const double *y, double *d
 #define STEP_DIM FST_BUNDLE_SIZE
 #define STEP_NAME(name) fst_bundle_##name##_double
 #define STEP_CONTEXT bundle_context
-#define STEP_DERIVATIVES(s, drive, j)                                                                          \
-    ((void)(drive), bundle_rhs(&(s)->context, (s)->stage[(j)-1], (s)->k[(j)-1]))
+#define STEP_RHS(context, drive, y, dy) ((void)(drive), bundle_rhs(context, y, dy))
 
 #include "ode/dop853.inl"
 
-/* One Jacobian serves all columns; its zeros, four fifths of it, are skipped. */
+/* The field at the place serves all columns. */
 static void bundle_rhs(const bundle_context *context, const double *y, double *dy)
 {
     const fst_setup *setup = context->setup;
     const fst_coefficients_double *c = &setup->model.coefficients;
-    fst_pull_double pull;
-    double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], by[FST_STATE_SIZE] = {0};
-    fst_rhs_double(c, c->omega, y, dy, &pull);
-    fst_jacobian_double(c, c->omega, y, jacobian);
+    const double *columns = y + FST_STATE_SIZE;
+    double *changes = dy + FST_STATE_SIZE;
+    double tangent[FST_STATE_SIZE], change[FST_STATE_SIZE], by[FST_STATE_SIZE] = {0};
+    fst_linear_double linear;
+    fst_linearise_double(c, c->omega, y, &linear, dy);
     if (setup->differs)
         fst_setup_by_parameter(setup, y, by);
-    for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        double sum[FST_COLUMNS] = {0};
-        sum[FST_COLUMNS - 1] = by[i];
-        for (int k = 0; k < FST_STATE_SIZE; ++k) {
-            const double a = jacobian[i][k];
-            if (a == 0.0)
-                continue;
-            const double *row = y + FST_STATE_SIZE + k * FST_COLUMNS;
-            for (int column = 0; column < FST_COLUMNS; ++column)
-                sum[column] += a * row[column];
-        }
-        memcpy(dy + FST_STATE_SIZE + i * FST_COLUMNS, sum, sizeof sum);
+    for (int column = 0; column < FST_COLUMNS; ++column) {
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            tangent[i] = columns[i * FST_COLUMNS + column];
+        fst_change_along_double(c, c->omega, y, &linear, tangent, change);
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            changes[i * FST_COLUMNS + column] = change[i];
     }
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        changes[i * FST_COLUMNS + FST_COLUMNS - 1] += by[i];
 }
 
 /* A tried step is accepted: its end is the start of the next. */
@@ -58,7 +55,7 @@ static void accept_step(fst_bundle_step_double *s)
 {
     (void)fst_renormalise_double(s->end);
     memcpy(s->y, s->end, sizeof s->y);
-    bundle_rhs(&s->context, s->y, s->k[0]);
+    fst_bundle_begin_double(s);
 }
 
 static fst_status carry_failed(double t, const double *y, int finite, fst_error *error)
@@ -82,27 +79,27 @@ fst_status fst_carry(const fst_setup *setup, double tolerance, double duration, 
     /* The error is a mean over all components; the state, a tenth of them, must not hide among the tangents. */
     for (int i = 0; i < FST_BUNDLE_SIZE; ++i)
         atol[i] = i < FST_STATE_SIZE ? 0.3 * tolerance : 10.0 * tolerance;
-    bundle_rhs(&s.context, s.y, s.k[0]);
-    double t = 0.0, h = 0.1;
+    fst_bundle_begin_double(&s);
+    fst_step_control_double control = fst_begin_control_double(FIRST_SIZE, INFINITY);
+    double t = 0.0;
+    fst_plan_step_double(&control, REAL_EVERYWHERE, duration);
     while (t < duration) {
-        const double rest = duration - t;
-        const int lands = h * 1.01 >= rest;
-        s.h = lands ? rest : h;
         const fst_status status = fst_watch_count(setup->watch, TRY_WORK, error);
         if (status != FST_OK)
             return status;
+        s.h = control.size;
         fst_bundle_try_step_double(&s);
-        const double e = fst_bundle_step_error_double(&s, 0.3 * tolerance, atol);
+        const double e = fst_bundle_step_error_double(&s, 0.3 * tolerance, atol),
+                     factor = fst_step_factor_double(e);
         if (!(e <= 1.0)) {
-            h = s.h * (isfinite(e) ? fst_step_factor_double(e) : 0.1);
-            if (!(h > 1e-12))
+            if (fst_reject_step_double(&control, REAL_EVERYWHERE, e, factor, t) > 0)
                 return carry_failed(t, s.y, isfinite(e), error);
             continue;
         }
-        t = lands ? duration : t + s.h;
+        t = control.lands > 0 ? duration : t + control.size;
         accept_step(&s);
-        const double proposal = s.h * fst_step_factor_double(e);
-        h = lands && proposal < h ? h : proposal;
+        fst_accept_step_double(&control, REAL_EVERYWHERE, factor, FST_GROW_AFTER_REJECTION);
+        fst_plan_step_double(&control, REAL_EVERYWHERE, duration - t);
     }
     memcpy(y, s.y, FST_STATE_SIZE * sizeof *y);
     memcpy(tangent, s.y + FST_STATE_SIZE, sizeof(double[FST_STATE_SIZE][FST_COLUMNS]));
