@@ -34,11 +34,11 @@ static unsigned distance(const char *a, size_t a_length, const char *b, size_t b
 {
     unsigned rows[3][LONGEST + 1];
     unsigned *two_up = rows[0], *up = rows[1], *row = rows[2];
-    for (size_t j = 0; j <= b_length; j++)
+    for (size_t j = 0; j <= b_length; ++j)
         up[j] = (unsigned)j * EDIT_COST;
-    for (size_t i = 1; i <= a_length; i++) {
+    for (size_t i = 1; i <= a_length; ++i) {
         row[0] = (unsigned)i * EDIT_COST;
-        for (size_t j = 1; j <= b_length; j++) {
+        for (size_t j = 1; j <= b_length; ++j) {
             unsigned cost = up[j - 1] + replacing(a[i - 1], b[j - 1]);
             cost = least(cost, least(up[j], row[j - 1]) + EDIT_COST);
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])

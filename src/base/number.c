@@ -56,7 +56,7 @@ double fst_number_read(const char *text, size_t length, int shift)
         return INFINITY;
     size_t mantissa = 0;
     while (mantissa < length && text[mantissa] != 'e' && text[mantissa] != 'E')
-        mantissa++;
+        ++mantissa;
     long exponent = 0;
     if (mantissa < length)
         exponent = strtol(text + mantissa + 1, NULL, 10);
@@ -78,7 +78,7 @@ int fst_number_write(char *text, size_t size, double value)
     fst_c_locale locale = fst_c_locale_enter();
     char number[40] = "";
     int length = 0;
-    for (int digits = 15; digits <= 17; digits++) {
+    for (int digits = 15; digits <= 17; ++digits) {
         length = snprintf(number, sizeof number, "%.*g", digits, value);
         if (!isfinite(value) || memcmp(&(double){strtod(number, NULL)}, &value, sizeof value) == 0)
             break;

@@ -92,7 +92,7 @@ static void plain_unit(const char *text, size_t length, char *plain, size_t size
     for (size_t at = 0; at < length && out + 4 < size;) {
         const char *piece = NULL;
         size_t taken = 1;
-        for (size_t i = 0; i < sizeof spellings / sizeof spellings[0] && !piece; i++) {
+        for (size_t i = 0; i < sizeof spellings / sizeof spellings[0] && !piece; ++i) {
             size_t found = strlen(spellings[i].found);
             if (found <= length - at && memcmp(text + at, spellings[i].found, found) == 0) {
                 piece = spellings[i].plain;
@@ -116,7 +116,7 @@ static void plain_unit(const char *text, size_t length, char *plain, size_t size
 
 static const unit_row *find_unit(fst_unit kind, const char *plain)
 {
-    for (size_t i = 0; i < unit_row_count; i++)
+    for (size_t i = 0; i < unit_row_count; ++i)
         if (unit_rows[i].kind == kind && strcmp(unit_rows[i].name, plain) == 0)
             return &unit_rows[i];
     return NULL;
@@ -132,7 +132,7 @@ static fst_status wrong_unit(const char *text, fst_unit kind, const char *writte
         return fst_fail(error, FST_BAD_INPUT, "value",
                         "%s has the unit %s, but this value is a number without a unit", quoted_text, quoted);
     char names[256] = "", nearest[16];
-    for (size_t i = 0; i < unit_row_count; i++)
+    for (size_t i = 0; i < unit_row_count; ++i)
         if (unit_rows[i].kind == kind) {
             size_t used = strlen(names);
             (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", unit_rows[i].name);

@@ -26,7 +26,7 @@ static fst_status check_range(const char *name, const char *key, const char *low
                               fst_error *error)
 {
     static const char *const apart[] = {"start.", "run.", "plate."};
-    for (size_t i = 0; i < sizeof apart / sizeof *apart; i++)
+    for (size_t i = 0; i < sizeof apart / sizeof *apart; ++i)
         if (strncmp(key, apart[i], strlen(apart[i])) == 0)
             return fail(
                 error, FST_BAD_INPUT, name,
@@ -55,7 +55,7 @@ static fst_status read_range(const char *name, const char *text, char key[64], d
     const int row = fst_param_find(key);
     if (row < 0 || fst_param_at(row)->kind != FST_KIND_REAL) {
         char names[2048] = "", nearest[64];
-        for (int i = 0; i < fst_param_count(); i++) {
+        for (int i = 0; i < fst_param_count(); ++i) {
             const size_t used = strlen(names);
             if (fst_param_at(i)->kind == FST_KIND_REAL)
                 (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
@@ -87,7 +87,7 @@ static fst_status read_second(const arguments *given, char key[64], fst_branch_o
                     "curves over two parameters need both, as in --follow pitchfork --with model.kappa=1:3");
     char names[160] = "", nearest[32];
     int found = 0;
-    for (int type = FST_SPECIAL_FOLD; type <= FST_SPECIAL_ORIGIN_CROSSING; type++) {
+    for (int type = FST_SPECIAL_FOLD; type <= FST_SPECIAL_ORIGIN_CROSSING; ++type) {
         const char *name = fst_special_name((fst_special_type)type);
         const size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name);
@@ -112,7 +112,7 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
     const char *kind = option_value(given, "kind"), *over = option_value(given, "over");
     const char *tolerance = option_value(given, "tolerance"), *step = option_value(given, "step");
     int found = 0;
-    for (int k = FST_BRANCH_COUNTER; kind && k <= FST_BRANCH_ALL; k++)
+    for (int k = FST_BRANCH_COUNTER; kind && k <= FST_BRANCH_ALL; ++k)
         if (strcmp(kind, fst_branch_kind_name((fst_branch_kind)k)) == 0) {
             o->kind = (fst_branch_kind)k;
             found = 1;
@@ -161,13 +161,13 @@ static fst_status check_place(const char *path, fst_error *error)
 static void print_curve(FILE *out, const fst_branch *b, int curve)
 {
     size_t first = 0, count = 0;
-    for (size_t i = 0; i < b->point_count; i++)
+    for (size_t i = 0; i < b->point_count; ++i)
         if (b->points[i].branch == curve && count++ == 0)
             first = i;
     (void)fprintf(out, "\n%s, curve %d: %zu points\n  %16s %16s\n", fst_special_name(b->followed), curve, count,
                   b->key, b->second_key);
     const size_t rows = count < 16 ? count : 16;
-    for (size_t k = 0; k < rows; k++) {
+    for (size_t k = 0; k < rows; ++k) {
         const fst_branch_point *p = &b->points[first + (rows > 1 ? k * (count - 1) / (rows - 1) : 0)];
         (void)fprintf(out, "  %16.10f %16.10f  %s\n", p->value, p->second,
                       p->stable ? "of a stable state" : "");
@@ -179,17 +179,17 @@ static void print_branch(FILE *out, const fst_branch *b)
     if (b->second_key[0]) {
         (void)fprintf(out, "%d curves of %s points over %s and %s\n", b->branches,
                       fst_special_name(b->followed), b->key, b->second_key);
-        for (int curve = 0; curve < b->branches; curve++)
+        for (int curve = 0; curve < b->branches; ++curve)
             print_curve(out, b, curve);
         (void)fprintf(out, "\nends\n");
-        for (size_t i = 0; i < b->end_count; i++)
+        for (size_t i = 0; i < b->end_count; ++i)
             (void)fprintf(out, "  curve %d at %s = %.10g: %s\n", b->ends[i].branch, b->key, b->ends[i].value,
                           b->ends[i].reason);
         return;
     }
     (void)fprintf(out, "%d branches, %zu points over %s = %.10g to %.10g\n\nspecial points\n", b->branches,
                   b->point_count, b->key, b->from, b->to);
-    for (size_t i = 0; i < b->special_count; i++) {
+    for (size_t i = 0; i < b->special_count; ++i) {
         const fst_special *s = &b->specials[i];
         (void)fprintf(out, "  %-16s %s = %.12g  omega = %.12g  branch %d%s\n", fst_special_name(s->type),
                       b->key, s->value, s->omega, s->branch,
@@ -198,7 +198,7 @@ static void print_branch(FILE *out, const fst_branch *b)
                                            : "");
     }
     (void)fprintf(out, "\nends\n");
-    for (size_t i = 0; i < b->end_count; i++)
+    for (size_t i = 0; i < b->end_count; ++i)
         (void)fprintf(out, "  branch %d at %.10g: %s\n", b->ends[i].branch, b->ends[i].value,
                       b->ends[i].reason);
 }
@@ -208,7 +208,7 @@ static void warn_of_ends(const fst_params *params, const fst_branch_options *o)
 {
     const double ends[2] = {o->from, o->to};
     char sentence[512], text[32];
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         fst_params at = *params;
         fst_error ignored;
         (void)snprintf(text, sizeof text, "%.17g", ends[i]);

@@ -28,7 +28,7 @@ static fst_status apply_set(const char *text, fst_params *params, fst_error *err
                     text);
     size_t start = strspn(text, " \t");
     while (length > start && (text[length - 1] == ' ' || text[length - 1] == '\t'))
-        length--;
+        --length;
     (void)snprintf(key, sizeof key, "%.*s", start < length ? (int)(length - start) : 0, text + start);
     fst_status status = fst_params_set(params, key, strchr(text, '=') + 1, error);
     if (status != FST_OK)
@@ -61,7 +61,7 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
         if (status != FST_OK)
             return status;
     }
-    for (int i = 0; i < given->option_count; i++) {
+    for (int i = 0; i < given->option_count; ++i) {
         if (strcmp(given->options[i].row->name, "set") != 0)
             continue;
         fst_status status = apply_set(given->options[i].value, params, error);
@@ -104,7 +104,7 @@ void tell_written(const char *path, const char *remark)
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count, fst_error *error)
 {
     const char *at = text;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; ++i) {
         char word[64];
         size_t length = strcspn(at, ",");
         int last = i + 1 == count;

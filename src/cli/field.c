@@ -16,7 +16,7 @@ static void print_text(FILE *out, const fst_model *model, double x, double y)
     fst_field(model, x, y, b, grad);
     (void)fprintf(out, "at X = %g, Y = %g (l), magnet's frame, the bead's centre on the plate\n", x, y);
     (void)fprintf(out, "   %16s   %s\n", "B (B0)", "dB/dX, dB/dY, dB/dZ (B0/l)");
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         (void)fprintf(out, "%s  %16.9g   %16.9g %16.9g %16.9g\n", axes[i], b[i], grad[i][0], grad[i][1],
                       grad[i][2]);
     (void)fprintf(out, "|B| = %.9g B0\n", sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));

@@ -15,7 +15,7 @@ enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
 static const command *find_command(const char *name)
 {
-    for (int i = 0; i < COMMAND_COUNT; i++)
+    for (int i = 0; i < COMMAND_COUNT; ++i)
         if (strcmp(commands[i]->name, name) == 0)
             return commands[i];
     return NULL;
@@ -29,7 +29,7 @@ static void print_help(FILE *out)
                   "festoon %s - a magnetic bead on a magnetic stirrer\n\n"
                   "usage: festoon COMMAND [SCENE.yaml] [--set KEY=VALUE]... [options]\n\n",
                   fst_version());
-    for (int i = 0; i < COMMAND_COUNT; i++)
+    for (int i = 0; i < COMMAND_COUNT; ++i)
         (void)fprintf(out, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
     (void)fprintf(
         out, "\nWithout a scene: the bead of Farago et al. (2020) at 10.7 Hz.  festoon COMMAND --help tells\n"
@@ -43,7 +43,7 @@ static void print_command_help(FILE *out, const command *shown)
     if (shown->details[0])
         (void)fprintf(out, "\n%s", shown->details);
     (void)fprintf(out, "\noptions:\n");
-    for (const option *row = shown->options; row->name; row++) {
+    for (const option *row = shown->options; row->name; ++row) {
         char words[64];
         (void)snprintf(words, sizeof words, "%s%c%s--%s %s", row->letter ? "-" : "",
                        row->letter ? row->letter : ' ', row->letter ? ", " : "", row->name,
@@ -56,7 +56,7 @@ static void print_command_help(FILE *out, const command *shown)
 static fst_status unknown_command(const char *name, fst_error *error)
 {
     char names[256] = "help|--help|--version", nearest[32];
-    for (int i = 0; i < COMMAND_COUNT; i++) {
+    for (int i = 0; i < COMMAND_COUNT; ++i) {
         size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|%s", commands[i]->name);
     }
@@ -81,7 +81,7 @@ static fst_status help(int count, char **words, FILE *out, fst_error *error)
 
 static int asks_for_help(int count, char **words)
 {
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; ++i)
         if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0)
             return 1;
     return 0;

@@ -38,7 +38,7 @@ static fst_status read_film(const arguments *given, fst_film_options *film, fst_
     } numbers[] = {
         {"fps", &film->fps}, {"turn", &film->seconds_per_turn}, {"from", &film->from}, {"to", &film->to}};
     fst_status status = size ? read_size(size, film, error) : FST_OK;
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == FST_OK; i++) {
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == FST_OK; ++i) {
         char name[16];
         (void)snprintf(name, sizeof name, "--%s", numbers[i].name);
         const char *text = option_value(given, numbers[i].name);

@@ -9,7 +9,7 @@
 /* The row of the table for "--name" (length counts the name alone) or for "-o". */
 static const option *find_long(const option *table, const char *name, size_t length)
 {
-    for (; table->name; table++)
+    for (; table->name; ++table)
         if (strlen(table->name) == length && memcmp(table->name, name, length) == 0)
             return table;
     return NULL;
@@ -17,7 +17,7 @@ static const option *find_long(const option *table, const char *name, size_t len
 
 static const option *find_letter(const option *table, char letter)
 {
-    for (; table->name; table++)
+    for (; table->name; ++table)
         if (table->letter && table->letter == letter)
             return table;
     return NULL;
@@ -26,7 +26,7 @@ static const option *find_letter(const option *table, char letter)
 static fst_status unknown_option(const option *table, const char *word, fst_error *error)
 {
     char names[512] = "--help", nearest[48];
-    for (; table->name; table++) {
+    for (; table->name; ++table) {
         size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|--%s", table->name);
     }
@@ -97,7 +97,7 @@ fst_status read_arguments(const option *table, int most_operands, int count, cha
     given->option_count = 0;
     given->operand_count = 0;
     int only_operands = 0;
-    for (int at = 0; at < count; at++) {
+    for (int at = 0; at < count; ++at) {
         const char *word = words[at];
         fst_status status = FST_OK;
         if (!only_operands && strcmp(word, "--") == 0)
@@ -116,7 +116,7 @@ fst_status read_arguments(const option *table, int most_operands, int count, cha
 
 const char *option_value(const arguments *given, const char *name)
 {
-    for (int i = 0; i < given->option_count; i++)
+    for (int i = 0; i < given->option_count; ++i)
         if (strcmp(given->options[i].row->name, name) == 0)
             return given->options[i].value;
     return NULL;

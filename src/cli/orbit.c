@@ -39,7 +39,7 @@ static void print_orbit(FILE *out, const fst_orbit *o)
         (void)fprintf(out, "  the normal load vanishes on it (least %.4g weights): the bead would lift off\n",
                       m->min_load_weights);
     (void)fprintf(out, "  multipliers of the %s map:", o->symmetry == FST_SYMMETRY_S2 ? "half" : "full");
-    for (int i = 0; i < FST_MULTIPLIER_COUNT; i++)
+    for (int i = 0; i < FST_MULTIPLIER_COUNT; ++i)
         (void)fprintf(out, " %.4g%s%.4gi", o->multiplier_re[i], o->multiplier_im[i] < 0 ? "-" : "+",
                       fabs(o->multiplier_im[i]));
     if (isfinite(o->relaxation_time))
@@ -68,7 +68,7 @@ static fst_status with_festoons(const arguments *given, const fst_params *params
         status = print_and_free(fst_orbit_json(params, &list.orbits[0], list.orbits + 1, list.count - 1), out,
                                 error);
     else
-        for (size_t i = 0; i < list.count; i++)
+        for (size_t i = 0; i < list.count; ++i)
             print_orbit(out, &list.orbits[i]);
     fst_festoons_free(&list);
     return status;

@@ -35,7 +35,7 @@ static fst_status take_sample(void *user, const fst_sample *sample, fst_error *e
 {
     run_outputs *outputs = user;
     fst_status status = FST_OK;
-    for (int i = 0; i < 2 && status == FST_OK; i++)
+    for (int i = 0; i < 2 && status == FST_OK; ++i)
         if (outputs->files[i])
             status = fst_trajectory_append(outputs->files[i], sample, error);
     return status;
@@ -132,7 +132,7 @@ static fst_status open_files(const arguments *given, const fst_params *params, r
     if (csv && outputs->paths[0] && strcmp(csv, outputs->paths[0]) == 0)
         return fail(error, FST_BAD_INPUT, "--csv", "-o and --csv name the same file");
     fst_status status = FST_OK;
-    for (int i = 0; i < 2 && status == FST_OK; i++)
+    for (int i = 0; i < 2 && status == FST_OK; ++i)
         if (outputs->paths[i])
             status = fst_trajectory_create(outputs->paths[i], params, &outputs->files[i], error);
     return status;
@@ -142,7 +142,7 @@ static fst_status open_files(const arguments *given, const fst_params *params, r
 static fst_status close_files(run_outputs *outputs, fst_status status, const fst_run_result *result,
                               fst_error *error)
 {
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         if (!outputs->files[i])
             continue;
         if (status != FST_OK && status != FST_INTERRUPTED) {

@@ -167,7 +167,7 @@ void print_ramp(FILE *out, const fst_groups *groups, const fst_run_result *resul
                   "%12s %14s %14s %10s\n",
                   result->frequency_hz, "drive Hz", "omega", "<r> mm", "delta r mm", "<alpha'> Hz", "<phi'> Hz",
                   "<n_z>");
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; ++i)
         (void)fprintf(out, "  %10.5g %10.6g %10.5g %12.4g %14.6g %14.6g %10.3g%s\n", points[i].frequency_hz,
                       points[i].omega, mm * points[i].mean_r, mm * points[i].std_r,
                       hertz * points[i].mean_alpha_dot, hertz * points[i].mean_phi_dot, points[i].mean_nz,

@@ -40,7 +40,7 @@ static fst_status read_whole(const arguments *given, const char *name, double le
 
 static fst_status read_arithmetic(const char *word, fst_arithmetic *arithmetic, fst_error *error)
 {
-    for (int i = FST_ARITHMETIC_PORTABLE; i <= FST_ARITHMETIC_AVX512; i++)
+    for (int i = FST_ARITHMETIC_PORTABLE; i <= FST_ARITHMETIC_AVX512; ++i)
         if (strcmp(fst_arithmetic_name((fst_arithmetic)i), word) == 0) {
             *arithmetic = (fst_arithmetic)i;
             return FST_OK;
@@ -52,7 +52,7 @@ static fst_status read_sweep(const arguments *given, const char **axes, fst_swee
                              fst_error *error)
 {
     *sweep = fst_default_sweep_options();
-    for (int i = 0; i < given->option_count; i++)
+    for (int i = 0; i < given->option_count; ++i)
         if (strcmp(given->options[i].row->name, "over") == 0)
             axes[sweep->axis_count++] = given->options[i].value;
     sweep->axes = axes;
@@ -110,7 +110,7 @@ static void look_for_contradiction(display *shown, const fst_params *params, con
     if (fst_grid_new(params, sweep->axes, sweep->axis_count, sweep->seed, &grid, &ignored) != FST_OK)
         return; /* the sweep itself will say why */
     const int64_t ends[2] = {0, fst_grid_points(grid) - 1};
-    for (int i = 0; i < 2 && !shown->to_warn; i++)
+    for (int i = 0; i < 2 && !shown->to_warn; ++i)
         shown->to_warn = fst_grid_params(grid, ends[i], &shown->contradiction, &ignored) == FST_OK &&
                          fst_bead_contradiction(&shown->contradiction, sentence, sizeof sentence) != 0;
     fst_grid_free(grid);

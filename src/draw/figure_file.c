@@ -190,7 +190,7 @@ static int is_complete(const fst_whole_file *file, const char *ending)
     while (got < 0 && errno == EINTR);
     const char *mark = !strcmp(ending, "svg") ? "</svg>" : !strcmp(ending, "pdf") ? "%%EOF" : "IEND";
     const size_t length = strlen(mark);
-    for (size_t i = 0; got > 0 && i + length <= (size_t)got; i++)
+    for (size_t i = 0; got > 0 && i + length <= (size_t)got; ++i)
         if (memcmp(tail + i, mark, length) == 0)
             return 1;
     return 0;
@@ -238,9 +238,9 @@ static fst_status write_files(const fst_figure_file *figure, const char *const p
     }
     if (status == FST_OK)
         status = draw(figure, files, error);
-    for (; committed < FILES && status == FST_OK; committed++)
+    for (; committed < FILES && status == FST_OK; ++committed)
         status = fst_whole_file_commit(&files[committed], error);
-    for (int i = committed; i < opened; i++)
+    for (int i = committed; i < opened; ++i)
         fst_whole_file_discard(&files[i]);
     return status;
 }

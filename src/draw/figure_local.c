@@ -37,7 +37,7 @@ fst_status fst_figure_local_n(const fst_table *table, const char *out, const fst
         return status;
 
     fst_figure_block(&figure, "n", "n_r n_alpha n_z");
-    for (size_t row = view.first; row < view.last; row++)
+    for (size_t row = view.first; row < view.last; ++row)
         (void)fprintf(figure.data, "%.7g %.7g %.7g\n", n_r[row], n_alpha[row], n_z[row]);
     fst_figure_block(&figure, "circle", "the unit circle, for scale");
     for (int degrees = 0; degrees <= 360; degrees += 3)

@@ -55,7 +55,7 @@ static fst_status check_zoom(const fst_view *view, const path_columns *columns, 
     double least[2], greatest[2];
     const double *where[2] = {columns->x, columns->y};
     int beside = 0;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         fst_view_range(view, where[i], &least[i], &greatest[i]);
         least[i] *= view->millimetres;
         greatest[i] *= view->millimetres;
@@ -99,7 +99,7 @@ static void draw_magnet(fst_figure_file *figure, const fst_view *view, const pat
     double cosine = cos(turned), sine = sin(turned);
     static const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     fst_figure_block(figure, "magnet", "x/mm y/mm: the magnet when the path begins");
-    for (int i = 0; i <= 4; i++) {
+    for (int i = 0; i <= 4; ++i) {
         double along = corners[i % 4][0] * length, across = corners[i % 4][1] * width;
         (void)fprintf(figure->data, "%.6g %.6g\n", along * cosine - across * sine,
                       along * sine + across * cosine);
@@ -157,7 +157,7 @@ static void write_colour(fst_figure_file *figure, const fst_view *view, const pa
                   "set cbrange [%.9g:%.9g]\nset colorbox user origin %.4f,%.4f size %.4f,%.4f\n", least,
                   greatest, (LEFT + SIDE + 14.0) / WIDTH, 1.0 - (TOP + SIDE) / (double)HEIGHT, 16.0 / WIDTH,
                   SIDE / (double)HEIGHT);
-    for (size_t i = 0; i < sizeof colour_labels / sizeof colour_labels[0]; i++) {
+    for (size_t i = 0; i < sizeof colour_labels / sizeof colour_labels[0]; ++i) {
         if (!strcmp(name, colour_labels[i].column)) {
             (void)fprintf(figure->script, "set cblabel '%s'\n", colour_labels[i].label);
             return;
@@ -180,7 +180,7 @@ static void write_path(fst_figure_file *figure, const fst_view *view, const path
     for (size_t row = view->first; row < view->last; row += stride) {
         size_t next = row + 1 < view->last ? row + 1 : row;
         double h = columns->t[next] - columns->t[row];
-        for (size_t i = 0; i < (next > row ? parts : 1); i++) {
+        for (size_t i = 0; i < (next > row ? parts : 1); ++i) {
             double part = (double)i / (double)parts;
             double x = fst_view_between(columns->x[row], columns->vx[row], columns->x[next], columns->vx[next],
                                         h, part);
@@ -200,7 +200,7 @@ static void write_inset(fst_figure_file *figure, const fst_view *view, const pat
     double middle_x = (LEFT + 0.5 * SIDE) / WIDTH, middle_y = 1.0 - (TOP + 0.5 * SIDE) / HEIGHT;
     double wide = 0.5 * side * SIDE / WIDTH, tall = 0.5 * side * SIDE / HEIGHT;
     fst_figure_block(figure, "local", "n_alpha n_z: the moment in the local frame");
-    for (size_t row = view->first; row < view->last; row++)
+    for (size_t row = view->first; row < view->last; ++row)
         (void)fprintf(figure->data, "%.6g %.6g\n", columns->n_alpha[row], columns->n_z[row]);
     (void)fprintf(figure->script,
                   "unset title\nunset colorbox\nunset key\n"
@@ -222,7 +222,7 @@ static void write_arrows(fst_figure_file *figure, const fst_view *view, const pa
                          const double box[4])
 {
     size_t inside = 0;
-    for (size_t row = view->first; row < view->last; row++) {
+    for (size_t row = view->first; row < view->last; ++row) {
         double x = columns->x[row] * view->millimetres, y = columns->y[row] * view->millimetres;
         inside += x >= box[0] && x <= box[1] && y >= box[2] && y <= box[3];
     }

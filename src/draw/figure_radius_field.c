@@ -19,12 +19,12 @@ typedef struct folded {
 static void fold(const fst_view *view, const double *phi, const double *r, const double *b, folded *curve)
 {
     double previous = NAN;
-    for (size_t row = view->first; row < view->last; row++) {
+    for (size_t row = view->first; row < view->last; ++row) {
         double half_turn = floor(phi[row] / PI);
         size_t i = curve->count;
         if (!isnan(previous) && half_turn != previous) {
             curve->phi[i] = curve->r[i] = curve->b[i] = NAN;
-            i++;
+            ++i;
         }
         previous = half_turn;
         curve->phi[i] = phi[row] - half_turn * PI;

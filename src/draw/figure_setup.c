@@ -28,7 +28,7 @@ static void write_arc(fst_figure_file *figure, const char *name, double x, doubl
                       double to)
 {
     fst_figure_block(figure, name, "x/mm y/mm");
-    for (int i = 0; i <= 20; i++) {
+    for (int i = 0; i <= 20; ++i) {
         double angle = (from + (to - from) * i / 20.0) * degree;
         (void)fprintf(figure->data, "%.6g %.6g\n", x + radius * cos(angle), y + radius * sin(angle));
     }
@@ -39,7 +39,7 @@ static void write_arc(fst_figure_file *figure, const char *name, double x, doubl
 static void write_turning(fst_figure_file *figure)
 {
     fst_figure_block(figure, "turning", "x/mm y/mm dx dy: the sense of the magnet's turning");
-    for (int side = 0; side < 2; side++) {
+    for (int side = 0; side < 2; ++side) {
         double at = (205.0 + 180.0 * side) * degree, reach = 33.0, step = 9.0;
         (void)fprintf(figure->data, "%.6g %.6g %.6g %.6g\n", reach * cos(at), reach * sin(at), -step * sin(at),
                       step * cos(at));
@@ -52,7 +52,7 @@ static void write_box(fst_figure_file *figure, const char *name, const double bo
     static const double corners[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
     double c = cos(angle * degree), s = sin(angle * degree);
     fst_figure_block(figure, name, "x/mm y/mm");
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 5; ++i) {
         double a = box[2] * corners[i][0], b = box[3] * corners[i][1];
         (void)fprintf(figure->data, "%.6g %.6g\n", box[0] + a * c - b * s, box[1] + a * s + b * c);
     }
@@ -71,7 +71,7 @@ static void write_sketch_data(fst_figure_file *figure, const fst_params *p)
     write_circle(figure, "bead-beside", r, radius, radius);
     write_arc(figure, "theta", r, radius, 6.0, 0.0, MOMENT_ANGLE);
     fst_figure_block(figure, "lines", "x/mm y/mm dx dy: the model's lines of dipoles");
-    for (int k = 0; k < p->magnet_lines; k++) {
+    for (int k = 0; k < p->magnet_lines; ++k) {
         double across = p->magnet_lines > 1 ? width * (k / (p->magnet_lines - 1.0) - 0.5) : 0.0;
         double c = cos(25 * degree), s = sin(25 * degree);
         (void)fprintf(figure->data, "%.6g %.6g %.6g %.6g\n", -l * c - across * s, -l * s + across * c,
@@ -159,10 +159,10 @@ fst_status fst_figure_camera(const double *t, const double *x, const double *y, 
     double pixels = 1e3 * params->magnet_half_length * PIXELS_A_MM, gamma = params->friction_gamma;
     fst_figure_block(&figure, "frames", "x/pixels y/pixels: one line a frame of the camera");
     size_t row = 0;
-    for (int frame = 0; frame < CAMERA_SECONDS * (int)FRAMES_A_SECOND && rows > 1; frame++) {
+    for (int frame = 0; frame < CAMERA_SECONDS * (int)FRAMES_A_SECOND && rows > 1; ++frame) {
         double moment = t[0] + frame / FRAMES_A_SECOND * gamma;
         while (row + 2 < rows && t[row + 1] < moment)
-            row++;
+            ++row;
         if (t[row + 1] < moment)
             break;
         double part = (moment - t[row]) / (t[row + 1] - t[row]);

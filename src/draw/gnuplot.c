@@ -29,7 +29,7 @@ typedef struct last_words {
 
 static void keep_words(last_words *words, const char *piece, size_t size)
 {
-    for (size_t i = 0; i < size && words->kept + 1 < sizeof words->text; i++) {
+    for (size_t i = 0; i < size && words->kept + 1 < sizeof words->text; ++i) {
         const char c = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
         /* gnuplot underlines the place of an error with white space: keep one blank of it. */
         if (c != ' ' || (words->kept > 0 && words->text[words->kept - 1] != ' '))
@@ -50,7 +50,7 @@ static void listen_to(const int ends[2], double deadline, FILE *figure, last_wor
         const int ready = poll(waiting, 2, 1 + (int)(1e3 * left));
         if (ready < 0 && errno != EINTR)
             return;
-        for (int i = 0; i < 2 && ready > 0; i++) {
+        for (int i = 0; i < 2 && ready > 0; ++i) {
             char piece[16384];
             if (!waiting[i].revents)
                 continue;
@@ -94,7 +94,7 @@ void fst_gnuplot_quote(FILE *out, const char *text)
     (void)fputc('\'', out);
     if (tame)
         fst_text_tame(tame);
-    for (const char *c = tame; c && *c; c++) {
+    for (const char *c = tame; c && *c; ++c) {
         if (*c == '\'')
             (void)fputc('\'', out);
         (void)fputc(*c, out);

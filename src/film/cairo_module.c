@@ -31,9 +31,9 @@ static void set_shade(cairo_t *pen, int both_signs, double shade)
     int last = both_signs ? 4 : 5, i = 0;
     shade = shade > 0.0 ? (shade < 1.0 ? shade : 1.0) : 0.0;
     while (i < last - 1 && shade > palette[i + 1][0])
-        i++;
+        ++i;
     double part = (shade - palette[i][0]) / (palette[i + 1][0] - palette[i][0]), c[3];
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; ++k)
         c[k] = palette[i][k + 1] + part * (palette[i + 1][k + 1] - palette[i][k + 1]);
     cairo_set_source_rgb(pen, c[0], c[1], c[2]);
 }
@@ -70,7 +70,7 @@ static void paint_trail(cairo_t *pen, const fst_film_stage *stage, const fst_fil
 {
     cairo_set_line_width(pen, stage->reach / 90.0);
     cairo_set_line_cap(pen, CAIRO_LINE_CAP_ROUND);
-    for (int i = 0; i + 1 < frame->trail; i++) {
+    for (int i = 0; i + 1 < frame->trail; ++i) {
         set_shade(pen, stage->both_signs, frame->trail_shade[i]);
         cairo_move_to(pen, frame->trail_x[i], frame->trail_y[i]);
         cairo_line_to(pen, frame->trail_x[i + 1], frame->trail_y[i + 1]);
@@ -83,7 +83,7 @@ static void paint_trail(cairo_t *pen, const fst_film_stage *stage, const fst_fil
 static void seen(const double turn[3][3], const double body[3], int view, double *x, double *y, double *towards)
 {
     double v[3];
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         v[i] = turn[i][0] * body[0] + turn[i][1] * body[1] + turn[i][2] * body[2];
     *x = v[0];
     *y = view == 0 ? v[1] : v[2];
@@ -100,7 +100,7 @@ static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, in
     cairo_set_source_rgba(pen, 0.15, 0.15, 0.15, 0.8);
     cairo_set_line_width(pen, 0.07 * radius);
     int drawing = 0;
-    for (int i = 0; i <= 72; i++) {
+    for (int i = 0; i <= 72; ++i) {
         double angle = 2.0 * PI * i / 72, body[3] = {cos(angle), sin(angle), 0.0};
         seen(turn, body, view, &x, &y, &towards);
         if (towards <= 0.0)
@@ -113,7 +113,7 @@ static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, in
         }
     }
     cairo_stroke(pen);
-    for (size_t i = 0; i < sizeof marks / sizeof marks[0]; i++) {
+    for (size_t i = 0; i < sizeof marks / sizeof marks[0]; ++i) {
         seen(turn, marks[i], view, &x, &y, &towards);
         if (towards <= 0.05)
             continue;
@@ -231,7 +231,7 @@ static void paint_colour_bar(cairo_t *pen, const fst_film_stage *stage)
 {
     enum { STEPS = 64 };
     double width = 0.3 * stage->width, x = stage->width - width - 24.0, y = 16.0, size = 0.020 * stage->height;
-    for (int i = 0; i < STEPS; i++) {
+    for (int i = 0; i < STEPS; ++i) {
         set_shade(pen, stage->both_signs, (i + 0.5) / STEPS);
         cairo_rectangle(pen, x + i * width / STEPS, y, width / STEPS + 1.0, 10.0);
         cairo_fill(pen);

@@ -39,7 +39,7 @@ fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps,
         "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f",     "rawvideo", "-pix_fmt",
         "bgr0",   "-s",       size,           "-r",        rate,    "-i", "pipe:0", "-threads", "2"};
     int count = 18;
-    for (const char *const *word = strcmp(format, "gif") ? mp4 : gif; *word; word++)
+    for (const char *const *word = strcmp(format, "gif") ? mp4 : gif; *word; ++word)
         arguments[count++] = *word;
     arguments[count++] = "-f";
     arguments[count++] = kind;
@@ -76,7 +76,7 @@ static int hear(fst_ffmpeg *film)
 {
     char piece[512];
     const ssize_t got = read(film->words, piece, sizeof piece);
-    for (ssize_t i = 0; i < got && film->said_size + 1 < sizeof film->said; i++)
+    for (ssize_t i = 0; i < got && film->said_size + 1 < sizeof film->said; ++i)
         film->said[film->said_size++] = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
     film->said[film->said_size] = '\0';
     return got > 0 || (got < 0 && errno == EINTR);

@@ -87,14 +87,14 @@ static void find_table(mp4 *film, const unsigned char *bytes, uint64_t size)
         const unsigned char *inside = bytes + at + 8;
         if (box < 8 || box > size - at)
             return;
-        for (size_t i = 0; i < sizeof holders / sizeof *holders; i++)
+        for (size_t i = 0; i < sizeof holders / sizeof *holders; ++i)
             if (memcmp(bytes + at + 4, holders[i], 4) == 0)
                 find_table(film, inside, box - 8);
         if (memcmp(bytes + at + 4, "stsz", 4) == 0 && box >= 20) {
             const uint32_t each = number32(inside + 4), count = number32(inside + 8);
             film->pictures = count;
             film->picture_bytes = (uint64_t)each * count;
-            for (uint64_t i = 0; each == 0 && i < count && 20 + 4 * (i + 1) <= box; i++)
+            for (uint64_t i = 0; each == 0 && i < count && 20 + 4 * (i + 1) <= box; ++i)
                 film->picture_bytes += number32(inside + 12 + 4 * i);
         }
         at += box;
@@ -154,7 +154,7 @@ static const char *check_gif(FILE *in)
             if (fread(image, 1, sizeof image, in) != sizeof image || !skip(in, table_size(image[8]) + 1) ||
                 !skip_blocks(in))
                 return cut;
-            images++;
+            ++images;
         } else {
             return cut;
         }

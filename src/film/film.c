@@ -108,7 +108,7 @@ static void set_stage(film *f, const fst_table *table)
     const fst_params *p = &table->params;
     const fst_film_motion *m = &f->motion;
     double reach = 0.0, omega = fst_collected(table, "omega")[m->first];
-    for (size_t row = m->first; row <= m->last; row++)
+    for (size_t row = m->first; row <= m->last; ++row)
         reach = fmax(reach, fmax(fabs(m->x[row]), fabs(m->y[row])));
     double hertz = omega * p->friction_gamma / 6.283185307179586;
     (void)snprintf(f->title, sizeof f->title, "%.3g Hz (ω = %.4g), %s", hertz, omega,
@@ -141,13 +141,13 @@ static void set_trail(film *f, fst_film_frame *frame)
     const double *alpha = fst_collected(m->table, "alpha");
     size_t from = m->row;
     while (from > m->first && fabs(alpha[m->row] - alpha[from - 1]) < 12.57)
-        from--;
+        --from;
     /* Skip samples closer than a pixel or so.  The skipped ones are the same in every frame, so the trail does
      * not flicker. */
     double least = 1.5 * 2.0 * f->stage.reach / f->stage.height;
     double *x = f->trail, *y = x + f->trail_room, *shade = y + f->trail_room;
     int count = 0;
-    for (size_t row = from; row <= m->row; row++) {
+    for (size_t row = from; row <= m->row; ++row) {
         x[count] = m->millimetres * m->x[row];
         y[count] = m->millimetres * m->y[row];
         if (count > 0 && hypot(x[count] - x[count - 1], y[count] - y[count - 1]) < least)
@@ -189,7 +189,7 @@ static fst_status give_frame(film *f, int index, fst_error *error)
     size_t row = 4 * (size_t)f->stage.width;
     if ((size_t)stride == row)
         return fst_ffmpeg_frame(&f->process, pixels, row * (size_t)f->stage.height, error);
-    for (int y = 0; y < f->stage.height && status == FST_OK; y++)
+    for (int y = 0; y < f->stage.height && status == FST_OK; ++y)
         status = fst_ffmpeg_frame(&f->process, pixels + (size_t)y * (size_t)stride, row, error);
     return status;
 }
@@ -204,7 +204,7 @@ static fst_status make_frames(film *f, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, "film",
                         "%.6g frames are too many: at most %d; take a shorter part", count, MOST_FRAMES);
     f->frames = (int)count;
-    for (int i = 0; i < f->frames; i++) {
+    for (int i = 0; i < f->frames; ++i) {
         fst_film_frame frame = {.clock = NULL};
         char clock[64];
         double now = begin + i / (o->fps * o->seconds_per_turn);
@@ -231,7 +231,7 @@ static fst_status make_frames(film *f, fst_error *error)
 static fst_status remove_further_frames(const film *f, fst_error *error)
 {
     char path[FRAME_PATH];
-    for (int index = f->frames;; index++) {
+    for (int index = f->frames;; ++index) {
         name_frame(f, index, path);
         if (unlink(path) == 0)
             continue;

@@ -29,7 +29,7 @@ int fst_module_present(const char *file)
         return 0;
     const char *slash = strrchr(here.dli_fname, '/');
     int directory = slash ? (int)(slash - here.dli_fname) : 1;
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; ++i) {
         int length =
             snprintf(path, sizeof path, "%.*s%s%s", directory, slash ? here.dli_fname : ".", places[i], file);
         if (length > 0 && (size_t)length < sizeof path && access(path, R_OK) == 0)

@@ -29,7 +29,7 @@ static void *labour(void *argument)
         fst_error error = {.code = FST_OK};
         fst_status status = all->work->piece(all->work->user, index, &error);
         pthread_mutex_lock(&all->lock);
-        all->done++;
+        ++all->done;
         if (status != FST_OK) {
             all->stopped = 1;
             if (index < all->failed_piece) {
@@ -40,7 +40,7 @@ static void *labour(void *argument)
         }
         pthread_cond_signal(&all->changed);
     }
-    all->busy--;
+    --all->busy;
     pthread_cond_signal(&all->changed);
     pthread_mutex_unlock(&all->lock);
     return NULL;

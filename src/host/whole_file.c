@@ -74,7 +74,7 @@ static unsigned host_number(void)
     char name[256] = "";
     unsigned number = 2166136261U;
     (void)gethostname(name, sizeof name - 1);
-    for (const char *c = name; *c; c++)
+    for (const char *c = name; *c; ++c)
         number = (number ^ (unsigned char)*c) * 16777619U;
     return number;
 }
@@ -90,7 +90,7 @@ static size_t mark_of(const char *entry)
     const size_t end = length - strlen(ENDING);
     size_t mark = end;
     while (mark > 0 && entry[mark - 1] != '.')
-        mark--;
+        --mark;
     (void)snprintf(host, sizeof host, "%08x-", host_number());
     const size_t skipped = mark + strlen(host);
     const int ours = mark > 0 && skipped < end && strncmp(entry + mark, host, strlen(host)) == 0;
@@ -188,7 +188,7 @@ static int create_temporary(fst_whole_file *file, int tidy)
         return -1;
     }
     int descriptor = -1;
-    for (int attempt = 0; attempt < 100 && descriptor < 0; attempt++) {
+    for (int attempt = 0; attempt < 100 && descriptor < 0; ++attempt) {
         (void)snprintf(file->temporary, size, "%.*s%s%08x-%ld-%d" ENDING, (int)start, file->path, prefix,
                        host_number(), (long)getpid(), attempt);
         descriptor = create_locked(file);

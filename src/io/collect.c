@@ -15,7 +15,7 @@ typedef struct collector {
 static fst_status grow(collector *collected, fst_error *error)
 {
     size_t room = collected->room ? 2 * collected->room : 4096;
-    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
         double *column = realloc(collected->table->columns[i], room * sizeof *column);
         if (!column)
             return fst_fail(error, FST_NO_MEMORY, "trajectory", "no memory for %zu samples", room);
@@ -36,9 +36,9 @@ static fst_status take(void *user, const fst_sample *sample, fst_error *error)
     }
     double values[FST_COLUMN_COUNT];
     fst_column_values(sample, values);
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         table->columns[i][table->rows] = values[i];
-    table->rows++;
+    ++table->rows;
     return FST_OK;
 }
 
@@ -62,7 +62,7 @@ fst_status fst_collect_run(const fst_params *params, const fst_progress *progres
 
 const double *fst_collected(const fst_table *table, const char *name)
 {
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         if (!strcmp(fst_column_at(i)->name, name))
             return table->columns[i];
     return NULL;

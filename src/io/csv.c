@@ -25,7 +25,7 @@ void fst_csv_begin(FILE *out, const char *scene)
         scene += length;
         scene += *scene == '\n';
     }
-    for (int i = 0; i < fst_column_count(); i++) {
+    for (int i = 0; i < fst_column_count(); ++i) {
         const fst_column_info *info = fst_column_at(i);
         (void)fprintf(out, "%s%s [%s]", i ? "," : "", info->name, info->unit);
     }
@@ -35,7 +35,7 @@ void fst_csv_begin(FILE *out, const char *scene)
 void fst_csv_row(FILE *out, const double values[FST_COLUMN_COUNT])
 {
     fst_c_locale locale = fst_c_locale_enter();
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         (void)fprintf(out, "%s%.17g", i ? "," : "", values[i]);
     fst_c_locale_leave(locale);
     (void)fputc('\n', out);
@@ -77,7 +77,7 @@ static int next_line(csv_reader *reader)
 {
     if (!fgets(reader->line, LONGEST_LINE, reader->in))
         return 0;
-    reader->number++;
+    ++reader->number;
     size_t length = strlen(reader->line);
     if (length == 0 || reader->line[length - 1] != '\n')
         return 0;
@@ -127,7 +127,7 @@ static fst_status read_head(csv_reader *reader)
 static fst_status check_names(csv_reader *reader)
 {
     const char *at = reader->line;
-    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
         char expected[96], sentence[160];
         const fst_column_info *info = fst_column_at(i);
         (void)snprintf(expected, sizeof expected, "%s [%s]%s", info->name, info->unit,
@@ -147,7 +147,7 @@ static fst_status make_room(csv_reader *reader)
     if (reader->table->rows < reader->room)
         return FST_OK;
     size_t room = reader->room ? 2 * reader->room : 1024;
-    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
         double *longer = realloc(reader->table->columns[i], room * sizeof *longer);
         if (!longer)
             return fst_fail(reader->error, FST_NO_MEMORY, reader->path, "out of memory after %zu rows",
@@ -164,7 +164,7 @@ static fst_status read_row(csv_reader *reader)
     if (status != FST_OK)
         return status;
     const char *at = reader->line;
-    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
         char *end, sentence[160];
         const double value = strtod(at, &end);
         if (end == at || *end != (i + 1 < FST_COLUMN_COUNT ? ',' : '\0')) {
@@ -182,7 +182,7 @@ static fst_status read_row(csv_reader *reader)
         reader->table->columns[i][reader->table->rows] = value;
         at = end + 1;
     }
-    reader->table->rows++;
+    ++reader->table->rows;
     return FST_OK;
 }
 

@@ -176,7 +176,7 @@ static int create_columns(fst_hdf5_writer *writer)
     hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
     (void)H5Pset_chunk_cache(access, 1, 0, 1.0);
     int failed = 0;
-    for (int i = 0; i < writer->count && !failed; i++) {
+    for (int i = 0; i < writer->count && !failed; ++i) {
         const fst_column_info *column = writer->columns[i];
         hid_t set = H5Dcreate2(writer->file, column->name, H5T_IEEE_F64LE, space, H5P_DEFAULT, storage, access);
         writer->sets[i] = set;
@@ -193,7 +193,7 @@ static int create_columns(fst_hdf5_writer *writer)
 static int close_writer(fst_hdf5_writer *writer)
 {
     int failed = 0;
-    for (int i = 0; i < writer->count; i++)
+    for (int i = 0; i < writer->count; ++i)
         if (writer->sets && writer->sets[i] >= 0)
             failed = H5Dclose(writer->sets[i]) < 0 || failed;
     if (writer->file >= 0)
@@ -248,7 +248,7 @@ static fst_status create(const char *path, const char *name, const fst_column_in
         (void)close_writer(writer);
         return fst_fail(error, FST_NO_MEMORY, name, "out of memory");
     }
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; ++i)
         writer->sets[i] = -1;
     quiet before = be_quiet();
     int failed = open_file(writer, path) || write_text(writer->file, "program", PROGRAM) ||
@@ -274,7 +274,7 @@ static int flush_rows(fst_hdf5_writer *writer)
     const hsize_t start = writer->written, added = writer->pending, total = start + added;
     hid_t memory = H5Screate_simple(1, &added, NULL);
     int failed = 0;
-    for (int i = 0; i < writer->count && !failed; i++) {
+    for (int i = 0; i < writer->count && !failed; ++i) {
         failed = H5Dset_extent(writer->sets[i], &total) < 0;
         hid_t space = failed ? -1 : H5Dget_space(writer->sets[i]);
         failed = space < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, NULL, &added, NULL) < 0 ||
@@ -291,7 +291,7 @@ static int flush_rows(fst_hdf5_writer *writer)
 
 static fst_status row(fst_hdf5_writer *writer, const double *values, fst_error *error)
 {
-    for (int i = 0; i < writer->count; i++)
+    for (int i = 0; i < writer->count; ++i)
         writer->buffer[(size_t)i * CHUNK + writer->pending] = values[i];
     if (++writer->pending < CHUNK)
         return FST_OK;
@@ -385,7 +385,7 @@ static fst_status read_file(hid_t file, const char *path, const fst_column_info 
         status = fst_fail(error, FST_BAD_INPUT, path, "HDF5 cannot open this file: it is damaged or cut off");
     else
         status = read_root(file, path, scene, complete, error);
-    for (int i = 0; i < count && status == FST_OK; i++)
+    for (int i = 0; i < count && status == FST_OK; ++i)
         status = read_column(file, path, columns[i]->name, i == 0, &data[i], rows, error);
     return status;
 }

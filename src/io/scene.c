@@ -52,7 +52,7 @@ static fst_status fail_yaml(scene_reader *reader)
     char sentence[256];
     if (parser->error == YAML_READER_ERROR) {
         int line = 1;
-        for (size_t i = 0; i < parser->problem_offset && i < reader->size; i++)
+        for (size_t i = 0; i < parser->problem_offset && i < reader->size; ++i)
             line += reader->text[i] == '\n';
         (void)snprintf(sentence, sizeof sentence, "this is no text in UTF-8 (%s, byte %zu): a scene is YAML",
                        parser->problem, parser->problem_offset);
@@ -160,7 +160,7 @@ static fst_status note_value(scene_reader *reader, const char *key, int line, co
 static int is_group(const char *name)
 {
     size_t length = strlen(name);
-    for (int i = 0; i < fst_param_count(); i++) {
+    for (int i = 0; i < fst_param_count(); ++i) {
         const char *key = fst_param_at(i)->key;
         if (strncmp(key, name, length) == 0 && key[length] == '.')
             return 1;
@@ -171,7 +171,7 @@ static int is_group(const char *name)
 static fst_status unknown_group(scene_reader *reader, int line, const char *name)
 {
     char names[256] = "", nearest[32], quoted[FST_QUOTE_SIZE], sentence[256];
-    for (int i = 0; i < fst_param_count(); i++) {
+    for (int i = 0; i < fst_param_count(); ++i) {
         char group[32];
         const char *key = fst_param_at(i)->key;
         (void)snprintf(group, sizeof group, "%.*s|", (int)strcspn(key, "."), key);
@@ -214,7 +214,7 @@ static fst_status note_group(scene_reader *reader, char seen[GROUP_LIMIT][32], i
     char sentence[128];
     if (!is_group(name))
         return FST_OK;
-    for (int i = 0; i < *count; i++)
+    for (int i = 0; i < *count; ++i)
         if (strcmp(seen[i], name) == 0) {
             (void)snprintf(sentence, sizeof sentence, "the group %s is given twice: put its keys together",
                            name);
@@ -230,7 +230,7 @@ static fst_status read_mapping(scene_reader *reader, const char *group, int star
 {
     char seen[GROUP_LIMIT][32];
     int seen_count = 0, keys = 0;
-    for (;; keys++) {
+    for (;; ++keys) {
         yaml_event_t key, value;
         fst_status status = next_event(reader, &key);
         if (status != FST_OK)
@@ -308,7 +308,7 @@ static int line_given(const scene_reader *reader, const char *key)
  * holds for model.kappa, but only where bead.moment is given too. */
 static fst_status check_forms(scene_reader *reader)
 {
-    for (int i = 0; i < reader->count; i++) {
+    for (int i = 0; i < reader->count; ++i) {
         const char *key = fst_param_at(i)->key, *other = fst_param_other_form(key);
         if (!other || !reader->values[i])
             continue;
@@ -333,7 +333,7 @@ static fst_status apply(const scene_reader *reader, fst_params *params)
 {
     fst_params changed = *params;
     int kappa = fst_param_find("model.kappa");
-    for (int i = -1; i < reader->count; i++) {
+    for (int i = -1; i < reader->count; ++i) {
         int index = i < 0 ? kappa : i;
         if (!reader->values[index] || (i >= 0 && i == kappa))
             continue;
@@ -370,7 +370,7 @@ fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_
     } else {
         fst_fail(error, FST_NO_MEMORY, name, "out of memory");
     }
-    for (int i = 0; reader.values && i < reader.count; i++)
+    for (int i = 0; reader.values && i < reader.count; ++i)
         free(reader.values[i]);
     free(reader.values);
     free(reader.lines);

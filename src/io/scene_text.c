@@ -21,7 +21,7 @@ static void write_comment(FILE *out, const char *text)
         if (length > WIDTH) {
             length = WIDTH;
             while (length > 0 && text[length] != ' ')
-                length--;
+                --length;
             if (length == 0)
                 length = strcspn(text, " ");
         }
@@ -67,7 +67,7 @@ static void write_scene(FILE *out, const fst_params *params, int commented)
         (void)fprintf(
             out, "# A festoon scene.  A line that is missing keeps its default; --set KEY=VALUE overrides.\n"
                  "# festoon schema lists all keys, festoon check reads a scene without running it.\n");
-    for (int i = 0; i < fst_param_count(); i++) {
+    for (int i = 0; i < fst_param_count(); ++i) {
         const fst_param_info *info = fst_param_at(i);
         size_t group_length = strcspn(info->key, ".");
         value_text(params, i, value, sizeof value);

@@ -51,7 +51,7 @@ static int ends_in(const char *path, const char *ending)
 
 static void list_columns(const fst_column_info *columns[FST_COLUMN_COUNT])
 {
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         columns[i] = fst_column_at(i);
 }
 
@@ -108,7 +108,7 @@ fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *s
     double values[FST_COLUMN_COUNT];
     fst_column_values(sample, values);
     /* The reader below refuses such a number, so it must not be written. */
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         if (!isfinite(values[i]))
             return fst_fail(error, FST_BAD_INPUT, trajectory->file.path,
                             "this sample is not written: its %s is %g, and a trajectory holds finite numbers",
@@ -185,8 +185,8 @@ static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error
  * CSV reader makes the same check, because it can name the line.) */
 static fst_status check_numbers(const char *path, const fst_table *table, fst_error *error)
 {
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
-        for (size_t row = 0; row < table->rows; row++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
+        for (size_t row = 0; row < table->rows; ++row)
             if (!isfinite(table->columns[i][row]))
                 return fst_fail(error, FST_BAD_INPUT, path,
                                 "row %zu: the column %s holds \"%g\", which is not finite: every number of a "
@@ -199,9 +199,9 @@ static fst_status check_numbers(const char *path, const fst_table *table, fst_er
 static fst_status check_order(const char *path, const fst_table *table, fst_error *error)
 {
     static const int rising[] = {FST_COLUMN_t, FST_COLUMN_drive_turns};
-    for (size_t i = 0; i < sizeof rising / sizeof *rising; i++) {
+    for (size_t i = 0; i < sizeof rising / sizeof *rising; ++i) {
         const double *values = table->columns[rising[i]];
-        for (size_t row = 0; row < table->rows; row++)
+        for (size_t row = 0; row < table->rows; ++row)
             if (!(fabs(values[row]) < 1e15) || (row > 0 && !(values[row] >= values[row - 1])))
                 return fst_fail(error, FST_BAD_INPUT, path,
                                 "row %zu: the column %s does not rise, as it must in a trajectory", row + 1,
@@ -243,7 +243,7 @@ fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *er
 
 void fst_table_free(fst_table *table)
 {
-    for (int i = 0; table->columns && i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; table->columns && i < FST_COLUMN_COUNT; ++i)
         free(table->columns[i]);
     free(table->columns);
     *table = (fst_table){.rows = 0};

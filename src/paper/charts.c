@@ -24,7 +24,7 @@ typedef struct curves {
 
 static void free_curves(curves *all)
 {
-    for (int i = 0; i < all->count; i++)
+    for (int i = 0; i < all->count; ++i)
         free(all->memory[i]);
 }
 
@@ -36,19 +36,19 @@ static void add(curves *all, const fst_paper_state *paper, const fst_scan throug
     if (all->status != FST_OK || all->count == MOST_CURVES)
         return;
     size_t room = 0, used = 0;
-    for (int s = 0; s < 2; s++)
+    for (int s = 0; s < 2; ++s)
         room += through[s] < FST_SCAN_COUNT ? (size_t)paper->counts[through[s]] : 0;
     double *memory = malloc((2 * room + 1) * sizeof *memory);
     if (!memory) {
         all->status = FST_NO_MEMORY;
         return;
     }
-    for (int s = 0; s < 2; s++) {
-        for (int i = 0; through[s] < FST_SCAN_COUNT && i < paper->counts[through[s]]; i++) {
+    for (int s = 0; s < 2; ++s) {
+        for (int i = 0; through[s] < FST_SCAN_COUNT && i < paper->counts[through[s]]; ++i) {
             const fst_paper_run *run = &paper->scans[through[s]][dynamics][i];
             memory[used] = x(run);
             memory[room + used] = y(run);
-            used++;
+            ++used;
         }
     }
     style.x = memory;
@@ -112,7 +112,7 @@ static const fst_chart_curve *add_both(curves *all, const fst_paper_state *paper
                                        const fst_colour colours[2], int right)
 {
     int first = all->count;
-    for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
+    for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
         add(all, paper, through, two_dynamics[d].dynamics, x, y,
             (fst_chart_curve){.title = titles ? titles[d] : NULL,
                               .colour = colours[d],
@@ -236,7 +236,7 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
                                                .style = FST_CURVE_LINE};
     const fst_chart_curve *counter =
         add_both(&all, paper, comparison, hertz_of, counter_hertz, both_names, both_colours, 0);
-    for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
+    for (int d = 0; d < FST_PAPER_DYNAMICS; ++d) {
         fst_chart_curve points = {.title = d == 0 ? "released at rest, farago2020" : "the same, rigid",
                                   .colour = both_colours[d],
                                   .style = d == 0 ? FST_CURVE_POINTS : FST_CURVE_OPEN_POINTS};
@@ -294,9 +294,9 @@ fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_fig
     static const reading measured[] = {mean_alpha_dot, mean_phi_dot};
     static const reading formula[] = {rolling_alpha_dot, rolling_phi_dot};
     static const char *const names[] = {"free rolling, with the ⟨r⟩ of farago2020", "the same, of rigid"};
-    for (int p = 0; p < 2; p++) {
+    for (int p = 0; p < 2; ++p) {
         int first = all.count;
-        for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
+        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d) {
             fst_chart_curve line = {.title = p == 0 ? both_names[d] : NULL, .colour = both_colours[d]};
             add(&all, paper, whole_range, two_dynamics[d].dynamics, omega_of, measured[p], line);
             fst_chart_curve dashes = {
@@ -342,7 +342,7 @@ fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_pape
         {spin, "the spin's part of friction", FST_COLOUR_PURPLE, FST_CURVE_DASHED},
     };
     curves all = {.status = FST_OK};
-    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
+    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; ++i)
         add(&all, paper, whole_range, figure->dynamics, omega_of, terms[i].term,
             (fst_chart_curve){.title = terms[i].title, .colour = terms[i].colour, .style = terms[i].style});
     fst_chart_panel panel = {.left_label = "terms of the radial balance, over ε^2",

@@ -32,7 +32,7 @@ static fst_status close_patterns(const fst_params *params, const fst_branch *bra
                                  const fst_progress *progress, fst_paper_exact *exact, fst_error *error)
 {
     fst_status status = FST_OK;
-    for (int row = 0; row < FST_TABLE1_ROWS && status == FST_OK; row++) {
+    for (int row = 0; row < FST_TABLE1_ROWS && status == FST_OK; ++row) {
         fst_festoon_list list;
         status = fst_festoons_on(params, branch, fst_table1[row].count, progress, &list, error);
         if (status == FST_OK)
@@ -45,7 +45,7 @@ static fst_status close_patterns(const fst_params *params, const fst_branch *bra
 
 static void read_branch(const fst_branch *branch, fst_paper_exact *exact)
 {
-    for (size_t i = 0; i < branch->special_count; i++) {
+    for (size_t i = 0; i < branch->special_count; ++i) {
         const fst_special *special = &branch->specials[i];
         if (special->type == FST_SPECIAL_PITCHFORK) {
             exact->halving = special->omega;
@@ -56,7 +56,7 @@ static void read_branch(const fst_branch *branch, fst_paper_exact *exact)
             exact->origin = special->omega;
         }
     }
-    for (size_t i = 0; i < branch->point_count; i++) {
+    for (size_t i = 0; i < branch->point_count; ++i) {
         const fst_branch_point *point = &branch->points[i];
         if (point->stable && point->turns < 0 && point->symmetry == FST_SYMMETRY_S1)
             exact->most_s1 = fmax(exact->most_s1, point->festoons);
@@ -75,10 +75,10 @@ static fst_status find_locked_end(const fst_params *params, const fst_progress *
     fst_branch branch;
     const fst_status status = fst_branch_follow(params, &options, &branch, error);
     double highest = -INFINITY;
-    for (size_t i = 0; status == FST_OK && i < branch.point_count; i++)
+    for (size_t i = 0; status == FST_OK && i < branch.point_count; ++i)
         if (branch.points[i].stable)
             highest = fmax(highest, branch.points[i].omega);
-    for (size_t i = 0; status == FST_OK && i < branch.special_count; i++) {
+    for (size_t i = 0; status == FST_OK && i < branch.special_count; ++i) {
         const fst_special *special = &branch.specials[i];
         if (special->type == FST_SPECIAL_HOPF && special->omega >= highest)
             exact->locked_end = fmin(special->omega, isnan(exact->locked_end) ? INFINITY : exact->locked_end);
@@ -96,7 +96,7 @@ static fst_status count_minima(fst_dynamics dynamics, const fst_progress *progre
     if (status != FST_OK)
         return status;
     exact->locked_minima = 0.0;
-    for (size_t i = 0; i < list.count; i++)
+    for (size_t i = 0; i < list.count; ++i)
         exact->locked_minima += list.states[i].stable;
     fst_locked_free(&list);
     return FST_OK;
@@ -113,9 +113,9 @@ static fst_status find_damping(fst_dynamics dynamics, const fst_progress *progre
     fst_status status = fst_locked_find(&params, progress, &list, error);
     if (status != FST_OK)
         return status;
-    for (size_t i = 0; i < list.count; i++) {
+    for (size_t i = 0; i < list.count; ++i) {
         const fst_locked *state = &list.states[i];
-        for (int j = 0; j < FST_EIGENVALUE_COUNT && state->stable; j++) {
+        for (int j = 0; j < FST_EIGENVALUE_COUNT && state->stable; ++j) {
             double re = state->eigenvalue_re[j], im = state->eigenvalue_im[j];
             if (im > 0.0)
                 exact->damping = fmin(exact->damping, -re / hypot(re, im));
@@ -164,6 +164,6 @@ void fst_paper_exact_begin(fst_paper_exact *exact)
 {
     *exact = (fst_paper_exact){
         .halving = NAN, .fold = NAN, .origin = NAN, .locked_end = NAN, .locked_minima = NAN, .damping = NAN};
-    for (int row = 0; row < FST_TABLE1_ROWS; row++)
+    for (int row = 0; row < FST_TABLE1_ROWS; ++row)
         exact->closed[row].omega = NAN;
 }

@@ -208,7 +208,7 @@ _Static_assert(FST_PAPER_DYNAMICS *FIGURE_ROWS <= FST_MOST_FIGURES, "fst_paper_s
 int fst_paper_figure_count(void)
 {
     int count = 0;
-    for (int row = 0; row < FIGURE_ROWS; row++)
+    for (int row = 0; row < FIGURE_ROWS; ++row)
         count += figures[row].each ? FST_PAPER_DYNAMICS : 1;
     return count;
 }
@@ -216,7 +216,7 @@ int fst_paper_figure_count(void)
 fst_paper_figure fst_paper_figure_at(int index)
 {
     int row = 0;
-    for (; row < FIGURE_ROWS - 1; row++) {
+    for (; row < FIGURE_ROWS - 1; ++row) {
         int here = figures[row].each ? FST_PAPER_DYNAMICS : 1;
         if (index < here)
             break;
@@ -247,7 +247,7 @@ int fst_paper_figure_verdict(const fst_paper_state *paper, const fst_paper_figur
     *verdict = FST_VERDICT_REPRODUCED;
     if (!figure->statements)
         return 0;
-    for (int i = 0; i < fst_statement_count(); i++) {
+    for (int i = 0; i < fst_statement_count(); ++i) {
         const fst_statement *statement = fst_statement_at(i);
         if (!lists(figure->statements, statement->id))
             continue;
@@ -320,7 +320,7 @@ static fst_status draw_piece(void *user, int place, fst_error *error)
 fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to, fst_error *error)
 {
     gallery all = {.paper = paper};
-    for (int i = 0; i < fst_paper_figure_count(); i++) {
+    for (int i = 0; i < fst_paper_figure_count(); ++i) {
         fst_paper_figure figure = fst_paper_figure_at(i);
         if (!paper->drawn[i] && fst_paper_has(paper, figure.step, figure.scan))
             all.list[all.count++] = i;

@@ -20,7 +20,7 @@ fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error)
 {
     double began = fst_clock_seconds();
     fst_status status = FST_OK;
-    for (int i = 0; i < FST_FILM_COUNT && status == FST_OK; i++) {
+    for (int i = 0; i < FST_FILM_COUNT && status == FST_OK; ++i) {
         const fst_paper_run *run = fst_paper_single(paper, films[i].scan, FST_DYNAMICS_FARAGO2020);
         fst_part shown = {paper->options->progress, (double)i / FST_FILM_COUNT, (i + 1.0) / FST_FILM_COUNT,
                           "films"};

@@ -22,7 +22,7 @@ static double share(leftover sum)
 static void state_at(const fst_table *table, size_t row, double y[FST_STATE_SIZE])
 {
     static const char *const names[FST_STATE_SIZE] = {"X", "Y", "vX", "vY", "nX", "nY", "nZ", "WX", "WY", "WZ"};
-    for (int i = 0; i < FST_STATE_SIZE; i++)
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
         y[i] = fst_collected(table, names[i])[row];
 }
 
@@ -62,11 +62,11 @@ static void newton_and_euler(const fst_model *model, const double y[FST_STATE_SI
     cross(y + FST_NX, b, n_cross_b);
     const double slip[2] = {y[FST_VX] - g.eps * y[FST_WY], y[FST_VY] + g.eps * y[FST_WX]};
     const double friction[3] = {-slip[1], slip[0], 0.0}; /* e x V */
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         double pull = y[FST_NX] * grad[0][i] + y[FST_NY] * grad[1][i] + y[FST_NZ] * grad[2][i];
         add(centre, g.kappa * g.eps * g.eps * pull - slip[i], v_rate[i]);
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         add(turning, 2.5 * (g.kappa * n_cross_b[i] + friction[i] / g.eps), w_rate[i]);
 }
 
@@ -146,7 +146,7 @@ static angles read_angles(const fst_model *model, const double y[FST_STATE_SIZE]
     laboratory_rate(y, rates, omega, FST_WX, 3, w1);
     cross(w1, y + FST_NX, n2); /* n'' = W' x n + W x n' */
     cross(y + FST_WX, n1, turned);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         n2[i] += turned[i];
     to_local(y, velocity, v);
     to_local(y, v1, a_local);
@@ -254,7 +254,7 @@ MEASURE(second_balance)
     if (!model)
         return NAN;
     const fst_groups g = fst_model_groups(model);
-    for (size_t row = 0; row < table->rows; row++) {
+    for (size_t row = 0; row < table->rows; ++row) {
         double b[3], grad[3][3], y[FST_STATE_SIZE];
         state_at(table, row, y);
         const fst_observation seen = fst_observe(model, y);
@@ -262,7 +262,7 @@ MEASURE(second_balance)
         /* n without its radial part, in the turning frame, and the change of the field along the circle. */
         const double n[3] = {-s * seen.n[1] / size_n, c * seen.n[1] / size_n, seen.n[2] / size_n};
         fst_field(model, y[FST_X], y[FST_Y], b, grad);
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3; ++k)
             sum += n[k] * seen.r * (grad[k][1] * c - grad[k][0] * s);
     }
     fst_model_free(model);

@@ -49,7 +49,7 @@ static double processor_seconds(void)
 {
     static const int who[2] = {RUSAGE_SELF, RUSAGE_CHILDREN};
     double seconds = 0.0;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         struct rusage used;
         if (getrusage(who[i], &used) == 0)
             seconds += (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
@@ -118,7 +118,7 @@ static fst_status no_such_statement(const char *id, fst_error *error)
 {
     char names[4096] = "", nearest[64] = "";
     size_t used = 0;
-    for (int i = 0; i < fst_statement_count() && used < sizeof names; i++)
+    for (int i = 0; i < fst_statement_count() && used < sizeof names; ++i)
         used +=
             (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? "|" : "", fst_statement_at(i)->id);
     (void)fst_nearest_name(id, names, nearest, sizeof nearest);
@@ -143,7 +143,7 @@ static fst_status make_one(fst_paper_state *paper, const fst_statement *statemen
 static fst_status answer_one(fst_paper_state *paper, fst_error *error)
 {
     const char *id = paper->options->only;
-    for (int i = 0; i < fst_statement_count(); i++) {
+    for (int i = 0; i < fst_statement_count(); ++i) {
         const fst_statement *statement = fst_statement_at(i);
         if (strcmp(statement->id, id) != 0)
             continue;

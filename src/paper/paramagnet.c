@@ -32,7 +32,7 @@ static fst_status begin(followed *bead, const fst_params *params, fst_error *err
     bead->period = 2.0 * PI / bead->groups.omega;
     fst_flow_options options = fst_default_flow_options();
     options.rtol = params->run_rtol;
-    for (int i = 0; i < FST_STATE_SIZE; i++)
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
         options.atol[i] = params->run_rtol;
     return fst_flow_new(bead->model, &options, state, &bead->flow, error);
 }
@@ -122,7 +122,7 @@ fst_status fst_search_one(int index, fst_dynamics dynamics, fst_search_entry *en
     if (status == FST_OK)
         status = fate_until(&bead, FIRST_PERIODS * bead.period, &entry->first, &entry->mean_alpha_dot, error);
     entry->last = entry->first;
-    for (int i = 0; i < DOUBLINGS && status == FST_OK && entry->last == FST_FATE_COUNTER; i++) {
+    for (int i = 0; i < DOUBLINGS && status == FST_OK && entry->last == FST_FATE_COUNTER; ++i) {
         entry->periods *= 2.0;
         status = fate_until(&bead, entry->periods * bead.period, &entry->last, &entry->mean_alpha_dot, error);
     }
@@ -144,7 +144,7 @@ static void look(const followed *bead, moment_in_time *now)
     const double *s = info.state, eps = bead->groups.eps, a = bead->groups.a;
     double x = s[FST_X], y = s[FST_Y], b[3], g[3][3], b2 = 0.0, along = 0.0;
     fst_field(bead->model, x, y, b, g);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; ++i) {
         b2 += b[i] * b[i];
         along += 2.0 * b[i] * (g[i][1] * x - g[i][0] * y);
     }
@@ -196,7 +196,7 @@ static fst_status average(followed *bead, double t0, int panels, double panel, m
     *mean = (moment_in_time){0};
     moment_in_time now;
     fst_status status = FST_OK;
-    for (int i = 0; i < 5 * panels && status == FST_OK; i++) {
+    for (int i = 0; i < 5 * panels && status == FST_OK; ++i) {
         double t = t0 + panel * (i / 5 + 0.5 * (1.0 + nodes[i % 5]));
         status = look_at(bead, t, &now, error);
         if (status == FST_OK)
@@ -295,7 +295,7 @@ static fst_status counter_rotates(const fst_params *params, const fst_kappa_scan
     fst_status status = FST_OK;
     tried.model_kappa = kappa;
     *does = 0;
-    for (int start = 0; start < scan->starts && status == FST_OK && !*does; start++) {
+    for (int start = 0; start < scan->starts && status == FST_OK && !*does; ++start) {
         followed bead;
         fst_fate fate = FST_FATE_AWAY;
         double speed;
@@ -325,12 +325,12 @@ fst_status fst_least_kappa(const fst_params *params, const fst_kappa_scan *scan,
     int does = 0;
     fst_status status = FST_OK;
     *least = (fst_least_found){NAN, NAN};
-    for (int i = 0; i < scan->points && status == FST_OK && !does; i++) {
+    for (int i = 0; i < scan->points && status == FST_OK && !does; ++i) {
         const double kappa = i + 1 < scan->points ? scan->low * exp(step * i) : scan->high;
         status = counter_rotates(params, scan, kappa, &does, error);
         *(does ? &least->kappa : &below) = kappa;
     }
-    for (int i = 0; i < scan->halvings && status == FST_OK && does && below > 0.0; i++) {
+    for (int i = 0; i < scan->halvings && status == FST_OK && does && below > 0.0; ++i) {
         const double middle = sqrt(below * least->kappa);
         int here;
         status = counter_rotates(params, scan, middle, &here, error);

@@ -61,7 +61,7 @@ const char fst_report_introduction[] =
 
 void fst_report_text(FILE *out, const char *text)
 {
-    for (const char *c = text; *c; c++) {
+    for (const char *c = text; *c; ++c) {
         switch (*c) {
         case '<':
             fputs("&lt;", out);

@@ -81,7 +81,7 @@ static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_d
     status = set(params, "start.spin", scans[scan].spin, status, error);
     if (scan == FST_SCAN_CONJUGATE) /* the image of the usual start, 3 deg, under S2 */
         status = set(params, "start.phi", "183", status, error);
-    for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; i++)
+    for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; ++i)
         status = set(params, anisotropic[i].key, anisotropic[i].value, status, error);
     if (scans[scan].samples)
         status = set(params, "run.samples", scans[scan].samples, status, error);
@@ -110,7 +110,7 @@ static void write_command(const fst_params *params, fst_scan scan, fst_dynamics 
                                    omega, dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020",
                                    strcmp(scans[scan].spin, "rest") == 0 ? " --set start.spin=rest" : "",
                                    scan == FST_SCAN_CONJUGATE ? " --set start.phi=183" : "");
-    for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; i++)
+    for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; ++i)
         if (used < size)
             used += (size_t)snprintf(text + used, size - used, " --set %s=%s", anisotropic[i].key,
                                      anisotropic[i].value);
@@ -150,7 +150,7 @@ void fst_paper_table1_command(const fst_paper_state *paper, int row, fst_dynamic
 static int piece_count(const fst_paper_state *paper)
 {
     int count = 0;
-    for (int scan = paper->first_scan; scan < FST_SCAN_COUNT; scan++)
+    for (int scan = paper->first_scan; scan < FST_SCAN_COUNT; ++scan)
         count += FST_PAPER_DYNAMICS * paper->counts[scan];
     return count;
 }
@@ -159,7 +159,7 @@ static fst_status scan_piece(fst_paper_state *paper, int index, fst_error *error
 {
     /* The scans from rest take longest, because a libration near its threshold dies out slowly: begin with
      * them. */
-    for (int scan = FST_SCAN_COUNT - 1; scan >= 0; scan--) {
+    for (int scan = FST_SCAN_COUNT - 1; scan >= 0; --scan) {
         int here = FST_PAPER_DYNAMICS * paper->counts[scan];
         if (index < here) {
             int point = index / FST_PAPER_DYNAMICS;
@@ -226,7 +226,7 @@ static fst_status find_change(fst_paper_state *paper, int index, fst_error *erro
     }
     int last = paper->counts[scan] - 2;
     while (last > 0 && !is_below(change, &runs[last].result))
-        last--;
+        --last;
     if (last < 1 || is_below(change, &runs[last + 1].result))
         return FST_OK;
     /* The scan's runs are shorter than these, and next to the change one may not have settled: begin one point
@@ -235,7 +235,7 @@ static fst_status find_change(fst_paper_state *paper, int index, fst_error *erro
     bracket->high = scan_omega(paper, scan, last + 1);
     int halvings = paper->options->reduced ? changes[change].reduced_halvings : changes[change].halvings;
     fst_status status = FST_OK;
-    for (int i = 0, below = 0; i < halvings && status == FST_OK && below >= 0; i++) {
+    for (int i = 0, below = 0; i < halvings && status == FST_OK && below >= 0; ++i) {
         double middle = 0.5 * (bracket->low + bracket->high);
         status = probe(paper, change, dynamics, middle, &below, error);
         if (below >= 0) /* otherwise the bracket stays as wide as it is */
@@ -253,7 +253,7 @@ static fst_status begin_scan(fst_paper_state *paper, fst_scan scan, fst_dynamics
     if (!runs)
         return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d runs", paper->counts[scan]);
     fst_status status = FST_OK;
-    for (int i = 0; i < paper->counts[scan] && status == FST_OK; i++)
+    for (int i = 0; i < paper->counts[scan] && status == FST_OK; ++i)
         status = scan_params(paper, scan, dynamics, scan_omega(paper, scan, i), &runs[i].params, error);
     return status;
 }
@@ -261,11 +261,11 @@ static fst_status begin_scan(fst_paper_state *paper, fst_scan scan, fst_dynamics
 fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error)
 {
     fst_status status = FST_OK;
-    for (int scan = 0; scan < FST_SCAN_COUNT; scan++)
+    for (int scan = 0; scan < FST_SCAN_COUNT; ++scan)
         paper->counts[scan] = paper->options->reduced ? scans[scan].reduced_count : scans[scan].count;
-    for (int d = 0; d < FST_PAPER_DYNAMICS && status == FST_OK; d++) {
+    for (int d = 0; d < FST_PAPER_DYNAMICS && status == FST_OK; ++d) {
         fst_paper_exact_begin(&paper->exact[d]);
-        for (int scan = 0; scan < FST_SCAN_COUNT && status == FST_OK; scan++)
+        for (int scan = 0; scan < FST_SCAN_COUNT && status == FST_OK; ++scan)
             status = begin_scan(paper, (fst_scan)scan, (fst_dynamics)d, error);
     }
     return status;
@@ -295,9 +295,9 @@ int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan sc
 {
     if (step != FST_PAPER_STEP_RUNS && !paper->done[step])
         return 0;
-    for (int s = (int)scan; s < FST_SCAN_COUNT; s++)
-        for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
-            for (int i = 0; i < paper->counts[s]; i++)
+    for (int s = (int)scan; s < FST_SCAN_COUNT; ++s)
+        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
+            for (int i = 0; i < paper->counts[s]; ++i)
                 if (!paper->scans[s][d] || !paper->scans[s][d][i].done)
                     return 0;
     return 1;
@@ -305,13 +305,13 @@ int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan sc
 
 void fst_paper_free_runs(fst_paper_state *paper)
 {
-    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
+    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; ++dynamics) {
         free(paper->search[dynamics]);
         paper->search[dynamics] = NULL;
     }
-    for (int scan = 0; scan < FST_SCAN_COUNT; scan++) {
-        for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
-            for (int i = 0; paper->scans[scan][dynamics] && i < paper->counts[scan]; i++)
+    for (int scan = 0; scan < FST_SCAN_COUNT; ++scan) {
+        for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; ++dynamics) {
+            for (int i = 0; paper->scans[scan][dynamics] && i < paper->counts[scan]; ++i)
                 fst_table_free(&paper->scans[scan][dynamics][i].trajectory);
             free(paper->scans[scan][dynamics]);
             paper->scans[scan][dynamics] = NULL;

@@ -54,7 +54,7 @@ fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progres
 {
     fst_run_options options = fst_default_run_options();
     options.progress = progress;
-    for (int doublings = 0;; doublings++) {
+    for (int doublings = 0;; ++doublings) {
         const fst_status status = trajectory ? fst_collect_run(params, progress, result, trajectory, error)
                                              : fst_run(params, &options, result, error);
         if (status != FST_OK || !fst_paper_may_settle(result))
@@ -73,7 +73,7 @@ fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progres
 int fst_paper_unsettled(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
 {
     int count = 0;
-    for (int i = 0; scan < FST_SCAN_NONE && i < paper->counts[scan]; i++) {
+    for (int i = 0; scan < FST_SCAN_NONE && i < paper->counts[scan]; ++i) {
         const fst_paper_run *run = &paper->scans[scan][dynamics][i];
         count += run->done && fst_paper_may_settle(&run->result);
     }

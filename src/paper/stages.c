@@ -68,7 +68,7 @@ double fst_paper_halving_line(const fst_paper_state *paper, fst_dynamics dynamic
     enum { NEAREST = 5, LEFT_OUT = 2 };
     double omega[NEAREST], square[NEAREST];
     int count = 0;
-    for (int i = 0; i < NEAREST; i++) {
+    for (int i = 0; i < NEAREST; ++i) {
         const fst_halving_point *point =
             &paper->halving[dynamics].points[FST_HALVING_BELOW - LEFT_OUT - NEAREST + i];
         if (isnan(point->mean_nz)) /* this one has not settled */
@@ -115,7 +115,7 @@ static fst_status balance_piece(fst_paper_state *paper, int index, fst_error *er
     params.bead_a = cases[motion][0];
     fst_status status = fst_paramagnet_balances(&params, discards[0], windows[0], balances, error);
     *settled = *balances;
-    for (int i = 1; i < 3 && status == FST_OK && !fst_balances_settled(settled); i++)
+    for (int i = 1; i < 3 && status == FST_OK && !fst_balances_settled(settled); ++i)
         status = fst_paramagnet_means(&params, discards[i], windows[i], settled, error);
     return status;
 }
@@ -143,7 +143,7 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *o
     paper->search_count = paper->options->starts > 0 ? paper->options->starts
                           : paper->options->reduced  ? REDUCED_SEARCH
                                                      : SEARCH;
-    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
+    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; ++dynamics) {
         paper->search[dynamics] = calloc((size_t)paper->search_count, sizeof *paper->search[dynamics]);
         if (!paper->search[dynamics])
             return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d starts", paper->search_count);
@@ -163,7 +163,7 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *o
          FST_PAPER_STEP_REMANENCE, remanence_piece},
     };
     fst_status status = FST_OK;
-    for (size_t i = 0; i < sizeof stages / sizeof stages[0] && status == FST_OK; i++)
+    for (size_t i = 0; i < sizeof stages / sizeof stages[0] && status == FST_OK; ++i)
         if (!only || *only == stages[i].step)
             status = fst_paper_do(paper, &stages[i], error);
     return status;

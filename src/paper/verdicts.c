@@ -108,7 +108,7 @@ static double unless_unsettled(const fst_statement *statement, const fst_paper_s
 fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper)
 {
     fst_finding finding = {.note = {"", ""}};
-    for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
+    for (int d = 0; d < FST_PAPER_DYNAMICS; ++d) {
         double value = statement->measure(paper, (fst_dynamics)d, finding.note[d], sizeof finding.note[d]);
         value =
             unless_unsettled(statement, paper, (fst_dynamics)d, value, finding.note[d], sizeof finding.note[d]);

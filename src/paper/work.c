@@ -47,7 +47,7 @@ void fst_paper_note_time(fst_paper_state *paper, const char *what, double began)
 {
     int part = 0;
     while (part < paper->part_count && strcmp(paper->parts[part].what, what) != 0)
-        part++;
+        ++part;
     if (part == FST_MOST_PARTS)
         return;
     if (part == paper->part_count)
