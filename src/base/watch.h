@@ -6,9 +6,8 @@
  * repeats that answer for ever: many loops take a failure for "nothing found here" and go on, and each of them
  * then meets the same answer at its next step, before it does any work.
  *
- *  caller's fst_progress <-- fst_watch <-- fst_watch_count() in loops     counts evaluations, asks every 4000
- *                        <-- fst_part  <-- fst_part_tell() of a part      maps [0, 1] of the part into the
- * whole
+ *  caller's fst_progress <-- fst_watch <-- fst_watch_count() in loops   counts evaluations, asks every 4000
+ *                        <-- fst_part  <-- fst_part_tell() of a part    [0, 1] of the part within the whole
  */
 #ifndef FST_BASE_WATCH_H
 #define FST_BASE_WATCH_H
