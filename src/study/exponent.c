@@ -10,7 +10,8 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "ensemble/lanes.h"
+#include "base/watch.h"
+#include "lanes/lanes.h"
 #include "ode/flow.h"
 #include "study/growth.h"
 
@@ -238,7 +239,7 @@ fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent 
         if (progress && steps % STEPS_UNTOLD == 0) {
             for (int l = 0; l < count; ++l)
                 keep_way(&c, l);
-            status = progress->tell(progress->user, fraction_done(&c), error);
+            status = fst_tell(progress, fraction_done(&c), NULL, error);
         }
     free(c.memory);
     return status;
