@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "draw/chart.h"
 
@@ -26,7 +27,7 @@ static const struct observable {
     {"festoons", "festoons N", offsetof(fst_branch_point, festoons)},
     {"min_r", "least r / l", offsetof(fst_branch_point, min_r)},
     {"period", "period γ", offsetof(fst_branch_point, period)},
-    {"phi_deg", "Φ / degrees", offsetof(fst_branch_point, phi_deg)},
+    {"phi_deg", "Φ / degrees", offsetof(fst_branch_point, bead_angle_deg)},
     {"slip", "slip / (l γ)", offsetof(fst_branch_point, slip)},
     {"relaxation_time", "relaxation time γ", offsetof(fst_branch_point, relaxation_time)},
     {"swing_ratio", "p, ratio of swings - 1", offsetof(fst_branch_point, swing_ratio)},
@@ -162,8 +163,7 @@ static int add_diagram(const fst_branch *b, const struct observable *what, colum
 static int add_circle(const fst_branch *b, columns *c, fst_chart_curve *curves)
 {
     for (int i = 0; i < CIRCLE && b->kind != FST_BRANCH_LOCKED; ++i)
-        put(&c[2], cos(2.0 * 3.14159265358979323846 * i / (CIRCLE - 1)),
-            sin(2.0 * 3.14159265358979323846 * i / (CIRCLE - 1)));
+        put(&c[2], cos(FST_TWO_PI * i / (CIRCLE - 1)), sin(FST_TWO_PI * i / (CIRCLE - 1)));
     put_multipliers(&c[0], b, 1);
     put_multipliers(&c[1], b, 0);
     style_curve(&curves[0], &c[2], NULL, FST_COLOUR_BLACK, FST_CURVE_LINE);

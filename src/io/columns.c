@@ -1,10 +1,9 @@
 /* columns.c - the table of the columns of a trajectory, and a sample as a row of numbers. */
 #include "io/columns.h"
 
-#define DEGREES (180.0 / 3.14159265358979323846)
-
 static const fst_column_info infos[FST_COLUMN_COUNT] = {
 #define FST_COLUMN(name, unit, value, doc) {#name, unit, doc},
+#include "base/constants.h"
 #include "io/columns.def"
 #undef FST_COLUMN
 };

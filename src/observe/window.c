@@ -19,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TWO_PI 6.283185307179586476925287
+#include "base/constants.h"
 
 void fst_window_begin(fst_window *w, const fst_span *span, double period, const fst_flow *flow)
 {
@@ -98,7 +98,7 @@ int fst_window_period_needs_integrals(const fst_window *w, const fst_flow *flow)
 /* Phi's range, which decides whether it is bounded: beyond a whole turn it no longer matters by how much. */
 static void watch_phi(fst_window *w, const fst_winding *winding)
 {
-    if (w->greatest_phi - w->least_phi > TWO_PI)
+    if (w->greatest_phi - w->least_phi > FST_TWO_PI)
         return;
     const double phi = fst_winding_angle(winding);
     w->least_phi = phi < w->least_phi ? phi : w->least_phi;

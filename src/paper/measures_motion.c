@@ -1,4 +1,5 @@
 /* measures_motion.c - what the paper says about the motion, read off trajectories and probes. */
+#include "base/constants.h"
 #include "paper/measures_parts.h"
 
 #include <complex.h>
@@ -153,7 +154,7 @@ static double trochoid_share(const fst_paper_run *run, int *best)
     if (table->rows < 2)
         return NAN;
     /* The samples over whole meetings of bead and magnet, two at a time, which suits both S1 and S2. */
-    double turn = 2.0 * PI / meeting, last = turn * floor((t[table->rows - 1] - t[0]) / turn);
+    double turn = 2.0 * FST_PI / meeting, last = turn * floor((t[table->rows - 1] - t[0]) / turn);
     size_t rows = 0;
     for (; rows < table->rows && t[rows] - t[0] < last; ++rows)
         all += x[rows] * x[rows] + y[rows] * y[rows];
@@ -207,8 +208,8 @@ MEASURE(phase_lock)
 {
     double complex mean = mean_phase(paper, dynamics);
     (void)snprintf(note, size, "circular mean of φ + Φ at the drive 0.4, its scatter %.1f degrees",
-                   DEGREES * sqrt(-2.0 * log(cabs(mean))));
-    double degrees = DEGREES * carg(mean);
+                   FST_DEGREES * sqrt(-2.0 * log(cabs(mean))));
+    double degrees = FST_DEGREES * carg(mean);
     return degrees < 0.0 ? degrees + 360.0 : degrees;
 }
 
@@ -289,7 +290,7 @@ MEASURE(asymptotic_rolling)
         "the bead circles ever further out, and at ω = %.4f (%.0f Hz) its orbit ends in a fold",
         last->result.omega, fst_paper_counter_rotates(last) ? "" : ", where no such motion exists",
         runs[0].result.omega, off_rolling(&runs[0]), runs[0].result.mean_r, fold,
-        fold * last->params.friction_gamma / (2.0 * PI));
+        fold * last->params.friction_gamma / (2.0 * FST_PI));
     return off_rolling(last);
 }
 

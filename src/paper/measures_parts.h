@@ -2,15 +2,13 @@
 #ifndef FST_PAPER_MEASURES_PARTS_H
 #define FST_PAPER_MEASURES_PARTS_H
 
+#include "base/constants.h"
 #include "paper/measures.h"
 #include "paper/runs.h"
 
 #include "io/collect.h"
 
 #include <stdio.h>
-
-#define PI 3.14159265358979323846
-#define DEGREES (180.0 / PI)
 
 #define MEASURE(name)                                                                                          \
     double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)

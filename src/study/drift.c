@@ -25,9 +25,8 @@
 #include <math.h>
 #include <stddef.h>
 
+#include "base/constants.h"
 #include "observe/means.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 /* docs/regimes.md says why these, and how often they err. */
 static const double STANDS_OUT = 5.0; /* change over its standard error: below, the scatter explains it */
@@ -98,7 +97,7 @@ static line line_through(const double *values, int count)
     }
     found.change = slope * count;
     found.noise = count * sqrt(scatter / (count - 2) / spread);
-    found.hidden = 12.0 * sqrt(2.0) / (0.5 * TWO_PI) * sqrt(scatter / count) / (turns + 1);
+    found.hidden = 12.0 * sqrt(2.0) / (0.5 * FST_TWO_PI) * sqrt(scatter / count) / (turns + 1);
     return found;
 }
 

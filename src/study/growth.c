@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#define TWO_PI 6.283185307179586476925287
+#include "base/constants.h"
 
 /* Windows of the time, in the order in which growth->rate has them: `count` windows of the length 1/parts, each
  * begun `hop` after the one before. */
@@ -21,7 +21,7 @@ static double weight_before(double s)
 {
     if (s <= 0.0)
         return 0.0;
-    return s >= 1.0 ? 1.0 : s - sin(TWO_PI * s) / TWO_PI;
+    return s >= 1.0 ? 1.0 : s - sin(FST_TWO_PI * s) / FST_TWO_PI;
 }
 
 void fst_growth_pass(fst_growth_clock *clock, double piece)

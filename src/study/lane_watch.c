@@ -1,9 +1,8 @@
 /* lane_watch.c - what the steps of runs in lanes hold, looked at by the code of fst_run(). */
 #include <math.h>
 
+#include "base/constants.h"
 #include "study/lane_worker.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 /* Locate the extremes of the steps that were set aside. */
 void fst_worker_locate(fst_row_worker *w)
@@ -61,7 +60,7 @@ void fst_worker_keep_phi_range(fst_row_worker *w, int l)
     const int width = w->engine->width;
     const fst_watched_run *run = w->observed.lanes[l].run;
     const double range = run->window.greatest_phi - run->window.least_phi;
-    if (range > TWO_PI) { /* as fst_window_pass() has it */
+    if (range > FST_TWO_PI) { /* as fst_window_pass() has it */
         w->turning |= fst_lane_bit(l);
         return;
     }

@@ -4,9 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "study/drift.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 /* Thresholds, scaled.  docs/regimes.md says why these. */
 static const double AT_REST = 1e-8; /* greatest |d(state)/dt| of a locked bead, or run.rtol if larger */
@@ -313,7 +312,7 @@ static decision decide(const fst_watched_run *run, const fst_exponent *exponent,
     }
     if (fst_returns_are_regular(&run->window.returns, run->flow->t))
         return decide_turning(run, exponent, result);
-    if (run->window.greatest_phi - run->window.least_phi < TWO_PI)
+    if (run->window.greatest_phi - run->window.least_phi < FST_TWO_PI)
         return decide_bounded(run, exponent, result);
     if (still_drifts(run, result))
         return DECIDED;
