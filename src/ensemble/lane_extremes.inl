@@ -24,12 +24,11 @@ static void set_aside(const void *memory, int lane, int record, void *to_memory,
     const FN(bead_step) *from = &b->step;
     FN(coefficients) *c = &to->step.context.coefficients;
     const FN(coefficients) *d = &from->context.coefficients;
-    c->lines = d->lines;
-    c->magnetisable = d->magnetisable;
-    c->gyroscopic_term_lost = d->gyroscopic_term_lost;
-    const REAL *reals = &d->eps;
-    for (int i = 0; i < (int)((const REAL *)(d + 1) - reals); ++i)
-        (&c->eps)[i][place] = reals[i][lane];
+    c->kinds = d->kinds;
+    double *wide = (double *)((char *)c + offsetof(FN(coefficients), eps));
+    const double *whose = (const double *)((const char *)d + offsetof(FN(coefficients), eps));
+    for (int i = 0; i < COEFFICIENTS; ++i)
+        wide[i * FST_LANES + place] = whose[i * FST_LANES + lane];
     to->step.h[place] = from->h[lane];
     to->step.omega[place] = from->omega[lane];
     for (int i = 0; i < FST_STATE_SIZE; ++i) {

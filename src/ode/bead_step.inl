@@ -1,5 +1,5 @@
-/* bead_step.inl - the integrator's step applied to the bead, over REAL; the including file brings the bodies of
- * the model (src/model) first.
+/* bead_step.inl - the integrator's step applied to the bead, over REAL; the including file brings
+ * model/bodies.inl first.
  *
  * What one step leaves for the next, and for what observes it:
  *

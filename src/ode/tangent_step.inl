@@ -2,8 +2,8 @@
  *
  * A tangent vector is an infinitesimal difference of two states; it changes by the derivative of the right-hand
  * side along it.  Both are integrated as one state of twice the length, the bead's state first, so that the
- * tangent belongs to exactly the trajectory that was computed.  The including file brings the bodies of the
- * model.
+ * tangent belongs to exactly the trajectory that was computed.  The including file brings
+ * model/bodies.inl.
  */
 #include "model/tangent.inl"
 

@@ -75,7 +75,7 @@ static chaos test_chaos(const fst_watched_run *run, const fst_exponent *known, f
     result->rhs_calls += known->rhs_calls;
     result->largest_exponent = exponent;
     result->largest_exponent_error = standard_error;
-    const int friction = run->flow->step.context.coefficients.friction > 0;
+    const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
     const double growth = exponent * known->duration;
     const double quiet = friction ? QUIET : QUIET_WITHOUT_FRICTION;
     const chaos found = exponent > SIGNIFICANT * known->chance && growth > GROWTH ? CHAOTIC
@@ -157,7 +157,7 @@ static decision decide_open(const fst_watched_run *run, const fst_exponent *expo
                hidden.what, hidden.change, hidden.turns, hidden.mean, hidden.noise);
         return DECIDED;
     }
-    const int friction = run->flow->step.context.coefficients.friction > 0;
+    const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
     if (run->window.returns.crossings < (friction ? LEAST_OPEN_CROSSINGS : LEAST_CROSSINGS_WITHOUT_FRICTION)) {
         REASON("Phi turned regularly %lld times, but the orbit has not closed (whole returns differ by %.2g): "
                "run longer",
@@ -274,7 +274,7 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
     const chaos found = test_chaos(run, exponent, result);
     if (found != REGULAR)
         return found == NOT_KNOWN ? NEEDS_EXPONENT : DECIDED;
-    const int friction = run->flow->step.context.coefficients.friction > 0;
+    const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
     if (!friction && run->window.greatest_bead_angle - run->window.least_bead_angle > WIDE &&
         marks->offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
         REASON("Phi stays within %.4g rad, but nothing damps so wide a motion, which may turn out chaotic: run "
