@@ -4,9 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/watch.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 /* ------------------------------------------------------------------ samples */
 
@@ -24,8 +23,8 @@ static void fill_sample(fst_flow *flow, double x, fst_twofold t, fst_sample *sam
     sample->drive_turns = whole + rest;
     sample->omega = fst_flow_omega(flow, t);
     sample->phi = fst_winding_angle(&phi);
-    sample->alpha = sample->phi + TWO_PI * (whole + rest);
-    const double c = cos(TWO_PI * rest), s = sin(TWO_PI * rest), *y = sample->state;
+    sample->alpha = sample->phi + FST_TWO_PI * (whole + rest);
+    const double c = cos(FST_TWO_PI * rest), s = sin(FST_TWO_PI * rest), *y = sample->state;
     sample->x = c * y[FST_X] - s * y[FST_Y];
     sample->y = s * y[FST_X] + c * y[FST_Y];
     sample->v_lab[0] = c * y[FST_VX] - s * y[FST_VY];
