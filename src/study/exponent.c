@@ -11,7 +11,7 @@
 
 #include "base/error.h"
 #include "base/watch.h"
-#include "ensemble/lanes.h"
+#include "lanes/lanes.h"
 #include "ode/flow.h"
 #include "study/growth.h"
 
