@@ -10,11 +10,12 @@ import json
 import math
 import os
 import re
+import shlex
 import subprocess
 import unittest
 from pathlib import Path
 
-from sweep_tools import Case, content_of, festoon
+from sweep_tools import Case, content_of
 
 SOURCES = Path(os.environ["SOURCE_DIR"])
 PROGRAMS = Path(os.environ["BUILD_DIR"]) / "tests" / "examples"
@@ -34,18 +35,22 @@ class Examples(Case):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
+    def by_the_program(self, name):
+        """What the command that stands in the opening comment of an example prints."""
+        text = (SOURCES / "examples" / "c" / (name + ".c")).read_text(encoding="utf-8")
+        words = re.search(r"^ \*     festoon (.*)$", text, re.M).group(1)
+        return self.good(*shlex.split(words), *([] if "-o" in words else ["--json"]), cwd=self.directory)
+
     def test_run(self):
-        words = ("--set", "drive.frequency=19.9Hz")
-        said = self.printed("run", "19.9 Hz", "path.csv")
-        run = json.loads(self.good("run", *words, "--json"))
+        said = self.printed("run", "642 rpm", "of-ours.csv")
+        run = json.loads(self.by_the_program("run"))
         self.assertTrue(said.startswith(f"{run['regime']}: {run['reason']}\n"), said)
         for key, value in re.findall(r"^(\w+) = (\S+)$", said, re.M):
             self.assertEqual(float(value), run[key], key)
         self.assertIn("festoons = ", said)
-        self.good("run", *words, "-o", self.path("t.csv"))
-        lines = [line for line in content_of(self.path("t.csv"), "r").splitlines() if not line.startswith("#")]
+        lines = [line for line in content_of(self.path("path.csv"), "r").splitlines() if not line.startswith("#")]
         expected = [(row["t [1/gamma]"], row["x [l]"], row["y [l]"]) for row in csv.DictReader(lines)]
-        found = [tuple(row.values()) for row in csv.DictReader(io.StringIO(content_of(self.path("path.csv"), "r")))]
+        found = [tuple(row.values()) for row in csv.DictReader(io.StringIO(content_of(self.path("of-ours.csv"), "r")))]
         self.assertGreater(len(found), 1000)
         self.assertEqual(found, expected)
 
@@ -56,11 +61,7 @@ class Examples(Case):
 
     def test_map(self):
         found = list(csv.DictReader(io.StringIO(self.printed("map"))))
-        source = (SOURCES / "examples" / "c" / "map.c").read_text(encoding="utf-8")
-        axes = re.search(r"AXES\[\] = \{(.*?)\}", source).group(1).replace('"', "").split(", ")
-        periods = re.search(r"run_periods = (\d+)", source).group(1)
-        self.good("sweep", "--set", f"run.periods={periods}", *(word for axis in axes for word in ("--over", axis)),
-                  "-o", self.path("map.db"))
+        self.by_the_program("map")
         rows = json.loads(self.good("export", self.path("map.db"), "--json"))
         self.assertEqual(len(found), len(rows))
         for line, row in zip(found, rows):
@@ -71,9 +72,7 @@ class Examples(Case):
 
     def test_branch(self):
         said = self.printed("branch")
-        status, out, err = festoon("branch", "--kind", "counter", "--over", "drive.omega=0.15:0.6", "--json")
-        self.assertEqual(status, 0, err)
-        branch = json.loads(out)
+        branch = json.loads(self.by_the_program("branch"))
         stable = sum(point["stable"] for point in branch["points"])
         self.assertIn(f"{len(branch['points'])} orbits on {branch['branches']} branches, {stable} of them stable", said)
         found = re.findall(r"^(\S+) at omega = (\S+) on branch (\d+), r = (\S+)$", said, re.M)

@@ -3,10 +3,11 @@
  *     cc -std=c11 branch.c $(pkg-config --cflags --libs festoon) -o branch
  *     ./branch
  *
- * The counter-rotating orbit is followed from omega = 0.15 to 0.6, stable or not, round its folds and along
- * what branches off.  Each point has its multipliers; where one of them passes 1 in absolute value, the special
- * point is located and named.  The same from the program: festoon branch --kind counter --over
- * drive.omega=0.15:0.6
+ * The counter-rotating orbit is followed from omega = 0.15 to 0.6, stable or not, round folds and along what
+ * branches off.  Each point has its multipliers; where one of them passes 1 in absolute value, the special
+ * point is located and named.  The program does the same by
+ *
+ *     festoon branch --kind counter --over drive.omega=0.15:0.6
  */
 #include <stdio.h>
 

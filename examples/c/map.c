@@ -4,9 +4,12 @@
  *     ./map > map.csv
  *
  * fst_rows() takes runs from a function of ours, does 4 or 8 at once in one thread (AVX2, AVX-512), and gives
- * each result to another function of ours.  Several threads may call it with the same source.  A row's numbers
- * depend on its parameters and on the form of arithmetic alone, not on the threads, nor on what runs beside it.
- * The same from the program, with a file that survives any interruption: festoon sweep --over ... -o map.db
+ * each result to another function of ours.  Several threads may call it with the same source of runs.  A row's
+ * numbers depend on its parameters and on the form of arithmetic alone: not on threads, nor on the runs beside
+ * it.  The program does the same into a file that survives any interruption:
+ *
+ *     festoon sweep --over drive.frequency=6Hz:20Hz:8 --over model.kappa=0.8,1,1.2 --set run.periods=120 -o
+ * map.db
  */
 #include <pthread.h>
 #include <stdatomic.h>

@@ -4,8 +4,10 @@
  *     ./run                            the paper's bead at 10.7 Hz
  *     ./run "642 rpm" path.csv         at another frequency, with its path in a file
  *
- * A setup is a struct of parameters in SI units; fst_run() simulates it and describes the motion.  The same
- * from the program: festoon run --set drive.frequency="642 rpm".
+ * A setup is a struct of parameters in SI units; fst_run() simulates it and describes the motion.  The program
+ * says the same by
+ *
+ *     festoon run --set drive.frequency="642 rpm" --csv path.csv
  */
 #include <stdio.h>
 
