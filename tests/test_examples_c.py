@@ -38,8 +38,8 @@ class Examples(Case):
     def by_the_program(self, name):
         """What the command that stands in the opening comment of an example prints."""
         text = (SOURCES / "examples" / "c" / (name + ".c")).read_text(encoding="utf-8")
-        words = re.search(r"^ \*     festoon (.*)$", text, re.M).group(1)
-        return self.good(*shlex.split(words), *([] if "-o" in words else ["--json"]), cwd=self.directory)
+        words = shlex.split(re.search(r"^ \*     festoon (.*)$", text, re.M).group(1))
+        return self.good(*words, *([] if "-o" in words else ["--json"]), cwd=self.directory)
 
     def test_run(self):
         said = self.printed("run", "642 rpm", "of-ours.csv")

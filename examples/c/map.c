@@ -8,8 +8,7 @@
  * numbers depend on its parameters and on the form of arithmetic alone: not on threads, nor on the runs beside
  * it.  The program does the same into a file that survives any interruption:
  *
- *     festoon sweep --over drive.frequency=6Hz:20Hz:8 --over model.kappa=0.8,1,1.2 --set run.periods=120 -o
- * map.db
+ *     festoon sweep --over drive.frequency=6Hz:20Hz:8 --over model.kappa=1,1.5 --set run.periods=120 -o map.db
  */
 #include <pthread.h>
 #include <stdatomic.h>
@@ -18,7 +17,7 @@
 
 #include <festoon/festoon.h>
 
-static const char *const AXES[] = {"drive.frequency=6Hz:20Hz:8", "model.kappa=0.8,1,1.2"};
+static const char *const AXES[] = {"drive.frequency=6Hz:20Hz:8", "model.kappa=1,1.5"};
 enum { AXIS_COUNT = sizeof AXES / sizeof *AXES, THREADS = 2 };
 
 typedef struct map {
