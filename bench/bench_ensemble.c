@@ -309,7 +309,7 @@ static void *make_references(void *part)
     for (*good = 1; i < CHECKED; i += 2) {
         point *p = &points[spread(i, CHECKED)];
         const fst_groups groups = fst_model_groups(p->model);
-        *good = *good && reference_state(&groups, p->start, p->t_end, 1e-15L, p->reference);
+        *good = *good && reference_state(&p->params, &groups, p->start, p->t_end, 1e-15L, p->reference);
     }
     return NULL;
 }

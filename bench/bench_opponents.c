@@ -197,7 +197,8 @@ static int prepare(const char *path)
         const fst_groups groups = fst_model_groups(job_model(trajectories[i]));
         double start[FST_STATE_SIZE];
         job_start(trajectories[i], start);
-        good = reference_state(&groups, start, job_end_time(trajectories[i]), 1e-16L, references[i]);
+        good = reference_state(job_params(trajectories[i]), &groups, start, job_end_time(trajectories[i]),
+                               1e-16L, references[i]);
         (void)fprintf(out, "%d,%d", i, POINTS);
         for (int k = 0; k < FST_STATE_SIZE; ++k)
             (void)fprintf(out, ",%.17g", references[i][k]);

@@ -160,8 +160,8 @@ int main(void)
     j.t_end = 200 * TWO_PI / p.drive_omega;
     const fst_groups groups = fst_model_groups(j.model);
     double coarser[FST_STATE_SIZE];
-    if (!reference_state(&groups, j.start, j.t_end, 1e-17L, j.reference) ||
-        !reference_state(&groups, j.start, j.t_end, 1e-15L, coarser))
+    if (!reference_state(&p, &groups, j.start, j.t_end, 1e-17L, j.reference) ||
+        !reference_state(&p, &groups, j.start, j.t_end, 1e-15L, coarser))
         return 1;
     printf("job: rigid, omega = 0.405, 200 drive periods, goal: final state within %.0e\n", GOAL);
     printf("long-double reference: its own error about %.1e\n", error_of(&j, coarser));

@@ -53,6 +53,11 @@ void job_rhs(const job_trajectory *trajectory, const double state[JOB_STATE_SIZE
     fst_rhs_double(&model->coefficients, model->coefficients.omega, state, derivative, &pull);
 }
 
+const fst_params *job_params(const job_trajectory *trajectory)
+{
+    return &trajectory->params;
+}
+
 const fst_model *job_model(const job_trajectory *trajectory)
 {
     return trajectory->model;

@@ -6,6 +6,7 @@
 
 #include "opponents_job.h"
 
+const fst_params *job_params(const job_trajectory *trajectory);
 const fst_model *job_model(const job_trajectory *trajectory);
 
 #endif

@@ -5,18 +5,16 @@
 
 #include "base/real_long_double.h"
 
-#include "model/coefficients.inl"
-#include "model/field.inl"
-#include "model/rhs.inl"
+#include "model/bodies.inl"
 #include "ode/bead_step.inl"
 
-int reference_state(const fst_groups *groups, const double state[FST_STATE_SIZE], long double t_end,
-                    long double tolerance, double end[FST_STATE_SIZE])
+int reference_state(const fst_params *params, const fst_groups *groups, const double state[FST_STATE_SIZE],
+                    long double t_end, long double tolerance, double end[FST_STATE_SIZE])
 {
     fst_bead_step_long_double s;
     long double atol[FST_STATE_SIZE], t = 0, lost = 0, h = 1e-3L;
     memset(&s, 0, sizeof s);
-    s.context.coefficients = fst_make_coefficients_long_double(groups);
+    s.context.coefficients = fst_make_coefficients_long_double(params, groups);
     s.omega = s.context.coefficients.omega;
     s.ramp = 0;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {

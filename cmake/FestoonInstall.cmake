@@ -12,6 +12,7 @@ string(REGEX REPLACE "/$" "" pkgconfig_to_prefix "${pkgconfig_to_prefix}")
 
 set(exported_libraries festoon_library)
 install(FILES include/festoon/festoon.h include/festoon/orbits.h include/festoon/params.def include/festoon/run.def
+    include/festoon/physics.def "${festoon_own_def}"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/festoon")
 configure_file(cmake/festoon.pc.in festoon.pc @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/festoon.pc" DESTINATION "${pkgconfig_dir}")

@@ -6,11 +6,7 @@
 
 #include "base/real_long_double.h"
 
-#include "model/coefficients.inl"
-#include "model/field.inl"
-#include "model/rhs.inl"
-#include "model/quantities.h"
-#include "model/observe.inl"
+#include "model/bodies.inl"
 
 /* CHECK_CLOSE of long doubles: their difference is taken before it is rounded. */
 #define CHECK_CLOSE_LD(actual, expected, tolerance) CHECK_CLOSE((double)((actual) - (expected)), 0.0, tolerance)
@@ -22,7 +18,7 @@ static inline coefficients_ld coefficients_of(const fst_params *p)
     fst_model *model = model_of(p);
     const fst_groups groups = fst_model_groups(model);
     fst_model_free(model);
-    return fst_make_coefficients_long_double(&groups);
+    return fst_make_coefficients_long_double(p, &groups);
 }
 
 /* Weights of the eighth-order central difference: f'(0) = sum of w_k (f(k d) - f(-k d))/d, error d^8/630 f^(9).

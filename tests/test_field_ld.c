@@ -14,11 +14,13 @@ static void differences_of_b(const coefficients_ld *c, const long double at[2], 
                 coefficients_ld moved = *c;
                 const long double step = sign * k * d;
                 if (j == 2)
-                    moved.height += step;
-                fst_field_values_long_double f;
-                fst_field_long_double(&moved, at[0] + (j == 0 ? step : 0), at[1] + (j == 1 ? step : 0), &f);
+                    moved.source.lines.height += step;
+                const long double x = at[0] + (j == 0 ? step : 0), y = at[1] + (j == 1 ? step : 0);
+                long double b[3];
+                fst_gradient_long_double unused;
+                fst_field_long_double(&moved, x, y, b, &unused);
                 for (int i = 0; i < 3; ++i)
-                    g[i][j] += sign * DIFFERENCE_WEIGHTS[k - 1] * f.b[i] / d;
+                    g[i][j] += sign * DIFFERENCE_WEIGHTS[k - 1] * b[i] / d;
             }
     }
 }
@@ -63,15 +65,16 @@ static void test_double_rounds_only(void **unused)
         const double x = uniform(&seed, -3, 3), y = uniform(&seed, -3, 3);
         double b[3], gradient[3][3];
         fst_field(model, x, y, b, gradient);
-        fst_field_values_long_double f;
-        fst_field_long_double(&c, x, y, &f);
+        long double exact[3];
+        fst_gradient_long_double g;
+        fst_field_long_double(&c, x, y, exact, &g);
         for (int i = 0; i < 3; ++i)
-            CHECK_CLOSE_LD(b[i], f.b[i], 1e-14);
-        CHECK_CLOSE_LD(gradient[0][0], f.gxx, 4e-14);
-        CHECK_CLOSE_LD(gradient[1][1], f.gyy, 4e-14);
-        CHECK_CLOSE_LD(gradient[0][1], f.gxy, 4e-14);
-        CHECK_CLOSE_LD(gradient[0][2], f.gxz, 4e-14);
-        CHECK_CLOSE_LD(gradient[1][2], f.gyz, 4e-14);
+            CHECK_CLOSE_LD(b[i], exact[i], 1e-14);
+        CHECK_CLOSE_LD(gradient[0][0], g.xx, 4e-14);
+        CHECK_CLOSE_LD(gradient[1][1], g.yy, 4e-14);
+        CHECK_CLOSE_LD(gradient[0][1], g.xy, 4e-14);
+        CHECK_CLOSE_LD(gradient[0][2], g.xz, 4e-14);
+        CHECK_CLOSE_LD(gradient[1][2], g.yz, 4e-14);
     }
     fst_model_free(model);
 }

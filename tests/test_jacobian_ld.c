@@ -1,9 +1,8 @@
-/* The Jacobian is a second writing of the physics: it must be the derivative of the right-hand side, for every
- * material, friction law and dynamics.  The derivative along a vector is a third: it must be the Jacobian times
- * the vector. */
-#include "physics_ld.h"
+/* The derivative of the equations of motion along a vector is the Jacobian times the vector, for every
+ * material, friction law and dynamics: against a Jacobian written by hand, entry by entry (jacobian_ld.h),
+ * which is itself held against differences of the right-hand side; and fst_jacobian() has the columns. */
+#include "jacobian_ld.h"
 
-#include "model/jacobian.inl"
 #include "model/tangent.inl"
 
 /* Column j of the derivative of the right-hand side, by differences. */
@@ -69,7 +68,7 @@ static void check_at(const fst_params *p, const fst_model *model, const double *
         y[i] = state[i];
     double jacobian[FST_STATE_SIZE][FST_STATE_SIZE];
     fst_jacobian(model, state, jacobian, NULL);
-    fst_jacobian_long_double(&c, c.omega, y, exact);
+    fst_jacobian_by_hand_long_double(&c, c.omega, y, exact);
     check_all_along(&c, y, exact);
     for (int j = 0; j < FST_STATE_SIZE; ++j) {
         long double column[FST_STATE_SIZE];

@@ -22,6 +22,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <festoon/physics.def>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -41,7 +43,7 @@ extern "C" {
 
 /* Changes when the same parameters give other bits than before: a sweep begun by another version is not
  * continued. */
-#define FST_RESULTS_VERSION 5
+#define FST_RESULTS_VERSION 6
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
@@ -76,8 +78,13 @@ typedef struct fst_error {
 /* ------------------------------------------------------------------ parameters */
 
 typedef enum { FST_MATERIAL_HARD, FST_MATERIAL_PARAMAGNETIC, FST_MATERIAL_MIXED } fst_material;
-typedef enum { FST_MAGNET_LINES } fst_magnet_shape;
-typedef enum { FST_FRICTION_VISCOUS, FST_FRICTION_NONE } fst_friction_law;
+/* A number for each row of physics.def: FST_MAGNET_LINES, ...; FST_FRICTION_VISCOUS, FST_FRICTION_NONE, ... */
+#define FST_SOURCE_ENUM(NAME, name, doc) FST_MAGNET_##NAME,
+#define FST_CONTACT_ENUM(NAME, name, modes, brakes, doc) FST_FRICTION_##NAME,
+typedef enum { FST_SOURCES(FST_SOURCE_ENUM) FST_MAGNET_SHAPES } fst_magnet_shape;
+typedef enum { FST_CONTACTS(FST_CONTACT_ENUM) FST_FRICTION_LAWS } fst_friction_law;
+#undef FST_SOURCE_ENUM
+#undef FST_CONTACT_ENUM
 typedef enum { FST_DYNAMICS_RIGID, FST_DYNAMICS_FARAGO2020 } fst_dynamics;
 typedef enum { FST_SPIN_ROLLING, FST_SPIN_REST } fst_start_spin;
 
@@ -186,6 +193,7 @@ typedef struct fst_groups {
     double gravity; /* g/(l gamma^2) */
     double plate_radius;
     int lines;
+    fst_magnet_shape shape;
     fst_material material;
     fst_friction_law friction;
     fst_dynamics dynamics;

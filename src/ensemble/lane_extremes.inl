@@ -17,12 +17,11 @@ static void set_aside(const void *memory, int lane, int record, void *to_memory,
     const FN(bead_step) *from = &b->step;
     FN(coefficients) *c = &to->step.context.coefficients;
     const FN(coefficients) *d = &from->context.coefficients;
-    c->lines = d->lines;
-    c->magnetisable = d->magnetisable;
-    c->gyroscopic_term_lost = d->gyroscopic_term_lost;
-    const REAL *reals = &d->eps;
-    for (int i = 0; i < (int)((const REAL *)(d + 1) - reals); ++i)
-        (&c->eps)[i][slot] = reals[i][lane];
+    c->kinds = d->kinds;
+    double *wide = (double *)((char *)c + offsetof(FN(coefficients), eps));
+    const double *whose = (const double *)((const char *)d + offsetof(FN(coefficients), eps));
+    for (int i = 0; i < COEFFICIENTS; ++i)
+        wide[i * FST_LANES + slot] = whose[i * FST_LANES + lane];
     to->step.h[slot] = from->h[lane];
     to->step.omega[slot] = from->omega[lane];
     static const int needed[] = {0, 5, 6, 7, 8, 9, 10, 11, 12}; /* by the dense output */

@@ -5,10 +5,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "model/coefficients.inl"
-#include "model/field.inl"
-#include "model/rhs.inl"
-#include "model/observe.inl"
+#include "model/bodies.inl"
 #include "ode/bead_step.inl"
 #include "ode/summit.inl"
 #include "ode/tangent_step.inl"
@@ -69,28 +66,20 @@ static void view(void *memory, fst_lane_view *v)
 
 /* ------------------------------------------------------------------ in and out */
 
-/* The members of the model's wide structs, in the order of their scalar twins. */
+/* The coefficients' REALs begin at `eps` in both, and follow each other in one order. */
+enum {
+    COEFFICIENTS = (sizeof(fst_coefficients_double) - offsetof(fst_coefficients_double, eps)) / sizeof(double)
+};
+_Static_assert(sizeof(FN(coefficients)) - offsetof(FN(coefficients), eps) == COEFFICIENTS * sizeof(REAL),
+               "the model's wide and scalar coefficients have the same members");
+
 static void load_coefficients(FN(coefficients) * to, int lane, const fst_coefficients_double *from)
 {
-    to->lines = from->lines;
-    to->magnetisable = from->magnetisable;
-    to->gyroscopic_term_lost = from->gyroscopic_term_lost;
-#define LOAD(member) to->member[lane] = from->member
-    LOAD(eps);
-    LOAD(height);
-    LOAD(spacing);
-    LOAD(first_line);
-    LOAD(line_strength);
-    LOAD(hard);
-    LOAD(hard_over_eps);
-    LOAD(twice_a);
-    LOAD(twice_b);
-    LOAD(torque);
-    LOAD(traction);
-    LOAD(friction);
-    LOAD(gravity);
-    LOAD(omega);
-#undef LOAD
+    const double *numbers = (const double *)((const char *)from + offsetof(fst_coefficients_double, eps));
+    double *wide = (double *)((char *)to + offsetof(FN(coefficients), eps));
+    to->kinds = from->kinds;
+    for (int i = 0; i < COEFFICIENTS; ++i)
+        wide[i * FST_LANES + lane] = numbers[i];
 }
 
 static void load_pull(FN(pull) * to, int lane, const fst_flow *flow)
@@ -102,13 +91,14 @@ static void load_pull(FN(pull) * to, int lane, const fst_flow *flow)
     }
     to->strength[lane] = from->strength;
 #ifdef FIELD_KEEPS_GRADIENT
-    fst_field_values_double field;
-    fst_field_double(&flow->step.context.coefficients, flow->step.y[FST_X], flow->step.y[FST_Y], &field);
-    to->gradient.xx[lane] = field.gxx;
-    to->gradient.yy[lane] = field.gyy;
-    to->gradient.xy[lane] = field.gxy;
-    to->gradient.xz[lane] = field.gxz;
-    to->gradient.yz[lane] = field.gyz;
+    double b[3];
+    fst_gradient_double g;
+    fst_field_double(&flow->step.context.coefficients, flow->step.y[FST_X], flow->step.y[FST_Y], b, &g);
+    to->gradient.xx[lane] = g.xx;
+    to->gradient.yy[lane] = g.yy;
+    to->gradient.xy[lane] = g.xy;
+    to->gradient.xz[lane] = g.xz;
+    to->gradient.yz[lane] = g.yz;
 #endif
 }
 
@@ -402,7 +392,7 @@ static unsigned may_end(const batch *b)
     REAL least = R(INFINITY), greatest = R(-INFINITY), farthest2 = R(0.0);
     for (int n = 0; n < FST_PATH_STAGES; ++n) {
         const int j = FST_PATH_STAGE[n];
-        const REAL load = s->context.coefficients.gravity - s->context.pull[j].force[2];
+        const REAL load = FN(load)(&s->context.coefficients, s->context.pull[j].force);
         least = -REAL_MAX(-load, -least);
         greatest = REAL_MAX(load, greatest);
         farthest2 = REAL_MAX(s->stage[j][0] * s->stage[j][0] + s->stage[j][1] * s->stage[j][1], farthest2);

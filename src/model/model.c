@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "model/params.h"
 
-#include "model/jacobian.inl"
+#include "model/tangent.inl"
 
 static const double TWO_PI = 6.283185307179586476925287;
 
@@ -44,6 +44,24 @@ static void set_geometry(const fst_params *p, fst_groups *g)
         g->lambda = p->magnet_width / ((p->magnet_lines - 1) * l);
 }
 
+/* Whether the field has the symmetry S2, which is asked of the field itself, at places that no other symmetry
+ * maps onto each other. */
+static int field_has_s2(const fst_coefficients_double *c)
+{
+    static const double places[][2] = {{0.31, 0.17}, {0.83, -0.59}, {-0.44, 1.07}, {1.63, 0.26}};
+    for (size_t i = 0; i < sizeof places / sizeof *places; ++i) {
+        const double x = places[i][0], y = places[i][1], u[3] = {0.0};
+        double here[3], there[3], unused[3];
+        fst_field_along_double(c, x, y, u, here, unused);
+        fst_field_along_double(c, -x, -y, u, there, unused);
+        const double size = fabs(here[0]) + fabs(here[1]) + fabs(here[2]);
+        for (int k = 0; k < 3; ++k)
+            if (!(fabs(there[k] - (k == 2 ? -here[k] : here[k])) <= 1e-9 * size))
+                return 0;
+    }
+    return 1;
+}
+
 fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
 {
     *model = NULL;
@@ -58,6 +76,7 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
     g.omega = isnan(params->drive_omega) ? TWO_PI * params->drive_frequency / gamma : params->drive_omega;
     g.gravity = params->plate_gravity / (g.length_unit * (gamma * gamma));
     g.plate_radius = params->plate_radius / g.length_unit;
+    g.shape = (fst_magnet_shape)params->magnet_shape;
     g.material = (fst_material)params->bead_material;
     g.friction = (fst_friction_law)params->friction_law;
     g.dynamics = (fst_dynamics)params->model_dynamics;
@@ -71,7 +90,8 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
     if (!made)
         return fst_fail(error, FST_NO_MEMORY, "fst_model_new", "out of memory");
     made->groups = g;
-    made->coefficients = fst_make_coefficients_double(&g);
+    made->coefficients = fst_make_coefficients_double(params, &g);
+    made->has_s2 = field_has_s2(&made->coefficients);
     *model = made;
     return FST_OK;
 }
@@ -88,11 +108,10 @@ fst_groups fst_model_groups(const fst_model *model)
 
 void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3])
 {
-    fst_field_values_double f;
-    fst_field_double(&model->coefficients, x, y, &f);
-    memcpy(b, f.b, sizeof f.b);
-    const double g[3][3] = {{f.gxx, f.gxy, f.gxz}, {f.gxy, f.gyy, f.gyz}, {f.gxz, f.gyz, -(f.gxx + f.gyy)}};
-    memcpy(grad, g, sizeof g);
+    fst_gradient_double g;
+    fst_field_double(&model->coefficients, x, y, b, &g);
+    const double all[3][3] = {{g.xx, g.xy, g.xz}, {g.xy, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
+    memcpy(grad, all, sizeof all);
 }
 
 void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE], double derivative[FST_STATE_SIZE])
@@ -167,16 +186,17 @@ fst_status fst_start_state(const fst_params *params, const fst_model *model, dou
         return fst_fail(error, FST_BAD_INPUT, "start.r",
                         "start.r = %g lies beyond the plate's edge at %g: choose a smaller start.r", r,
                         g->plate_radius);
-    fst_field_values_double f;
-    fst_field_double(&model->coefficients, state[FST_X], state[FST_Y], &f);
-    const double b = sqrt(f.b[0] * f.b[0] + f.b[1] * f.b[1] + f.b[2] * f.b[2]);
-    if (!(b > 1e-150))
+    fst_gradient_double gradient;
+    double b[3];
+    fst_field_double(&model->coefficients, state[FST_X], state[FST_Y], b, &gradient);
+    const double norm = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+    if (!(norm > 1e-150))
         return fst_fail(
             error, FST_BAD_INPUT, "start.r",
             "the magnet's field vanishes at the start, so n = B/|B| does not exist there: move start.r "
             "or start.phi");
     for (int i = 0; i < 3; ++i)
-        state[FST_NX + i] = f.b[i] / b;
+        state[FST_NX + i] = b[i] / norm;
     if (params->start_spin == FST_SPIN_REST)
         return FST_OK;
     const double gap = r - g->eps;

@@ -4,16 +4,13 @@
 
 #include <festoon/festoon.h>
 #include "base/real_double.h"
-#include "model/quantities.h"
 
-#include "model/coefficients.inl"
-#include "model/field.inl"
-#include "model/rhs.inl"
-#include "model/observe.inl"
+#include "model/bodies.inl"
 
 struct fst_model {
     fst_groups groups;
     fst_coefficients_double coefficients;
+    int has_s2; /* whether the magnet's field has the symmetry S2: B(-X, -Y) = (B_X, B_Y, -B_Z)(X, Y) */
 };
 
 /* The angle between n and B from gap2 = |n - B/|B||^2, rad. */

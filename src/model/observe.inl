@@ -10,7 +10,7 @@ typedef struct FN(seen) {
     REAL gap2;                      /* |n - B/|B||^2 = 2 (1 - cos angle), accurate for small angles */
     REAL v_r, v_alpha, centrifugal; /* v_alpha^2/r */
     REAL slip_r, slip_alpha, slip2;
-    REAL friction_power;       /* f.V */
+    REAL friction_power;       /* taken by the contact law: f.V */
     REAL spin;                 /* W.n */
     REAL force_r, force_alpha; /* magnetic */
     REAL load;
@@ -46,16 +46,16 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
 #else
     o->centrifugal = o->v_alpha * o->v_alpha / (o->r + R(1e-290));
 #endif
-    const REAL slip_x = REAL_NEGMULADD(c->eps, w[1], v[0]), slip_y = REAL_MULADD(c->eps, w[0], v[1]);
-    o->slip_r = SUM_2(slip_x, ex, slip_y, ey);
-    o->slip_alpha = REAL_MULSUB(slip_y, ex, slip_x * ey);
-    o->slip2 = SUM_2(slip_x, slip_x, slip_y, slip_y);
-    o->friction_power = c->friction * o->slip2;
+    const FN(contact) contact = FN(contact_of)(c, y, p);
+    const REAL *slip = contact.slip;
+    o->slip_r = SUM_2(slip[0], ex, slip[1], ey);
+    o->slip_alpha = REAL_MULSUB(slip[1], ex, slip[0] * ey);
+    o->slip2 = SUM_2(slip[0], slip[0], slip[1], slip[1]);
+    o->friction_power = FN(friction_loss)(&c->law, &c->kinds, &contact);
+    o->load = contact.load;
     o->spin = SUM_3(w[0], n[0], w[1], n[1], w[2], n[2]);
     o->force_r = SUM_2(p->force[0], ex, p->force[1], ey);
     o->force_alpha = REAL_MULSUB(p->force[1], ex, p->force[0] * ey);
-    /* Normal load: weight and the magnet's pull, g + dU/dz = g - F_z. */
-    o->load = c->gravity - p->force[2];
     /* Drive power dU/dt at fixed x, n, W: omega e.(x x F + tau). */
     const REAL twist = REAL_MULSUB(n[0], p->b[1], n[1] * p->b[0]);
     o->drive_power = omega * SUM_2(o->r, o->force_alpha, p->strength, twist);
@@ -70,7 +70,7 @@ static inline REAL FN(energy)(const FN(coefficients) * c, const REAL *y, const F
     const REAL kinetic = R(0.5) * (v[0] * v[0] + v[1] * v[1]) +
                          R(0.2) * (c->eps * c->eps) * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
     REAL magnetic = c->hard * n_dot_b;
-    if (c->magnetisable)
+    if (c->kinds.magnetisable)
         magnetic = magnetic + R(0.5) * (c->twice_a * b2 + c->twice_b * (n_dot_b * n_dot_b));
     return kinetic - magnetic;
 }

@@ -1,5 +1,5 @@
-/* bead_step.inl - the integrator's step applied to the bead, over REAL; the including file brings the bodies
- * coefficients.inl, field.inl and rhs.inl first. */
+/* bead_step.inl - the integrator's step applied to the bead, over REAL; the including file brings
+ * model/bodies.inl first. */
 #include "ode/dop853_tableau.h"
 
 typedef struct FN(bead) {

@@ -20,7 +20,7 @@ double fst_edge_function(const fst_flow *flow, const double *state, const fst_pu
 double fst_load_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
     (void)state;
-    return flow->step.context.coefficients.gravity - p->force[2];
+    return fst_load_double(&flow->step.context.coefficients, p->force);
 }
 
 double fst_flow_function_at(fst_flow *flow, double x, fst_state_function function)

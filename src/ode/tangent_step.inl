@@ -1,5 +1,5 @@
 /* tangent_step.inl - the integrator's step applied to the bead and one tangent vector, over REAL; the including
- * file brings the bodies coefficients.inl, field.inl and rhs.inl, and bead_step.inl for what follows a step.
+ * file brings model/bodies.inl, and bead_step.inl for what follows a step.
  *
  * The state comes first, the tangent vector after it; its derivative is that of the right-hand side along it.
  */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "model/jacobian.inl"
+#include "model/tangent.inl"
 #include "ode/bead_step.inl"
 
 /* ------------------------------------------------------------------ the state with its tangents */
@@ -27,30 +27,27 @@ static void bundle_rhs(const bundle_context *context, const double *y, double *d
 
 #include "ode/dop853.inl"
 
-/* One Jacobian serves all columns; its zeros, four fifths of it, are skipped. */
+/* The field at the place serves all columns. */
 static void bundle_rhs(const bundle_context *context, const double *y, double *dy)
 {
     const fst_setup *setup = context->setup;
     const fst_coefficients_double *c = &setup->model.coefficients;
-    fst_pull_double pull;
-    double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], by[FST_STATE_SIZE] = {0};
-    fst_rhs_double(c, c->omega, y, dy, &pull);
-    fst_jacobian_double(c, c->omega, y, jacobian);
+    const double *columns = y + FST_STATE_SIZE;
+    double *changes = dy + FST_STATE_SIZE;
+    double tangent[FST_STATE_SIZE], change[FST_STATE_SIZE], by[FST_STATE_SIZE] = {0};
+    fst_linear_double linear;
+    fst_linearise_double(c, c->omega, y, &linear, dy);
     if (setup->differs)
         fst_setup_by_parameter(setup, y, by);
-    for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        double sum[FST_COLUMNS] = {0};
-        sum[FST_COLUMNS - 1] = by[i];
-        for (int k = 0; k < FST_STATE_SIZE; ++k) {
-            const double a = jacobian[i][k];
-            if (a == 0.0)
-                continue;
-            const double *row = y + FST_STATE_SIZE + k * FST_COLUMNS;
-            for (int column = 0; column < FST_COLUMNS; ++column)
-                sum[column] += a * row[column];
-        }
-        memcpy(dy + FST_STATE_SIZE + i * FST_COLUMNS, sum, sizeof sum);
+    for (int column = 0; column < FST_COLUMNS; ++column) {
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            tangent[i] = columns[i * FST_COLUMNS + column];
+        fst_change_along_double(c, c->omega, y, &linear, tangent, change);
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            changes[i * FST_COLUMNS + column] = change[i];
     }
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        changes[i * FST_COLUMNS + FST_COLUMNS - 1] += by[i];
 }
 
 /* A tried step is accepted: its end is the start of the next. */

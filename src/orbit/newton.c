@@ -178,6 +178,9 @@ static fst_status segment_equations(const fst_family *family, const fst_setup *s
 static fst_status orbit_equations(const fst_family *family, const fst_setup *setup, fst_solution *s,
                                   fst_newton_system *l, fst_error *error)
 {
+    if (s->symmetric && !setup->model.has_s2)
+        return fst_fail(error, FST_NO_CONVERGENCE, "Newton's method",
+                        "the magnet is not its own image under half a turn, so no orbit is");
     l->rows = FST_TANGENT_SIZE * s->segments + 1;
     l->size = l->rows + 1;
     memset(s->map, 0, sizeof s->map);

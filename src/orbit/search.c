@@ -25,7 +25,8 @@ typedef struct search {
     const fst_family *family; /* with no free parameter */
     fst_model *model;
     fst_flow *flow;
-    double section[3][FST_STATE_SIZE]; /* the latest passages of X = 0, on the side Y > 0 (images under S2) */
+    double section[3][FST_STATE_SIZE]; /* the latest passages of X = 0, on the side Y > 0 (images under S2);
+                                          where the magnet has not that symmetry, on either side */
     double section_time[3];
     int section_is_image; /* the latest is one: the bead was on the side Y < 0 */
     int passages;         /* since the turning was last irregular */
@@ -148,7 +149,7 @@ static void choose_conjugate(const search *s, fst_solution *orbit)
 
 static int try_turning(search *s, fst_solution *out, fst_error *error)
 {
-    for (int symmetric = 1; symmetric >= 0; --symmetric) {
+    for (int symmetric = s->model->has_s2; symmetric >= 0; --symmetric) {
         /* Towards a symmetric orbit the half map often alternates, and whole returns look closer than half
          * ones. */
         const double gap = symmetric ? s->half_distance : s->full_distance;
@@ -161,7 +162,7 @@ static int try_turning(search *s, fst_solution *out, fst_error *error)
         out->y[0][FST_X] = 0.0;
         out->period = s->section_time[0] - s->section_time[symmetric ? 1 : 2];
         if (polish(s, out, gap, error)) {
-            if (!symmetric)
+            if (!symmetric && s->model->has_s2)
                 prefer_symmetric(s, out);
             if (!out->symmetric && 1.0 - greatest_multiplier(out) < RESOLVED)
                 continue;
@@ -216,14 +217,14 @@ static int note_passage(search *s)
     s->peaks_since = 0;
     s->passages = downward && half != s->last_half ? s->passages + 1 : 1;
     s->last_half = downward ? half : 0;
-    s->section_is_image = half < 0;
-    if (half < 0)
+    s->section_is_image = half < 0 && s->model->has_s2;
+    if (s->section_is_image)
         fst_apply_s2(y, y);
     memmove(s->section[1], s->section[0], 2 * sizeof s->section[0]);
     memmove(s->section_time + 1, s->section_time, 2 * sizeof s->section_time[0]);
     memcpy(s->section[0], y, sizeof y);
     s->section_time[0] = fst_flow_time(s->flow, x).high;
-    s->half_distance = s->passages > 1 ? distance(s->section[0], s->section[1]) : INFINITY;
+    s->half_distance = s->passages > 1 && s->model->has_s2 ? distance(s->section[0], s->section[1]) : INFINITY;
     s->full_distance = s->passages > 2 ? distance(s->section[0], s->section[2]) : INFINITY;
     return s->passages > 3;
 }

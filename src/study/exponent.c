@@ -119,7 +119,7 @@ static void take_up_way(crew *c, int l, fst_exponent *asked)
 static void begin(crew *c, int l, fst_exponent *asked)
 {
     double y[FST_TANGENT_DIM], atol[FST_TANGENT_DIM];
-    const double loosest = asked->coefficients->friction > 0 ? LOOSEST : LOOSEST_WITHOUT_FRICTION;
+    const double loosest = fst_kinds_brake(&asked->coefficients->kinds) ? LOOSEST : LOOSEST_WITHOUT_FRICTION;
     const double rtol = asked->rtol > loosest ? asked->rtol : loosest;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
         y[i] = asked->state[i];

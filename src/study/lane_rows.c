@@ -67,12 +67,10 @@ static int at_work(const fst_crew *c)
     return on_their_way(c) + c->parked_count;
 }
 
-/* Whether a model can share the batches with those at work: the integers of its coefficients are the same. */
+/* Whether a model can share the batches with those at work. */
 static int fits(const fst_crew *c, const fst_model *model)
 {
-    const fst_coefficients_double *a = &c->kind, *b = &model->coefficients;
-    return at_work(c) == 0 || (a->lines == b->lines && a->magnetisable == b->magnetisable &&
-                               a->gyroscopic_term_lost == b->gyroscopic_term_lost);
+    return at_work(c) == 0 || fst_kinds_equal(&c->kind.kinds, &model->coefficients.kinds);
 }
 
 typedef enum { BEGUN, REFUSED, FAILED } beginning;

@@ -103,7 +103,7 @@ static fst_status test_chaos(fst_run_state *run, fst_run_result *result, chaos *
     result->rhs_calls += run->exponent.rhs_calls;
     result->largest_exponent = exponent;
     result->largest_exponent_error = standard_error;
-    const int friction = run->flow->step.context.coefficients.friction > 0;
+    const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
     const double growth = exponent * run->exponent.duration;
     const double quiet = friction ? QUIET : QUIET_WITHOUT_FRICTION;
     *found = exponent > SIGNIFICANT * run->exponent.chance && growth > GROWTH ? CHAOTIC
@@ -185,7 +185,7 @@ static fst_status decide_open(fst_run_state *run, fst_run_result *result, double
                hidden.what, hidden.change, hidden.turns, hidden.mean, hidden.noise);
         return FST_OK;
     }
-    const int friction = run->flow->step.context.coefficients.friction > 0;
+    const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
     if (run->returns.crossings < (friction ? LEAST_OPEN_CROSSINGS : LEAST_CROSSINGS_WITHOUT_FRICTION)) {
         REASON("Phi turned regularly %lld times, but the orbit has not closed (whole returns differ by %.2g): "
                "run longer",
@@ -303,7 +303,7 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
     const fst_status status = test_chaos(run, result, &found, error);
     if (status != FST_OK || found != REGULAR)
         return status;
-    const int friction = run->flow->step.context.coefficients.friction > 0;
+    const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
     if (!friction && run->greatest_phi - run->least_phi > WIDE &&
         marks->offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
         REASON("Phi stays within %.4g rad, but nothing damps so wide a motion, which may turn out chaotic: run "

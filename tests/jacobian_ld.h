@@ -1,10 +1,14 @@
-/* jacobian.inl - the exact Jacobian of the equations of motion (rhs.inl), over REAL.
+/* jacobian_ld.h - the Jacobian of the equations of motion (model/dynamics.inl) once more, entry by entry: what
+ * the library's own, the columns of which are tangents, is held against.
  *
- * A second writing of the physics; a test holds it against differences of the right-hand side in long double.
- * The field enters with its second derivatives,
- *     T_ijk = dG_ij/dx_k = sum of s [ -3 (delta_ij d_k + delta_ik d_j + delta_jk d_i)/d^5 + 15 d_i d_j d_k/d^7
- * ].
+ * A second writing of the physics, of the lines and of the laws `viscous` and `none`, by charges and indices.
+ * The field enters with its second derivatives, T_ijk = dG_ij/dx_k = sum of s [ -3 (delta_ij d_k + delta_ik d_j
+ * + delta_jk d_i)/d^5 + 15 d_i d_j d_k/d^7 ].
  */
+#ifndef FST_TESTS_JACOBIAN_LD_H
+#define FST_TESTS_JACOBIAN_LD_H
+
+#include "physics_ld.h"
 
 /* B, the full matrix G, and T restricted to k = x, y (the bead stays on the plate). */
 typedef struct FN(field_derivatives) {
@@ -44,11 +48,12 @@ static inline void FN(field_with_derivatives)(const FN(coefficients) * c, REAL x
         for (int j = 0; j < 3; ++j)
             out->g[i][j] = out->t[i][j][0] = out->t[i][j][1] = zero;
     }
-    for (int line = 0; line < c->lines; ++line) {
-        const REAL dy = y - R(0.5) * REAL_OF(2 * line - c->lines + 1) * c->spacing;
-        const REAL to_plus[3] = {x - R(1.0), dy, c->height}, to_minus[3] = {x + R(1.0), dy, c->height};
-        FN(add_charge)(out, c->line_strength, to_plus);
-        FN(add_charge)(out, -c->line_strength, to_minus);
+    const FN(lines) *lines = &c->source.lines;
+    for (int line = 0; line < c->kinds.pieces; ++line) {
+        const REAL dy = y - R(0.5) * REAL_OF(2 * line - c->kinds.pieces + 1) * lines->spacing;
+        const REAL to_plus[3] = {x - R(1.0), dy, lines->height}, to_minus[3] = {x + R(1.0), dy, lines->height};
+        FN(add_charge)(out, lines->strength, to_plus);
+        FN(add_charge)(out, -lines->strength, to_minus);
     }
 }
 
@@ -110,12 +115,9 @@ static inline void FN(lost_term_jacobian)(const REAL *n, const REAL *w, REAL j[F
 }
 
 /* jacobian[i][j] = d(y'_i)/d(y_j) at the drive `omega`. */
-static inline void FN(jacobian)(const FN(coefficients) * c, REAL omega, const REAL *y,
-                                REAL j[FST_STATE_SIZE][FST_STATE_SIZE])
+static inline void FN(jacobian_by_hand)(const FN(coefficients) * c, REAL omega, const REAL *y,
+                                        REAL j[FST_STATE_SIZE][FST_STATE_SIZE])
 {
-#ifdef FST_COUNT_EVALUATION
-    FST_COUNT_EVALUATION(); /* as in rhs.inl */
-#endif
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         for (int k = 0; k < FST_STATE_SIZE; ++k)
             j[i][k] = R(0.0);
@@ -136,27 +138,18 @@ static inline void FN(jacobian)(const FN(coefficients) * c, REAL omega, const RE
         j[FST_NX + i][FST_NX + l] = j[FST_NX + i][FST_NX + l] + w[k];
         j[FST_NX + i][FST_NX + k] = j[FST_NX + i][FST_NX + k] - w[l];
     }
+    const REAL friction = c->kinds.contact == FST_FRICTION_VISCOUS ? R(1.0) : R(0.0);
     /* Friction: f_x = vX - eps WY, f_y = vY + eps WX; v' = -f, W' = traction e x f. */
-    j[FST_VX][FST_VX] = -c->friction;
-    j[FST_VX][FST_WY] = c->friction * c->eps;
-    j[FST_VY][FST_VY] = -c->friction;
-    j[FST_VY][FST_WX] = -(c->friction * c->eps);
-    j[FST_WX][FST_VY] = -(c->friction * c->traction);
-    j[FST_WX][FST_WX] = -(c->friction * R(2.5));
-    j[FST_WY][FST_VX] = c->friction * c->traction;
-    j[FST_WY][FST_WY] = -(c->friction * R(2.5));
-    if (c->gyroscopic_term_lost)
+    j[FST_VX][FST_VX] = -friction;
+    j[FST_VX][FST_WY] = friction * c->eps;
+    j[FST_VY][FST_VY] = -friction;
+    j[FST_VY][FST_WX] = -(friction * c->eps);
+    j[FST_WX][FST_VY] = -(friction * c->traction);
+    j[FST_WX][FST_WX] = -(friction * R(2.5));
+    j[FST_WY][FST_VX] = friction * c->traction;
+    j[FST_WY][FST_WY] = -(friction * R(2.5));
+    if (c->kinds.gyroscopic_term_lost)
         FN(lost_term_jacobian)(n, w, j);
 }
 
-/* d(y')/d(omega) = -e x (.) of every vector. */
-static inline void FN(rhs_by_omega)(const REAL *y, REAL *out)
-{
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        out[i] = R(0.0);
-    for (int q = 0; q < 4; ++q) {
-        const int first = q == 0 ? FST_X : q == 1 ? FST_VX : q == 2 ? FST_NX : FST_WX;
-        out[first] = y[first + 1];
-        out[first + 1] = -y[first];
-    }
-}
+#endif

@@ -1,0 +1,13 @@
+/* bodies.inl - the model over REAL: its bodies in the order in which they build on each other.
+ *
+ * The including file says which kind of number REAL is (base/real_double.h, base/wide.h, ...).  The derivative
+ * of all this along a direction, tangent.inl, is included where it is needed.
+ */
+#include "model/kinds.h"
+#include "model/quantities.h"
+
+#include "model/source/sources.inl"
+#include "model/contact/contacts.inl"
+#include "model/coefficients.inl"
+#include "model/dynamics.inl"
+#include "model/observe.inl"

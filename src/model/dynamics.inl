@@ -1,0 +1,202 @@
+/* dynamics.inl - the bead's equations of motion, over REAL.
+ *
+ * In components along the axes that turn with the magnet at omega (e: the vertical), with the contact point's
+ * velocity V = v - eps W x e, the magnetic force F, torque tau and friction -f per mass:
+ *
+ *     x' = v                                           - omega e x x
+ *     v' = F - f                                       - omega e x v
+ *     n' = W x n                                       - omega e x n
+ *     W' = 5/(2 eps^2) tau + 5/(2 eps) e x f           - omega e x W   [+ (W.n) W x n : farago2020]
+ *
+ * The source gives B and its gradient (source/sources.inl), the contact law f (contact/contacts.inl).
+ *
+ * A hard magnet has F = kappa eps^2 (n.grad)B and tau = kappa eps^2 n x B (paper, Eqs. (r), (sigz) and, with
+ * the gyroscopic term that it lacks, (nseconde)).  Magnetisable beads of energy -kappa eps^2 n.B - a B^2 - b
+ * (n.B)^2: F = s G n + 2 a G B and tau = s n x B with s = kappa eps^2 + 2 b (n.B). The last line is what
+ * Lagrange's equations give if psi' = W.n is taken for the derivative of a coordinate, as the paper does; it
+ * turns no energy over.
+ */
+
+/* What the magnet does to a bead of direction n: field, force per mass (its third component is what lifts the
+ * bead), and the strength s. */
+typedef struct FN(pull) {
+    REAL b[3], force[3], strength;
+#ifdef FIELD_KEEPS_GRADIENT
+    FN(gradient) gradient;
+#endif
+} FN(pull);
+
+/* a x b */
+static inline void FN(cross)(const REAL a[3], const REAL b[3], REAL out[3])
+{
+    out[0] = REAL_MULSUB(a[1], b[2], a[2] * b[1]);
+    out[1] = REAL_MULSUB(a[2], b[0], a[0] * b[2]);
+    out[2] = REAL_MULSUB(a[0], b[1], a[1] * b[0]);
+}
+
+/* ------------------------------------------------------------------ the magnet */
+
+/* B and G u at (x, y). */
+static inline void FN(field_along)(const FN(coefficients) * c, REAL x, REAL y, const REAL u[3], REAL b[3],
+                                   REAL gu[3])
+{
+    FN(source_along)(&c->source, &c->kinds, x, y, u, b, gu);
+}
+
+/* B and the whole gradient there, for reading. */
+static inline void FN(field)(const FN(coefficients) * c, REAL x, REAL y, REAL b[3], FN(gradient) * g)
+{
+    const REAL ex[3] = {R(1.0), R(0.0), R(0.0)}, ey[3] = {R(0.0), R(1.0), R(0.0)};
+    REAL gx[3], gy[3];
+    FN(field_along)(c, x, y, ex, b, gx);
+    FN(field_along)(c, x, y, ey, b, gy);
+    g->xx = gx[0];
+    g->yy = gy[1];
+    g->xy = gx[1];
+    g->xz = gx[2];
+    g->yz = gy[2];
+}
+
+/* G u at the place (x, y) of a pull: of its gradient where that was kept, else by another pass. */
+static inline void FN(gradient_along)(const FN(coefficients) * c, REAL x, REAL y, const FN(pull) * p,
+                                      const REAL u[3], REAL gu[3])
+{
+#ifdef FIELD_KEEPS_GRADIENT
+    (void)c, (void)x, (void)y;
+    FN(times_gradient)(&p->gradient, u, gu);
+#else
+    (void)p;
+    REAL b[3];
+    FN(field_along)(c, x, y, u, b, gu);
+#endif
+}
+
+static inline void FN(magnetic_pull)(const FN(coefficients) * c, const REAL *state, FN(pull) * p)
+{
+#ifdef FST_COUNT_EVALUATION
+    FST_COUNT_EVALUATION(); /* in a library that a test has made for itself */
+#endif
+    const REAL x = state[FST_X], y = state[FST_Y], *n = state + FST_NX;
+    REAL gn[3];
+#ifdef FIELD_KEEPS_GRADIENT
+    FN(local_field) at;
+    FN(source_look)(&c->source, &c->kinds, x, y, &at);
+    for (int i = 0; i < 3; ++i)
+        p->b[i] = at.b[i];
+    p->gradient = at.gradient;
+    FN(times_gradient)(&p->gradient, n, gn);
+#else
+    FN(field_along)(c, x, y, n, p->b, gn);
+#endif
+    p->strength = c->hard;
+    if (!c->kinds.magnetisable) {
+        for (int i = 0; i < 3; ++i)
+            p->force[i] = p->strength * gn[i];
+        return;
+    }
+    p->strength = p->strength + c->twice_b * SUM_3(n[0], p->b[0], n[1], p->b[1], n[2], p->b[2]);
+    REAL gb[3];
+    FN(gradient_along)(c, x, y, p, p->b, gb);
+    for (int i = 0; i < 3; ++i)
+        p->force[i] = p->strength * gn[i] + c->twice_a * gb[i];
+}
+
+/* ------------------------------------------------------------------ the contact */
+
+/* Normal load per mass: the weight less the magnet's vertical force, N = g + dU/dz = g - F_z. */
+static inline REAL FN(load)(const FN(coefficients) * c, const REAL force[3])
+{
+    return c->gravity - force[2];
+}
+
+/* V = v - eps W x e: linear, so that it is also how V changes with v and W. */
+static inline void FN(slip)(const FN(coefficients) * c, const REAL *y, REAL slip[2])
+{
+    const REAL *v = y + FST_VX, *w = y + FST_WX;
+    slip[0] = REAL_NEGMULADD(c->eps, w[1], v[0]);
+    slip[1] = REAL_MULADD(c->eps, w[0], v[1]);
+}
+
+static inline FN(contact) FN(contact_of)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p)
+{
+    FN(contact) at;
+    FN(slip)(c, y, at.slip);
+    at.load = FN(load)(c, p->force);
+    return at;
+}
+
+/* ------------------------------------------------------------------ the motion */
+
+/* The derivatives that follow from the state alone, without the magnet: those of the place and of n. */
+static inline void FN(kinematics)(REAL omega, const REAL *y, REAL *dy)
+{
+    const REAL *v = y + FST_VX, *n = y + FST_NX, *w = y + FST_WX;
+    dy[FST_X] = REAL_MULADD(omega, y[FST_Y], v[0]);
+    dy[FST_Y] = REAL_NEGMULADD(omega, y[FST_X], v[1]);
+    const REAL turn[3] = {w[0], w[1], w[2] - omega}; /* W x n - omega e x n = (W - omega e) x n */
+    FN(cross)(turn, n, dy + FST_NX);
+}
+
+/* Newton's and Euler's laws: the derivatives of v and W, from the force F, the friction f and the torque
+ * strength * twist.  They are linear in v, W, F, f and the torque together, whatever the source and the contact
+ * law are: given the changes of all these, they are the changes of the derivatives. */
+static inline void FN(accelerations)(const FN(coefficients) * c, REAL omega, const REAL *y, const REAL force[3],
+                                     const REAL friction[2], REAL strength, const REAL twist[3], REAL *dy)
+{
+    const REAL *v = y + FST_VX, *w = y + FST_WX, torque = c->torque * strength;
+    dy[FST_VX] = REAL_MULADD(omega, v[1], force[0] - friction[0]);
+    dy[FST_VY] = REAL_NEGMULADD(omega, v[0], force[1] - friction[1]);
+    dy[FST_WX] = REAL_MULADD(omega, w[1], REAL_MULSUB(torque, twist[0], c->traction * friction[1]));
+    dy[FST_WY] = REAL_NEGMULADD(omega, w[0], REAL_MULADD(torque, twist[1], c->traction * friction[0]));
+    dy[FST_WZ] = torque * twist[2];
+}
+
+/* The derivatives of the velocities v and W, by the magnet's pull at the state. */
+static inline void FN(dynamics)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(pull) * p,
+                                REAL *dy)
+{
+    const REAL *n = y + FST_NX, *w = y + FST_WX;
+    const FN(contact) contact = FN(contact_of)(c, y, p);
+    REAL friction[2], twist[3];
+    FN(friction)(&c->law, &c->kinds, &contact, friction);
+    FN(cross)(n, p->b, twist);
+    FN(accelerations)(c, omega, y, p->force, friction, p->strength, twist, dy);
+    if (c->kinds.gyroscopic_term_lost) {
+        const REAL spin = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+        dy[FST_WX] = dy[FST_WX] + spin * (w[1] * n[2] - w[2] * n[1]);
+        dy[FST_WY] = dy[FST_WY] + spin * (w[2] * n[0] - w[0] * n[2]);
+        dy[FST_WZ] = dy[FST_WZ] + spin * (w[0] * n[1] - w[1] * n[0]);
+    }
+}
+
+/* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for a caller that observes the state. */
+RHS_KIND void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy, FN(pull) * p)
+{
+    FN(kinematics)(omega, y, dy);
+    FN(magnetic_pull)(c, y, p);
+    FN(dynamics)(c, omega, y, p, dy);
+}
+
+#ifdef REAL_FORCES_AHEAD
+/* The pull at the state `next`, of which only the place and n need to be known, and the dynamics at another
+ * one: neither waits for the other. */
+RHS_KIND void FN(pull_and_dynamics)(const FN(coefficients) * c, const REAL *next, FN(pull) * next_pull,
+                                    REAL omega, const REAL *y, const FN(pull) * p, REAL *dy)
+{
+    FN(dynamics)(c, omega, y, p, dy);
+    FN(magnetic_pull)(c, next, next_pull);
+}
+#endif
+
+/* d(y')/d(omega) = -e x (.) of every vector. */
+static inline void FN(rhs_by_omega)(const REAL *y, REAL *out)
+{
+    static const int vectors[] = {FST_X, FST_VX, FST_NX, FST_WX};
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        out[i] = R(0.0);
+    for (int i = 0; i < 4; ++i) {
+        const int first = vectors[i];
+        out[first] = y[first + 1];
+        out[first + 1] = -y[first];
+    }
+}

@@ -1,0 +1,30 @@
+/* kinds.h - the choices of a model that its bodies branch on; what runs that share a batch of lanes share. */
+#ifndef FST_MODEL_KINDS_H
+#define FST_MODEL_KINDS_H
+
+#include <festoon/festoon.h>
+
+typedef struct fst_kinds {
+    int source;               /* row of FST_SOURCES (festoon/physics.def) */
+    int pieces;               /* that the source is made of: lines */
+    int contact;              /* row of FST_CONTACTS */
+    int magnetisable;         /* the material has a or b: the general force and torque */
+    int gyroscopic_term_lost; /* dynamics farago2020 */
+} fst_kinds;
+
+static inline int fst_kinds_equal(const fst_kinds *a, const fst_kinds *b)
+{
+    return a->source == b->source && a->pieces == b->pieces && a->contact == b->contact &&
+           a->magnetisable == b->magnetisable && a->gyroscopic_term_lost == b->gyroscopic_term_lost;
+}
+
+/* Whether the contact law takes energy from a bead that slips. */
+static inline int fst_kinds_brake(const fst_kinds *kinds)
+{
+#define BRAKES(NAME, name, modes, brakes, doc) brakes,
+    static const int brakes_of[] = {FST_CONTACTS(BRAKES)};
+#undef BRAKES
+    return brakes_of[kinds->contact];
+}
+
+#endif

@@ -1,0 +1,63 @@
+/* local_field.inl - what a source tells of its field at one place, over REAL.
+ *
+ * Where the bead is, the field has neither curl nor divergence.  So the gradient G_ij = dB_i/dx_j is symmetric
+ * and traceless, and G's own derivatives T_ijk = dG_ij/dx_k are so in every pair of indices: 3 + 5 + 7 numbers.
+ * The bead's centre stays at one height, and only its moves along x and y are ever asked for.
+ */
+typedef struct FN(gradient) {
+    REAL xx, yy, xy, xz, yz; /* zz = -(xx + yy) */
+} FN(gradient);
+
+/* How G changes from place to place: T_xxx = scale * xxx, ..., T_xxz = scale * vertical * xxz, ...  Factors
+ * that are common to all of a source multiply the direction, once a tangent, instead of each number; 1 where a
+ * source has none. */
+typedef struct FN(bend) {
+    REAL scale, vertical;
+    REAL xxx, xxy, xyy, yyy, xxz, xyz, yyz;
+} FN(bend);
+
+typedef struct FN(local_field) {
+    REAL b[3];
+    FN(gradient) gradient;
+    FN(bend) bend;
+} FN(local_field);
+
+/* G u */
+static inline void FN(times_gradient)(const FN(gradient) * g, const REAL u[3], REAL gu[3])
+{
+    gu[0] = REAL_MULADD(g->xz, u[2], REAL_MULADD(g->xy, u[1], g->xx * u[0]));
+    gu[1] = REAL_MULADD(g->yz, u[2], REAL_MULADD(g->yy, u[1], g->xy * u[0]));
+    gu[2] = REAL_NEGMULADD(g->xx + g->yy, u[2], REAL_MULADD(g->yz, u[1], g->xz * u[0]));
+}
+
+/* dB as the place moves by (ex, ey). */
+static inline void FN(field_change)(const FN(gradient) * g, REAL ex, REAL ey, REAL db[3])
+{
+    db[0] = REAL_MULADD(g->xx, ex, g->xy * ey);
+    db[1] = REAL_MULADD(g->xy, ex, g->yy * ey);
+    db[2] = REAL_MULADD(g->xz, ex, g->yz * ey);
+}
+
+/* dG as the place moves by (ex, ey). */
+static inline void FN(gradient_change)(const FN(bend) * t, REAL ex, REAL ey, FN(gradient) * dg)
+{
+    const REAL x = t->scale * ex, y = t->scale * ey, zx = t->vertical * x, zy = t->vertical * y;
+    dg->xx = REAL_MULADD(x, t->xxx, y * t->xxy);
+    dg->xy = REAL_MULADD(x, t->xxy, y * t->xyy);
+    dg->yy = REAL_MULADD(x, t->xyy, y * t->yyy);
+    dg->xz = REAL_MULADD(zx, t->xxz, zy * t->xyz);
+    dg->yz = REAL_MULADD(zx, t->xyz, zy * t->yyz);
+}
+
+/* For a source that has no quicker way to B and G u than its whole local field: defines NAME_along of its
+ * NAME_look (sources.inl). */
+#define SOURCE_ALONG_BY_LOOK(name)                                                                             \
+    static inline void FN(name##_along)(const FN(name) * source, const fst_kinds *kinds, REAL x, REAL y,       \
+                                        const REAL u[3], REAL b[3], REAL gu[3])                                \
+    {                                                                                                          \
+        FN(local_field) at;                                                                                    \
+        FN(name##_look)(source, kinds, x, y, &at);                                                             \
+        for (int i = 0; i < 3; ++i)                                                                            \
+            b[i] = at.b[i];                                                                                    \
+        FN(times_gradient)(&at.gradient, u, gu);                                                               \
+    }
