@@ -83,6 +83,45 @@ class Examples(Case):
         for end in branch["ends"]:
             self.assertIn(f"branch {end['branch']} ends at {end['value']:.17g}: {end['reason']}\n", said)
 
+    def test_field(self):
+        """The field of two charges by its definition, and the same bead over a line of the paper's magnet."""
+        said = self.printed("field")
+        places = re.findall(r"^x = (\S+): B = (\S+) (\S+) (\S+), dB_x/dx = (\S+)$", said, re.M)
+        self.assertEqual(len(places), 5)
+        height = json.loads(self.good("check", "--json"))["groups"]["h"]
+        for place in places:
+            x, *numbers = map(float, place)
+            b, slope = [0.0, 0.0, 0.0], 0.0
+            for charge, reach in ((4.5, 0.9), (-4.5, -0.9)):
+                d = (x - reach, 0.3, height)
+                distance = math.hypot(*d)
+                b = [old + charge * part / distance**3 for old, part in zip(b, d)]
+                slope += charge * (1 / distance**3 - 3 * d[0]**2 / distance**5)
+            for found, expected in zip(numbers, (*b, slope)):
+                self.assertAlmostEqual(found, expected, delta=1e-13 * 10)
+        radii = dict(re.findall(r"^(.*): counter-rotating, r = (\S+)$", said, re.M))
+        line = json.loads(self.good("run", "--set", "magnet.lines=1", "--set", "drive.frequency=20Hz", "--json"))
+        self.assertEqual(float(radii["a line"]), line["mean_r"])
+        self.assertAlmostEqual(float(radii["as a line"]), line["mean_r"], delta=1e-9)
+        self.assertGreater(abs(float(radii["two charges"]) - line["mean_r"]), 0.01)
+
+    def test_law(self):
+        said = self.printed("law")
+        runs = re.findall(r"^grip (\S+): counter-rotating, (\S+) festoons, power of the drive (\S+), of friction (\S+)$",
+                          said, re.M)
+        self.assertEqual([grip for grip, *_ in runs], ["50", "250", "1000"])
+        for _, _, drive, friction in runs:
+            self.assertGreater(float(friction), 1e-5)
+            self.assertAlmostEqual(float(drive) / float(friction), 1.0, delta=1e-9)
+        orbit = re.search(r"^orbit: S1, (\S+) festoons, stable, residual (\S+)$", said, re.M)
+        self.assertAlmostEqual(float(orbit[1]), float(runs[1][1]), delta=1e-8)  # from the run, and from Newton's method
+        self.assertLess(float(orbit[2]), 1e-11)
+
+    def test_public_headers_alone(self):
+        for path in (SOURCES / "examples" / "c").glob("*.c"):
+            for header in re.findall(r"^#include\s+(\S+)", path.read_text(encoding="utf-8"), re.M):
+                self.assertRegex(header, r"^<(festoon/festoon(_tools)?|[a-z]+)\.h>$", path.name)
+
     def test_each_is_a_page_of_the_reference(self):
         pages = (SOURCES / "docs" / "examples.dox").read_text(encoding="utf-8")
         landing = (SOURCES / "docs" / "api.md").read_text(encoding="utf-8")
