@@ -2,8 +2,7 @@
  * stages, and its means on closed orbits.  (The balance at a state is in test_energy_ld.c.) */
 #include "physics.h"
 
-#include "ode/flow.h"
-#include "study/quadrature.h"
+#include "observe/quadrature.h"
 
 static const double TABLE_1[] = {0.21, 0.25, 0.2845, 0.352, 0.405};
 
@@ -17,7 +16,7 @@ static double worst_defect(const fst_model *model, const double *start, double t
     double worst = 0;
     while (flow->t.high < t_end) {
         assert_int_equal(fst_flow_step(flow, t_end, NULL), FST_OK);
-        fst_quadrature_step(&q, flow);
+        fst_quadrature_step(&q, flow, 0);
         static const double places[] = {0.37, 0.81, 1.0};
         for (int i = 0; i < 3; ++i) {
             double integrals[FST_Q_COUNT], phi, state[FST_STATE_SIZE];

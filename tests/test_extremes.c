@@ -1,19 +1,19 @@
 /* Which steps are looked at for extremes: none that holds a new one is left out. */
 #include "physics.h"
 
-#include "study/quadrature.h"
+#include "observe/extremes.h"
 
 #include "ode/dop853_tableau.h"
-#include "ode/path_stages.h"
-#include "ode/summit.inl"
+#include "observe/peaks.inl"
 
 static void test_nodes(void **state)
 {
     (void)state;
-    static const double nodes[FST_PATH_STAGES] = {0.0,    DOP_C7,  DOP_C8, DOP_C6, DOP_C10,
-                                                  DOP_C9, DOP_C11, 1.0,    1.0};
-    for (int i = 0; i < FST_PATH_STAGES; ++i) {
+    static const double nodes[FST_DENSE_PLACES] = {0.0,     DOP_C7, DOP_C8, DOP_C6,  DOP_C10, DOP_C9,
+                                                   DOP_C11, 1.0,    1.0,    DOP_C14, DOP_C15, DOP_C16};
+    for (int i = 0; i < FST_DENSE_PLACES; ++i)
         assert_true(FST_PATH_NODE[i] == nodes[i]);
+    for (int i = 0; i < FST_PATH_PLACES; ++i) {
         const int at_end = i >= 7,
                   first = i == 0   ? 1
                           : at_end ? 6
@@ -32,27 +32,27 @@ static void test_parabolas(void **state)
     (void)state;
     for (int i = -400; i <= 1400; ++i) {
         const double top = i / 1000.0;
-        double values[FST_PATH_STAGES];
-        for (int j = 0; j < FST_PATH_STAGES; ++j)
+        double values[FST_PATH_PLACES];
+        for (int j = 0; j < FST_PATH_PLACES; ++j)
             values[j] = 5.0 - 3.0 * (FST_PATH_NODE[j] - top) * (FST_PATH_NODE[j] - top);
         const double peak = top < 0.0 ? values[0] : top > 1.0 ? values[8] : 5.0;
-        const fst_summit_double s = fst_find_summit_double(values, 1, 1.0);
+        const fst_peak_double s = fst_find_peak_double(values, 1, 1.0);
         CHECK_CLOSE(s.best + s.rise_over / s.per, peak, 1e-12);
         if (top > 0.0 && top < 1.0)
             assert_true(s.before < top && top < s.after);
         assert_true(fst_may_exceed_double(&s, peak - 1e-12) > 0.0);
         /* As much as the margins are: no more steps than these are looked at. */
-        const double bound = s.best + SUMMIT_RISES * (s.rise_over / s.per) + SUMMIT_FALL * s.fall;
+        const double bound = s.best + PEAK_RISES * (s.rise_over / s.per) + PEAK_FALL * s.fall;
         assert_true(fst_may_exceed_double(&s, bound + 1e-12) <= 0.0);
     }
 }
 
-static const double EQUAL[FST_PATH_STAGES] = {2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0};
+static const double EQUAL[FST_PATH_PLACES] = {2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0};
 
 static void test_constants(void **state)
 {
     (void)state;
-    const fst_summit_double s = fst_find_summit_double(EQUAL, 1, -1.0);
+    const fst_peak_double s = fst_find_peak_double(EQUAL, 1, -1.0);
     assert_true(fst_may_exceed_double(&s, -2.0) <= 0.0);
     assert_true(fst_may_exceed_double(&s, -2.0 - 1e-15) > 0.0);
     assert_true(fst_may_exceed_double(&s, -INFINITY) > 0.0);
@@ -134,25 +134,27 @@ static int check_bead(int which, double tolerance)
     start_of(&p, model, start);
     fst_flow *flow = flow_of(model, tolerance, start);
     fst_quadrature q;
+    fst_extreme extremes[FST_TRACK_COUNT];
     watched w;
     for (int i = 0; i < FST_TRACK_COUNT; ++i) {
         w.least[i] = INFINITY;
         w.greatest[i] = -INFINITY;
     }
     fst_quadrature_begin(&q, flow);
+    fst_extremes_begin(extremes);
     const double period = TWO_PI / fst_model_groups(model).omega;
     while (flow->t.high < 10.0 * period && hypot(flow->step.end[FST_X], flow->step.end[FST_Y]) < 2.0) {
         assert_int_equal(fst_flow_step(flow, INFINITY, NULL), FST_OK);
-        fst_quadrature_step(&q, flow);
+        fst_quadrature_step(&q, flow, 0);
         if (flow->t.high < 2.0 * period)
             continue;
-        fst_quadrature_track(&q, flow, 0.0);
+        fst_extremes_step(extremes, &q, flow, 0.0);
         sample_step(flow, &w);
     }
     for (int i = 0; i < FST_TRACK_COUNT; ++i) {
-        check_extreme(q.extreme[i].greatest, w.greatest[i], tolerance);
+        check_extreme(extremes[i].greatest, w.greatest[i], tolerance);
         if (i != FST_TRACK_GAP && i != FST_TRACK_SLIP)
-            check_extreme(-q.extreme[i].least, -w.least[i], tolerance);
+            check_extreme(-extremes[i].least, -w.least[i], tolerance);
     }
     fst_flow_free(flow);
     fst_model_free(model);
@@ -184,18 +186,19 @@ static void test_the_end_of_a_step_counts(void **state)
         start_of(&p, model, start);
         fst_flow *flow = flow_of(model, 1e-8, start);
         fst_quadrature q;
+        fst_extreme extremes[FST_TRACK_COUNT];
         fst_quadrature_begin(&q, flow);
         for (int step = 0; step < 50; ++step) {
             assert_int_equal(fst_flow_step(flow, INFINITY, NULL), FST_OK);
-            fst_quadrature_step(&q, flow);
+            fst_quadrature_step(&q, flow, 0);
             for (int i = 0; i < FST_TRACK_COUNT; ++i)
-                q.extreme[i] = (fst_extreme){INFINITY, -INFINITY};
-            fst_quadrature_track(&q, flow, 0.0);
+                extremes[i] = (fst_extreme){INFINITY, -INFINITY};
+            fst_extremes_step(extremes, &q, flow, 0.0);
             for (int i = 0; i < FST_TRACK_COUNT; ++i) {
-                const double end = q.tracked[FST_PATH_STAGES - 1][i];
-                assert_true(q.extreme[i].greatest >= end);
+                const double end = q.sums.tracked[FST_STEP_END][i];
+                assert_true(extremes[i].greatest >= end);
                 if (i != FST_TRACK_GAP && i != FST_TRACK_SLIP)
-                    assert_true(q.extreme[i].least <= end);
+                    assert_true(extremes[i].least <= end);
             }
         }
         fst_flow_free(flow);

@@ -264,56 +264,41 @@ static void test_exponents_hear(void **state)
     }
 }
 
-/* Begin a run, along a ramp if it is said so, and free what it holds. */
-static void begin_run(fst_run_state *run, const fst_params *p, const fst_run_options *o)
-{
-    fst_error error = {FST_OK, "", ""};
-    memset(run, 0, sizeof *run);
-    run->params = p;
-    run->options = o;
-    if (fst_run_begin(run, &error) != FST_OK)
-        fail_msg("fst_run_begin: %s", error.sentence);
-}
-
-static void end_run(fst_run_state *run)
-{
-    fst_flow_free(run->flow);
-    fst_model_free(run->model);
-}
-
-/* A ramp's state holds indices that are not checked: its image is refused, and the run stays as it was begun.
- * The same run without a ramp is taken. */
-static void test_ramps_are_refused(void **state)
+/* A run takes up what its image knows, and keeps its own parameters, model and flow; a run that was begun from
+ * other parameters keeps those too.  Where the image is refused, nothing of the run changes. */
+static void test_what_a_run_takes_up(void **state)
 {
     (void)state;
-    static fst_run_state from, to;
-    const fst_params p = job_params(1);
-    fst_run_options steady = fst_default_run_options(), ramp = steady;
-    ramp.ramp_from = 0.3;
-    ramp.ramp_to = 0.4;
-    for (int is_ramp = 0; is_ramp < 2; ++is_ramp) {
+    static fst_watched_run from, to;
+    const fst_params p = job_params(1), other = job_params(2);
+    fst_exponent exponent;
+    for (int cut_off = 0; cut_off < 2; ++cut_off) {
         const fst_run_place place = {.stage = FST_STAGE_ALONE};
         fst_run_place found = {.stage = FST_STAGE_PARKED};
         double *lane;
         const double *read;
         size_t size;
         int over = 0;
-        fst_error error;
-        begin_run(&from, &p, is_ramp ? &ramp : &steady);
-        assert_int_equal(from.is_ramp, is_ramp);
-        if (!is_ramp)
-            assert_int_equal(fst_run_go_on(&from, 5, &over, &error), FST_OK);
-        from.next_period = 7;
-        void *bytes = fst_run_image_make(&from, &place, 0, &lane, &size);
+        assert_int_equal(fst_watched_run_begin(&from, &p, NULL, NULL), FST_OK);
+        assert_int_equal(fst_watched_run_begin(&to, &other, NULL, NULL), FST_OK);
+        assert_int_equal(fst_watched_run_go_on(&from, 50, &over, NULL), FST_OK);
+        const fst_watched_run begun = to;
+        const uint64_t steps = cut_off ? 0 : from.flow->accepted;
+        void *bytes = fst_run_image_make(&from, NULL, &place, 0, &lane, &size);
         assert_non_null(bytes);
-        begin_run(&to, &p, &steady);
-        const int64_t before = to.next_period;
-        assert_int_equal(fst_run_image_take(bytes, size, 0, &to, &found, &read), !is_ramp);
-        assert_int_equal(to.next_period, is_ramp ? before : 7);
-        assert_int_equal(found.stage, is_ramp ? FST_STAGE_PARKED : FST_STAGE_ALONE);
+        const int taken = fst_run_image_take(bytes, size - (size_t)cut_off, 0, &to, &exponent, &found, &read);
+        assert_int_equal(taken, !cut_off);
+        assert_int_equal(found.stage, cut_off ? FST_STAGE_PARKED : FST_STAGE_ALONE);
+        assert_int_equal(to.flow->accepted, steps);
+        assert_ptr_equal(to.params, &other);
+        assert_ptr_equal(to.model, begun.model);
+        assert_ptr_equal(to.flow, begun.flow);
+        assert_memory_equal(&to.window.groups, &begun.window.groups, sizeof to.window.groups);
+        assert_memory_equal(cut_off ? &begun.window.quadrature : &from.window.quadrature, &to.window.quadrature,
+                            sizeof to.window.quadrature);
         free(bytes);
-        end_run(&from);
-        end_run(&to);
+        fst_watched_run_free(&from);
+        fst_watched_run_free(&to);
     }
 }
 
@@ -323,7 +308,7 @@ int main(void)
         cmocka_unit_test(test_bits),
         cmocka_unit_test(test_what_is_no_image),
         cmocka_unit_test(test_exponents_hear),
-        cmocka_unit_test(test_ramps_are_refused),
+        cmocka_unit_test(test_what_a_run_takes_up),
     };
     return fst_run_images_possible() ? cmocka_run_group_tests(tests, NULL, NULL) : 77;
 }

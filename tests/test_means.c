@@ -2,7 +2,8 @@
  * computed here by hand.  And the powers on a ramp, and the window's extremes, against the path itself. */
 #include "physics.h"
 
-#include "study/run_state.h"
+#include "observe/means.h"
+#include "study/conclude.h"
 
 /* ------------------------------------------------------------------ marks made by hand */
 
@@ -10,8 +11,7 @@ enum { BLOCKS = 12 };
 static const double SPAN = 7.5; /* of a block */
 
 typedef struct by_hand {
-    fst_run_state run;
-    fst_run_options options;
+    fst_watched_run run;
     fst_params params;
     fst_mark_series marks;
 } by_hand;
@@ -22,16 +22,14 @@ static by_hand *begin(void)
     by_hand *b = test_calloc(1, sizeof *b);
     fst_error error = {FST_OK, "", ""};
     b->params = bead_at(0.31, FST_DYNAMICS_RIGID);
-    b->options = fst_default_run_options();
-    b->run.params = &b->params;
-    b->run.options = &b->options;
-    if (fst_run_begin(&b->run, &error) != FST_OK)
+    if (fst_watched_run_begin(&b->run, &b->params, NULL, &error) != FST_OK)
         fail_msg("%s", error.sentence);
     fst_marks_begin(&b->marks);
     for (int i = 0; i <= BLOCKS; ++i) {
         fst_mark mark;
         memset(&mark, 0, sizeof mark);
         mark.t.high = 100.0 + SPAN * i;
+        mark.omega = 0.31;
         fst_marks_offer(&b->marks, &mark);
     }
     return b;
@@ -42,9 +40,8 @@ static fst_run_result conclude(by_hand *b)
     fst_run_result result;
     fst_result_clear(&result);
     b->marks.latest = b->marks.kept[BLOCKS];
-    fst_fill_window(&b->run, &b->marks, &result);
-    fst_flow_free(b->run.flow);
-    fst_model_free(b->run.model);
+    fst_means_fill(&b->run.window, &b->marks, &b->params, &result);
+    fst_watched_run_free(&b->run);
     test_free(b);
     return result;
 }
@@ -158,7 +155,7 @@ static void test_powers_on_a_ramp(void **unused)
     while (flow->t.high < 60.0) {
         double integrals[FST_Q_COUNT], phi;
         assert_int_equal(fst_flow_step(flow, 60.0, NULL), FST_OK);
-        fst_quadrature_step(&q, flow);
+        fst_quadrature_step(&q, flow, 0);
         fst_quadrature_at(&q, flow, 1.0, integrals, &phi);
         const double work = integrals[FST_Q_DRIVE_POWER] - integrals[FST_Q_FRICTION_POWER];
         CHECK_CLOSE(fst_observe(model, flow->step.end).energy - energy, work, 1e-10);

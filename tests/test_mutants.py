@@ -12,9 +12,9 @@ sys.path.insert(0, os.path.join(SOURCE, "tests", "mutants"))
 import entries as listed  # noqa: E402
 
 LEAST = 150
-ROOMS = {"base", "host", "model", "ode", "ensemble", "study", "orbit", "io", "sweep", "draw", "film", "paper", "cli",
-         "tables"}
-PHYSICS = {"model", "ode", "ensemble", "study", "orbit"}
+ROOMS = {"base", "host", "model", "ode", "observe", "ensemble", "study", "orbit", "io", "sweep", "draw", "film", "paper",
+         "cli", "tables"}
+PHYSICS = {"model", "ode", "observe", "ensemble", "study", "orbit"}
 OTHER_TESTS = {"includes", "headers", "exports", "installed"}
 
 

@@ -61,6 +61,7 @@ static void fill_marks(fst_mark_series *series, const made_up *m, double from, d
         fst_mark mark;
         memset(&mark, 0, sizeof mark);
         mark.t.high = from + i * step;
+        mark.omega = 0.3;
         mark.integrals[FST_Q_R] = r_integral;
         mark.integrals[FST_Q_R2] = r2_integral;
         mark.big_phi = (m->turns ? m->alpha_dot - 0.3 : 0.0) * mark.t.high + alpha_rise;
@@ -85,41 +86,35 @@ static fst_run_result decide(const made_up *m)
     p.run_rtol = m->rtol;
     p.model_kappa = m->kappa;
     p.friction_law = m->without_friction ? FST_FRICTION_NONE : FST_FRICTION_VISCOUS;
-    fst_run_options options = fst_default_run_options();
-    fst_error error = {FST_OK, "", ""};
-    fst_run_state *run = calloc(1, sizeof *run);
+    fst_watched_run *run = calloc(1, sizeof *run);
     assert_non_null(run);
-    run->params = &p;
-    run->options = &options;
-    assert_int_equal(fst_run_begin(run, &error), FST_OK);
+    assert_int_equal(fst_watched_run_begin(run, &p, NULL, NULL), FST_OK);
     const double step = TWO_PI / 0.3;
-    run->q.r_reference = 1.0;
-    fill_marks(&run->period_marks, m, 0.0, step);
-    fill_marks(&run->section_marks, m, 0.0, step);
+    fst_window *window = &run->window;
+    window->quadrature.sums.r_reference = 1.0;
+    fill_marks(&window->periods, m, 0.0, step);
+    fill_marks(&window->returns.marks, m, 0.0, step);
     if (m->periods > 0)
-        run->period_marks.offered = m->periods;
+        window->periods.offered = m->periods;
     if (m->full_before_last > 0)
-        run->section_marks.kept[m->blocks - 1].full_distance = m->full_before_last;
+        window->returns.marks.kept[m->blocks - 1].full_distance = m->full_before_last;
     run->flow->t.high = m->blocks * step;
-    memset(run->flow->step.k[12], 0, sizeof run->flow->step.k[12]);
-    run->flow->step.k[12][FST_X] = m->speed_at_end;
-    run->returns.crossings = m->turns ? m->crossings : 0;
-    run->returns.since_break = run->returns.crossings;
-    run->least_phi = 0.0;
-    run->greatest_phi = m->phi_range;
-    run->exponent_is = FST_EXPONENT_KNOWN;
-    run->exponent.duration = 1000.0;
-    run->exponent.value = m->growth / 1000.0;
-    run->exponent.chance = m->chance / 1000.0;
-    run->exponent.standard_error = 1e-9;
+    double *slope = FST_PATH_SLOPE(&run->flow->step, FST_STEP_END);
+    memset(slope, 0, FST_STATE_SIZE * sizeof *slope);
+    slope[FST_X] = m->speed_at_end;
+    window->returns.crossings = m->turns ? m->crossings : 0;
+    window->returns.since_break = window->returns.crossings;
+    window->least_phi = 0.0;
+    window->greatest_phi = m->phi_range;
+    const fst_exponent exponent = {
+        .duration = 1000.0, .value = m->growth / 1000.0, .chance = m->chance / 1000.0, .standard_error = 1e-9};
     fst_run_result result;
     memset(&result, 0, sizeof result);
     result.omega = 0.3;
     result.mean_alpha_dot = m->alpha_dot;
     result.mean_alpha_dot_error = m->alpha_dot_error;
-    assert_int_equal(fst_decide_regime(run, &result, &error), FST_OK);
-    fst_flow_free(run->flow);
-    fst_model_free(run->model);
+    assert_true(fst_decide_regime(run, &exponent, &result));
+    fst_watched_run_free(run);
     free(run);
     return result;
 }

@@ -4,24 +4,20 @@
 
 #include <math.h>
 
-typedef struct fst_twofold {
-    double high, low;
-} fst_twofold;
+#include "base/real_double.h"
 
-/* a + x, without loss (Knuth's two-sum, then the low parts). */
+#include "base/twofold.inl"
+
+typedef fst_twofold_double fst_twofold;
+
 static inline fst_twofold fst_twofold_add(fst_twofold a, double x)
 {
-    const double sum = a.high + x, part = sum - a.high;
-    const double error = (a.high - (sum - part)) + (x - part);
-    const double low = a.low + error, high = sum + low;
-    const fst_twofold result = {high, low - (high - sum)};
-    return result;
+    return fst_twofold_add_double(a, x);
 }
 
-/* a - b, rounded to one double. */
 static inline double fst_twofold_difference(fst_twofold a, fst_twofold b)
 {
-    return (a.high - b.high) + (a.low - b.low);
+    return fst_twofold_difference_double(a, b);
 }
 
 /* a x, to about twice the precision of a double. */

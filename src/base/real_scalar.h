@@ -6,6 +6,8 @@
 #define REAL_MAX(a, b) ((a) > (b) ? (a) : (b))
 #define REAL_MASK int /* where a comparison holds */
 #define REAL_LESS(a, b) ((a) < (b))
+#define REAL_LESS_EQUAL(a, b) ((a) <= (b))
+#define REAL_EVERYWHERE 1 /* the mask of all lanes */
 #define REAL_SELECT(mask, yes, no) ((mask) ? (yes) : (no))
 #define REAL_ROUGH_RECIPROCAL(x) (R(1.0) / (x)) /* where a kind of number may save digits */
 #define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))

@@ -1,3 +1,5 @@
+/* final_states.c - many flows, one batch: as soon as one flow has landed at its end, the next takes its lane.
+ */
 #include "ensemble/final_states.h"
 
 #include <stdlib.h>
@@ -5,72 +7,72 @@
 
 #include "base/error.h"
 
-typedef struct crew {
+typedef struct worker {
     const fst_lane_engine *engine;
     void *batch;
     fst_lane_view view;
     fst_flow *const *flows;
     const double *t_end;
     double (*ends)[FST_STATE_SIZE];
-    int count, next, at_work;
+    int count, next, at_work;  /* flows in all, the next one to begin, those in lanes */
     int index[FST_MOST_LANES]; /* of the flow in a lane */
-} crew;
+} worker;
 
 /* The next flow takes a lane; without one the lane idles. */
-static void occupy(crew *c, int lane)
+static void occupy(worker *w, int lane)
 {
-    if (c->next == c->count) {
-        c->engine->release(c->batch, lane);
+    if (w->next == w->count) {
+        w->engine->release(w->batch, lane);
         return;
     }
-    const int i = c->next++;
-    c->index[lane] = i;
-    c->at_work += 1;
-    c->engine->load(c->batch, lane, c->flows[i], c->t_end[i]);
+    const int i = w->next++;
+    w->index[lane] = i;
+    w->at_work += 1;
+    w->engine->load(w->batch, lane, w->flows[i], w->t_end[i]);
 }
 
-static void finish(crew *c, int lane)
+static void finish(worker *w, int lane)
 {
-    const int index = c->index[lane];
+    const int index = w->index[lane];
     for (int i = 0; i < FST_STATE_SIZE; ++i)
-        c->ends[index][i] = c->view.end[i * c->engine->width + lane];
-    c->engine->extract_clock(c->batch, lane, c->flows[index]);
-    c->at_work -= 1;
-    occupy(c, lane);
+        w->ends[index][i] = w->view.end[i * w->engine->width + lane];
+    w->engine->extract_clock(w->batch, lane, w->flows[index]);
+    w->at_work -= 1;
+    occupy(w, lane);
 }
 
 /* One try in every lane. */
-static fst_status step(crew *c, fst_error *error)
+static fst_status step(worker *w, fst_error *error)
 {
-    const fst_lane_tries tries = c->engine->try_steps(c->batch);
-    for (int l = 0; tries.failed && l < c->engine->width; ++l)
+    const fst_lane_tries tries = w->engine->try_steps(w->batch);
+    for (int l = 0; tries.failed && l < w->engine->width; ++l)
         if (tries.failed & 1u << l) {
-            fst_flow *flow = c->flows[c->index[l]];
-            c->engine->extract(c->batch, l, &flow->step);
-            c->engine->extract_clock(c->batch, l, flow);
+            fst_flow *flow = w->flows[w->index[l]];
+            w->engine->extract(w->batch, l, &flow->step);
+            w->engine->extract_clock(w->batch, l, flow);
             return fst_flow_fail(flow, error);
         }
-    c->engine->advance(c->batch, tries.accepted & ~tries.landed);
-    for (int l = 0; tries.landed && l < c->engine->width; ++l)
+    w->engine->advance(w->batch, tries.accepted & ~tries.landed);
+    for (int l = 0; tries.landed && l < w->engine->width; ++l)
         if (tries.landed & 1u << l)
-            finish(c, l);
+            finish(w, l);
     return FST_OK;
 }
 
 fst_status fst_final_states(const fst_lane_engine *engine, fst_flow *const *flows, const double *t_end,
                             int count, double (*ends)[FST_STATE_SIZE], fst_error *error)
 {
-    crew c = {.engine = engine, .flows = flows, .t_end = t_end, .ends = ends, .count = count};
-    c.batch = aligned_alloc(64, (engine->bytes + 63) / 64 * 64);
-    if (!c.batch)
+    worker w = {.engine = engine, .flows = flows, .t_end = t_end, .ends = ends, .count = count};
+    w.batch = aligned_alloc(64, (engine->bytes + 63) / 64 * 64);
+    if (!w.batch)
         return fst_fail(error, FST_NO_MEMORY, "fst_final_states", "out of memory");
-    memset(c.batch, 0, engine->bytes);
-    engine->view(c.batch, &c.view);
+    memset(w.batch, 0, engine->bytes);
+    engine->view(w.batch, &w.view);
     for (int l = 0; l < engine->width; ++l)
-        occupy(&c, l);
+        occupy(&w, l);
     fst_status status = FST_OK;
-    while (status == FST_OK && c.at_work > 0)
-        status = step(&c, error);
-    free(c.batch);
+    while (status == FST_OK && w.at_work > 0)
+        status = step(&w, error);
+    free(w.batch);
     return status;
 }

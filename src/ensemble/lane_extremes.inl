@@ -1,19 +1,26 @@
-/* lane_extremes.inl - the fast form of lanes.inl: extremes of tracked quantities, as many at a time as there
- * are lanes.
+/* lane_extremes.inl - a part of lanes.inl, the fast form only: the extremes of tracked quantities (r, |B|, the
+ * load...) within steps, located as many at a time as there are lanes.
  *
- * A slot holds what the dense output of one step needs, and which quantity is looked at; steps of several lanes
- * and moments fill the slots, so that no lane of a vector is idle while the others look.
+ * A step that may hold a new extreme of a run seldom has company: in the same moment the other lanes hold none.
+ * So it is copied aside, with the name of the quantity, until there are as many as lanes; then all are located
+ * at once:
+ *
+ *               lane 0  lane 1  lane 2  lane 3
+ *     moment 1     .       r       .       .    --.     waiting, place 0: r, of lane 1
+ *     moment 2     .       .       .      load  --+-->           place 1: load, of lane 3
+ *     moment 3    |B|      .       .       r    --'              place 2: |B|, of lane 0
+ *                                                                place 3: r, of lane 3  ---> locate()
  */
-typedef struct slots {
+typedef struct waiting {
     FN(bead_step) step;
     REAL weight[FST_TRACK_COUNT]; /* the sign of the quantity that is looked at, 0 for the others */
     REAL from, to;                /* the fractions of the step between which its extreme lies */
-} slots;
+} waiting;
 
-static void set_aside(const void *memory, int lane, int record, void *to_memory, int slot)
+static void set_aside(const void *memory, int lane, int record, void *to_memory, int place)
 {
     const batch *b = memory;
-    slots *to = to_memory;
+    waiting *to = to_memory;
     const FN(bead_step) *from = &b->step;
     FN(coefficients) *c = &to->step.context.coefficients;
     const FN(coefficients) *d = &from->context.coefficients;
@@ -21,24 +28,23 @@ static void set_aside(const void *memory, int lane, int record, void *to_memory,
     double *wide = (double *)((char *)c + offsetof(FN(coefficients), eps));
     const double *whose = (const double *)((const char *)d + offsetof(FN(coefficients), eps));
     for (int i = 0; i < COEFFICIENTS; ++i)
-        wide[i * FST_LANES + slot] = whose[i * FST_LANES + lane];
-    to->step.h[slot] = from->h[lane];
-    to->step.omega[slot] = from->omega[lane];
-    static const int needed[] = {0, 5, 6, 7, 8, 9, 10, 11, 12}; /* by the dense output */
+        wide[i * FST_LANES + place] = whose[i * FST_LANES + lane];
+    to->step.h[place] = from->h[lane];
+    to->step.omega[place] = from->omega[lane];
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        to->step.y[i][slot] = from->y[i][lane];
-        to->step.end[i][slot] = from->end[i][lane];
-        for (int j = 0; j < 9; ++j)
-            to->step.k[needed[j]][i][slot] = from->k[needed[j]][i][lane];
+        to->step.y[i][place] = from->y[i][lane];
+        to->step.end[i][place] = from->end[i][lane];
+        for (int n = 0; n < FST_PATH_PLACES; ++n)
+            FST_PATH_SLOPE(&to->step, n)[i][place] = FST_PATH_SLOPE(from, n)[i][lane];
     }
-    to->from[slot] = b->summit_from[record][lane];
-    to->to[slot] = b->summit_to[record][lane];
+    to->from[place] = b->peak_from[record][lane];
+    to->to[place] = b->peak_to[record][lane];
     for (int i = 0; i < FST_TRACK_COUNT; ++i)
-        to->weight[i][slot] = i == FST_RECORD_TRACKS[record] ? fst_record_sign(record) : 0.0;
+        to->weight[i][place] = i == FST_RECORD_TRACKS[record] ? fst_record_sign(record) : 0.0;
 }
 
-/* Sign times each slot's quantity at the fraction x of its step. */
-static __attribute__((noinline)) REAL look(const slots *s, REAL x)
+/* Sign times the quantity in each place at the fraction x of its step. */
+static __attribute__((noinline)) REAL look(const waiting *s, REAL x)
 {
     REAL state[FST_STATE_SIZE];
     FN(pull) p;
@@ -56,7 +62,7 @@ static __attribute__((noinline)) REAL look(const slots *s, REAL x)
  * vertex of the one before, four times closer each time. */
 static void locate(void *memory, double *values)
 {
-    slots *s = memory;
+    waiting *s = memory;
     const REAL half = R(0.5), zero = R(0.0);
     FN(bead_make_dense)(&s->step);
     REAL middle = half * (s->from + s->to), reach = half * (s->to - s->from), best = R(-INFINITY);

@@ -1,66 +1,23 @@
-/* lane_observables.inl - a part of lanes.inl: integrands at the stages of a step, their integrals, and whether
- * a tracked quantity may have passed an extreme.
+/* lane_observables.inl - a part of lanes.inl: the integrals of observe/integrals.inl in lanes, and whether a
+ * tracked quantity may have passed an extreme.
  */
-/* fst_twofold_add() of the last increments, in the lanes of `mask`. */
-static void add_increments(batch *b, fst_wide_mask mask)
-{
-    for (int i = 0; i < FST_Q_COUNT; ++i) {
-        REAL high = b->total_high[i], low = b->total_low[i];
-        add_twofold(&high, &low, b->increment[i]);
-        b->total_low[i] = fst_wide_select(mask, low, b->total_low[i]);
-        b->total_high[i] = fst_wide_select(mask, high, b->total_high[i]);
-    }
-}
-
-static void see_stage(batch *b, int n, fst_wide_mask renew)
-{
-    const FN(bead_step) *s = &b->step;
-    const FN(coefficients) *c = &s->context.coefficients;
-    const int j = FST_PATH_STAGE[n];
-    FN(seen) seen;
-    FN(see)(c, s->omega, s->stage[j], &s->context.pull[j], &seen);
-    if (n == 0) {
-        b->r_reference = fst_wide_select(renew, seen.r, b->r_reference);
-        b->b_reference = fst_wide_select(renew, seen.b_norm, b->b_reference);
-    }
-    FN(integrands)
-    (c, s->stage[j], &s->context.pull[j], &seen, b->r_reference, b->b_reference, b->integrands[n]);
-    b->tracked[n][FST_TRACK_R] = seen.r;
-    b->tracked[n][FST_TRACK_B] = seen.b_norm;
-    b->tracked[n][FST_TRACK_GAP] = seen.gap2;
-    b->tracked[n][FST_TRACK_SLIP] = seen.slip2;
-    b->tracked[n][FST_TRACK_LOAD] = seen.load;
-}
 
 /* The references of the lanes before their window are renewed; where the integrands at the start of the step
- * are known, that is all there is to do for this stage. */
+ * are known, that is all there is to do for this place. */
 static void see_start(batch *b, unsigned accepted, unsigned before_window)
 {
     const fst_wide_mask renew = fst_wide_mask_of(before_window);
+    FN(integrals) *q = &b->sums;
     if (accepted & ~b->known) {
-        see_stage(b, 0, renew);
+        FN(look_at_place)(q, &b->step, b->step.omega, 0, renew);
         return;
     }
     if (!before_window)
         return;
-    REAL *q = b->integrands[0];
-    b->r_reference = fst_wide_select(renew, b->tracked[0][FST_TRACK_R], b->r_reference);
-    b->b_reference = fst_wide_select(renew, b->tracked[0][FST_TRACK_B], b->b_reference);
-    q[FST_Q_R2] = fst_wide_select(renew, R(0.0), q[FST_Q_R2]);
-    q[FST_Q_B2] = fst_wide_select(renew, R(0.0), q[FST_Q_B2]);
-}
-
-/* h times the weighted sum of the integrands, in the order of the stages. */
-static void integrate(batch *b, fst_wide_mask mask)
-{
-    const REAL weight[8] = {DOP_B1, DOP_B6, DOP_B7, DOP_B8, DOP_B9, DOP_B10, DOP_B11, DOP_B12};
-    static const int place[8] = {0, 3, 1, 2, 5, 4, 6, 7}; /* of the stages 1, 6, 7, ... 12 in FST_PATH_STAGE */
-    for (int i = 0; i < FST_Q_COUNT; ++i) {
-        REAL sum = R(0.0);
-        for (int j = 0; j < 8; ++j)
-            sum = REAL_MULADD(weight[j], b->integrands[place[j]][i], sum);
-        b->increment[i] = fst_wide_select(mask, b->step.h * sum, b->increment[i]);
-    }
+    q->r_reference = fst_wide_select(renew, q->tracked[0][FST_TRACK_R], q->r_reference);
+    q->b_reference = fst_wide_select(renew, q->tracked[0][FST_TRACK_B], q->b_reference);
+    q->integrands[0][FST_Q_R2] = fst_wide_select(renew, R(0.0), q->integrands[0][FST_Q_R2]);
+    q->integrands[0][FST_Q_B2] = fst_wide_select(renew, R(0.0), q->integrands[0][FST_Q_B2]);
 }
 
 /* What a record must be beaten by: in the fast form by what counts, 1e-9 of it (and, for the squares of an
@@ -74,20 +31,20 @@ static REAL to_beat(REAL record)
 #endif
 }
 
-/* A record may be beaten in a step as best_in_step() of the quadrature has it, which decides. */
+/* A record may be beaten in a step as best_in_step() in observe/extremes.c has it, which decides. */
 static void find_beaten(batch *b, unsigned tracked, unsigned beaten[FST_RECORD_COUNT])
 {
     for (int i = 0; i < FST_RECORD_COUNT; ++i) {
-        const FN(summit) top =
-            FN(find_summit)(&b->tracked[0][FST_RECORD_TRACKS[i]], FST_TRACK_COUNT, REAL_OF(fst_record_sign(i)));
+        const FN(peak) top = FN(find_peak)(&b->sums.tracked[0][FST_RECORD_TRACKS[i]], FST_TRACK_COUNT,
+                                           REAL_OF(fst_record_sign(i)));
         const REAL more = FN(may_exceed)(&top, to_beat(b->records[i]));
         beaten[i] = tracked & fst_wide_lanes_of(WIDE_LESS(R(0.0), more));
 #ifdef FST_FUSED
-        b->summit_from[i] = top.before;
-        b->summit_to[i] = top.after;
+        b->peak_from[i] = top.before;
+        b->peak_to[i] = top.after;
         /* The end of a step lies on the trajectory; the stages within it do so but roughly, and a record that
          * one of them overshot would hide the ones to come. */
-        const REAL end = REAL_OF(fst_record_sign(i)) * b->tracked[FST_PATH_STAGES - 1][FST_RECORD_TRACKS[i]];
+        const REAL end = REAL_OF(fst_record_sign(i)) * b->sums.tracked[FST_STEP_END][FST_RECORD_TRACKS[i]];
         const fst_wide_mask counts = fst_wide_mask_of(tracked);
         b->records[i] = fst_wide_select(counts, REAL_MAX(end, b->records[i]), b->records[i]);
 #endif
@@ -99,11 +56,11 @@ static void observe(void *memory, unsigned accepted, unsigned in_window, unsigne
 {
     batch *b = memory;
     const fst_wide_mask mask = fst_wide_mask_of(accepted);
-    add_increments(b, mask);
+    FN(add_increments)(&b->sums, mask);
     see_start(b, accepted, accepted & ~in_window);
-    for (int n = 1; n < FST_PATH_STAGES; ++n)
-        see_stage(b, n, fst_wide_mask_of(0));
-    integrate(b, mask);
+    for (int place = 1; place < FST_PATH_PLACES; ++place)
+        FN(look_at_place)(&b->sums, &b->step, b->step.omega, place, fst_wide_mask_of(0));
+    FN(integrate_step)(&b->sums, &b->step, mask);
     if (accepted & tracked)
         find_beaten(b, accepted & tracked, beaten);
     b->observed = accepted;

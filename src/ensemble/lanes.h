@@ -8,6 +8,7 @@
 #define FST_ENSEMBLE_LANES_H
 
 #include "ensemble/tangents.h"
+#include "observe/quadrature.h"
 #include "ode/flow.h"
 
 enum { FST_MOST_LANES = 8 };
@@ -21,11 +22,8 @@ typedef struct fst_lane_view {
     const double *speed;           /* and that at the end */
     double *next_mark;             /* time of the next mark; the step that reaches it is eventful */
     double *phi_least, *phi_most; /* directions between which Phi has stayed, two numbers; 0: to be asked for */
-    double *total_high, *total_low; /* integrals up to the start of the last observed step, FST_Q_COUNT */
-    double *increment;              /* and over it */
-    double *r_reference, *b_reference;
-    double *integrands, *tracked; /* at the path's stages: FST_PATH_STAGES times FST_Q_COUNT, FST_TRACK_COUNT */
-    double *records;              /* of the tracked quantities, times their signs, FST_RECORD_COUNT */
+    double *r_reference, *b_reference; /* from where deviations are taken */
+    double *records;                   /* of the tracked quantities, times their signs, FST_RECORD_COUNT */
 } fst_lane_view;
 
 /* Lanes, one bit each: what is to be done after an accepted step. */
@@ -61,7 +59,7 @@ typedef struct fst_lane_engine {
     void (*save)(const void *batch, int lane, double *numbers);
     void (*restore)(void *batch, int lane, const double *numbers);
 
-    /* Try a step in every lane that is in use, and do fst_flow_accept() or fst_flow_reject(). */
+    /* Try a step in every lane that is in use, and accept or reject it (ode/step_control.inl). */
     fst_lane_tries (*try_steps)(void *batch);
 
     /* What the last step of the lanes `accepted` may hold; phi counts in the lanes `observed`. */
@@ -73,19 +71,22 @@ typedef struct fst_lane_engine {
     void (*observe)(void *batch, unsigned accepted, unsigned in_window, unsigned tracked,
                     unsigned beaten[FST_RECORD_COUNT]);
 
-    /* Make the end of the last step the start of the next, and choose its size: fst_flow_plan(). */
+    /* Make the end of the last step the start of the next, and plan its size. */
     void (*advance)(void *batch, unsigned accepted);
 
     /* The last step of a lane as the scalar step, with the derivatives that the dense output needs; and the
-     * states and fields at its stages. */
+     * states and pulls at the places of its path. */
     void (*extract)(const void *batch, int lane, fst_bead_step_double *step);
-    void (*extract_stages)(const void *batch, int lane, fst_bead_step_double *step);
+    void (*extract_path)(const void *batch, int lane, fst_bead_step_double *step);
 
-    /* The fast form locates extremes in lanes too: a step is set aside for one record in a slot of its own, and
-     * when the slots are full, sign times the extreme of each is found. */
-    size_t slots_bytes;
-    void (*set_aside)(const void *batch, int lane, int record, void *slots, int slot);
-    void (*locate)(void *slots, double *values);
+    /* The integrals of a lane up to the last observed step and over it, as those of one run. */
+    void (*extract_integrals)(const void *batch, int lane, fst_integrals_double *to);
+
+    /* The fast form locates extremes in lanes too: a step that may hold one waits in a place of its own, and
+     * when all places are taken, sign times the extreme of each is found. */
+    size_t waiting_bytes;
+    void (*set_aside)(const void *batch, int lane, int record, void *waiting, int place);
+    void (*locate)(void *waiting, double *values);
 
     /* The time, size and counts of a lane, as its flow has them; the drive does not change in lanes. */
     void (*extract_clock)(const void *batch, int lane, fst_flow *flow);

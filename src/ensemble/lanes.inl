@@ -1,33 +1,71 @@
-/* lanes.inl - the engine of a width and form: the model's and the integrator's bodies over lanes.
+/* lanes.inl - the engine of lanes: four or eight runs make their steps at the same time.
+ *
+ * A processor's wide registers hold 4 (AVX2) or 8 (AVX-512) doubles, and one instruction works on all of them.
+ * So the model's and the integrator's bodies are compiled once more with a REAL that is such a register, and
+ * each of its lanes belongs to another run, with its own parameters, time and step size:
+ *
+ *     lane          0         1         2         3
+ *     run          17        18        23        20
+ *     t            5.21      1.07      0.02      9.96
+ *     step size    0.031     0.044     0.028     0.009
+ *                  `------- one try_step() -------'
+ *     error        0.4       0.7       1.9       0.2
+ *                 accept    accept    reject    accept, at its end: observed, unloaded, replaced by run 21
+ *
+ * All lanes do the same, always; where they differ, both outcomes are computed and a mask selects.  A lane
+ * whose try was rejected tries again with a smaller step while its neighbours make their next one: nobody
+ * waits.  A lane without a run goes on with steps of size 0.  What the lanes of a batch must share are the
+ * integers of the model (number of lines, material, dynamics), because a branch is taken by all lanes or by
+ * none.
+ *
+ * What a lane computes depends on nothing in the other lanes: no instruction works across lanes.  So a run has
+ * the same bits in any lane, beside any neighbours.  There are two forms of arithmetic.  The portable form
+ * makes the operations of the scalar code in its order, and so has the bits of fst_run().  The fast form
+ * (FST_FUSED) fuses multiplications with additions, takes reciprocal roots from estimates, and damps the step
+ * control; its rows name it.
+ *
+ * A round of a batch is
+ *
+ *     try_steps()   a try in every lane, accepted or rejected
+ *     watch()       may the step hold an end of the run, a mark, a doubtful angle?
+ *     observe()     integrals over the step; may it hold a new extreme?
+ *     ---           the caller looks closely at the few lanes for which the answer is yes
+ *     advance()     the end of the step is the start of the next
+ *
+ * watch() and observe() err towards yes: every test has a margin.  For a close look extract() takes the step
+ * out of its lane as a scalar step, and the code of single runs looks at it.  A mode of contact (ode/flow.inl)
+ * would change in the same place: its event makes the step worth a close look, the scalar flow is cut there,
+ * and is loaded into its lane again.
  *
  * The including file brings base/wide.h and defines ENGINE (the table's symbol), ENGINE_NAME and ENGINE_FUSED.
  */
 #include <stddef.h>
 #include <string.h>
 
+#include "base/twofold.inl"
 #include "model/bodies.inl"
 #include "ode/bead_step.inl"
-#include "ode/summit.inl"
+#include "ode/path.inl"
+#include "ode/step_control.inl"
 #include "ode/tangent_step.inl"
+#include "observe/integrals.inl"
+#include "observe/peaks.inl"
 
 typedef struct batch {
     FN(bead_step) step;
     REAL tolerance, absolute_tolerance[FST_STATE_SIZE];
-    /* the clock, as in fst_flow; `lands` is 1 or 0 */
-    REAL t_high, t_low, t_start_high, t_start_low, t_limit;
-    REAL h_next, greatest_step, lands, rejections, worst_error;
-    REAL root; /* the last accepted step's error to the power -1/32 */
+    /* the clock, as in fst_flow */
+    FN(step_control) control;
+    FN(twofold) t_start, t;
+    REAL t_limit;
     REAL norm_drift, accepted, rejected;
     REAL drift, speed; /* of the last try: | |n| - 1 |, greatest component of |d(state)/dt| at its end */
     /* what is watched */
     REAL plate_radius, next_mark, activity;
     REAL turns[2], turns_before[2], phi_least[2], phi_most[2];
-    REAL total_high[FST_Q_COUNT], total_low[FST_Q_COUNT], increment[FST_Q_COUNT];
-    REAL r_reference, b_reference;
-    REAL integrands[FST_PATH_STAGES][FST_Q_COUNT], tracked[FST_PATH_STAGES][FST_TRACK_COUNT];
+    FN(integrals) sums;
     REAL records[FST_RECORD_COUNT];
-    /* between which nodes the step's extreme lies */
-    REAL summit_from[FST_RECORD_COUNT], summit_to[FST_RECORD_COUNT];
+    REAL peak_from[FST_RECORD_COUNT], peak_to[FST_RECORD_COUNT]; /* the nodes between which the extreme lies */
     /* No REAL below this line: save() and restore() take all that are above it. */
     unsigned in_use;
     unsigned observed; /* the lanes whose last step was */
@@ -54,13 +92,8 @@ static void view(void *memory, fst_lane_view *v)
     v->next_mark = lanes_of(&b->next_mark);
     v->phi_least = lanes_of(b->phi_least);
     v->phi_most = lanes_of(b->phi_most);
-    v->total_high = lanes_of(b->total_high);
-    v->total_low = lanes_of(b->total_low);
-    v->increment = lanes_of(b->increment);
-    v->r_reference = lanes_of(&b->r_reference);
-    v->b_reference = lanes_of(&b->b_reference);
-    v->integrands = lanes_of(b->integrands);
-    v->tracked = lanes_of(b->tracked);
+    v->r_reference = lanes_of(&b->sums.r_reference);
+    v->b_reference = lanes_of(&b->sums.b_reference);
     v->records = lanes_of(b->records);
 }
 
@@ -84,7 +117,7 @@ static void load_coefficients(FN(coefficients) * to, int lane, const fst_coeffic
 
 static void load_pull(FN(pull) * to, int lane, const fst_flow *flow)
 {
-    const fst_pull_double *from = &flow->step.context.pull[0];
+    const fst_pull_double *from = FST_PATH_PULL(&flow->step, FST_STEP_START);
     for (int i = 0; i < 3; ++i) {
         to->b[i][lane] = from->b[i];
         to->force[i][lane] = from->force[i];
@@ -113,12 +146,12 @@ static void extract_pull(const FN(pull) * from, int lane, fst_pull_double *to)
 
 static void load_clock(batch *b, int lane, const fst_flow *flow, double t_limit)
 {
-    b->t_high[lane] = b->t_start_high[lane] = flow->t.high;
-    b->t_low[lane] = b->t_start_low[lane] = flow->t.low;
+    b->t_start.high[lane] = b->t.high[lane] = flow->t.high;
+    b->t_start.low[lane] = b->t.low[lane] = flow->t.low;
     b->t_limit[lane] = t_limit;
-    b->h_next[lane] = flow->h_next;
-    b->greatest_step[lane] = flow->greatest_step > 0 ? flow->greatest_step : INFINITY;
-    b->root[lane] = 1.0;
+    b->control.proposal[lane] = flow->control.proposal;
+    b->control.greatest[lane] = flow->control.greatest;
+    b->control.root[lane] = 1.0;
     b->norm_drift[lane] = flow->norm_drift;
     b->accepted[lane] = (double)flow->accepted;
     b->rejected[lane] = (double)flow->rejected;
@@ -134,12 +167,12 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     batch *b = memory;
     const fst_bead_step_double *from = &flow->step;
     load_coefficients(&b->step.context.coefficients, lane, &from->context.coefficients);
-    load_pull(&b->step.context.pull[0], lane, flow);
+    load_pull(FST_PATH_PULL(&b->step, FST_STEP_START), lane, flow);
     b->step.omega[lane] = from->omega;
     b->step.ramp[lane] = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        b->step.y[i][lane] = b->step.stage[0][i][lane] = from->y[i];
-        b->step.k[0][i][lane] = from->k[0][i];
+        b->step.y[i][lane] = FST_PATH_STATE(&b->step, FST_STEP_START)[i][lane] = from->y[i];
+        FST_PATH_SLOPE(&b->step, FST_STEP_START)[i][lane] = FST_PATH_SLOPE(from, FST_STEP_START)[i];
     }
     load_clock(b, lane, flow, t_limit);
     b->plate_radius[lane] = flow->groups.plate_radius;
@@ -150,8 +183,8 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     for (int i = 0; i < 2; ++i)
         b->phi_least[i][lane] = b->phi_most[i][lane] = 0.0;
     for (int i = 0; i < FST_Q_COUNT; ++i)
-        b->total_high[i][lane] = b->total_low[i][lane] = b->increment[i][lane] = 0.0;
-    b->r_reference[lane] = b->b_reference[lane] = 0.0;
+        b->sums.total_high[i][lane] = b->sums.total_low[i][lane] = b->sums.increment[i][lane] = 0.0;
+    b->sums.r_reference[lane] = b->sums.b_reference[lane] = 0.0;
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
         b->records[i][lane] = -1e300;
     b->in_use |= 1u << lane;
@@ -164,7 +197,7 @@ static void release(void *memory, int lane)
 {
     batch *b = memory;
     b->in_use &= ~(1u << lane);
-    b->step.h[lane] = 0.0;
+    b->control.size[lane] = 0.0;
 }
 
 /* A lane as numbers: its share of every REAL of the batch, and whether its integrands are known.  Where the
@@ -197,11 +230,12 @@ static void restore(void *memory, int lane, const double *numbers)
 static void extract_clock(const void *memory, int lane, fst_flow *flow)
 {
     const batch *b = memory;
-    flow->t_start = (fst_twofold){b->t_start_high[lane], b->t_start_low[lane]};
-    flow->t = (fst_twofold){b->t_high[lane], b->t_low[lane]};
-    flow->h_next = b->h_next[lane];
-    flow->attempt = flow->step.h = b->step.h[lane];
-    flow->worst_error = b->worst_error[lane];
+    flow->t_start = (fst_twofold){b->t_start.high[lane], b->t_start.low[lane]};
+    flow->t = (fst_twofold){b->t.high[lane], b->t.low[lane]};
+    flow->step.h = b->step.h[lane];
+    flow->control.proposal = b->control.proposal[lane];
+    flow->control.size = b->control.size[lane];
+    flow->control.worst_error = b->control.worst_error[lane];
     flow->norm_drift = b->norm_drift[lane];
     const uint64_t accepted = (uint64_t)b->accepted[lane], rejected = (uint64_t)b->rejected[lane];
     /* The flow's own count is of what came before, and of what was extracted already. */
@@ -219,106 +253,62 @@ static void extract(const void *memory, int lane, fst_bead_step_double *to)
         to->y[i] = from->y[i][lane];
         to->end[i] = from->end[i][lane];
     }
-    static const int needed[] = {0, 5, 6, 7, 8, 9, 10, 11, 12}; /* by the dense output */
-    for (size_t j = 0; j < sizeof needed / sizeof *needed; ++j)
+    for (int n = 0; n < FST_PATH_PLACES; ++n)
         for (int i = 0; i < FST_STATE_SIZE; ++i)
-            to->k[needed[j]][i] = from->k[needed[j]][i][lane];
+            FST_PATH_SLOPE(to, n)[i] = FST_PATH_SLOPE(from, n)[i][lane];
 }
 
-static void extract_stages(const void *memory, int lane, fst_bead_step_double *to)
+static void extract_path(const void *memory, int lane, fst_bead_step_double *to)
 {
     const FN(bead_step) *from = &((const batch *)memory)->step;
-    for (int n = 0; n < FST_PATH_STAGES; ++n) {
-        const int j = FST_PATH_STAGE[n];
+    for (int n = 0; n < FST_PATH_PLACES; ++n) {
         for (int i = 0; i < FST_STATE_SIZE; ++i)
-            to->stage[j][i] = from->stage[j][i][lane];
-        extract_pull(&from->context.pull[j], lane, &to->context.pull[j]);
+            FST_PATH_STATE(to, n)[i] = FST_PATH_STATE(from, n)[i][lane];
+        extract_pull(FST_PATH_PULL(from, n), lane, FST_PATH_PULL(to, n));
     }
+}
+
+static void extract_integrals(const void *memory, int lane, fst_integrals_double *to)
+{
+    const REAL *from = (const REAL *)&((const batch *)memory)->sums;
+    double *numbers = (double *)to;
+    for (size_t i = 0; i < sizeof *to / sizeof *numbers; ++i)
+        numbers[i] = from[i][lane];
 }
 
 /* ------------------------------------------------------------------ steps */
 
-/* fst_flow_plan() */
 static void plan(batch *b, fst_wide_mask mask)
 {
-    const REAL zero = R(0.0), rest = (b->t_limit - b->t_high) + (zero - b->t_low), distance = REAL_ABS(rest);
-    const REAL h = -REAL_MAX(-b->h_next, -b->greatest_step);
-    const fst_wide_mask lands = WIDE_LESS_EQUAL(distance, h * R(1.01));
-    const REAL signed_h = fst_wide_select(WIDE_LESS(rest, zero), -h, h);
-    b->step.h = fst_wide_select(mask, fst_wide_select(lands, rest, signed_h), b->step.h);
-    b->lands = fst_wide_select(mask, fst_wide_select(lands, R(1.0), zero), b->lands);
-    b->rejections = fst_wide_select(mask, zero, b->rejections);
-    b->worst_error = fst_wide_select(mask, zero, b->worst_error);
+    const FN(twofold) limit = {b->t_limit, R(0.0)};
+    FN(plan_step)(&b->control, mask, FN(twofold_difference)(limit, b->t));
 }
 
-/* fst_twofold_add() */
-static void add_twofold(REAL *high, REAL *low, REAL x)
-{
-    const REAL old = *high, sum = old + x, part = sum - old;
-    const REAL error = (old - (sum - part)) + (x - part);
-    const REAL all_low = *low + error;
-    *high = sum + all_low;
-    *low = all_low - (*high - sum);
-}
-
-#ifdef FST_FUSED
-/* The step size after an accepted step, from step_factor() = 0.9 e^(-1/8) of its error e and from the error e_0
- * of the accepted step before: 0.9 e^(-3/32) e_0^(1/32), a proportional-integral controller (K. Gustafsson,
- * ACM Trans. Math. Softw. 17 (1991) 533).  Along an orbit errors rise and fall over some steps; that the
- * controller sees this leaves 0.3 % of rejections of 5 % at a tolerance of 1e-10, and the same error of a final
- * state takes an eighth less work. */
-static REAL control(batch *b, fst_wide_mask mask, REAL factor)
-{
-    const REAL eighth = factor * R(1.0 / 0.9), sixteenth = eighth * fst_wide_rough_reciprocal_sqrt(eighth);
-    const REAL root = sixteenth * fst_wide_rough_reciprocal_sqrt(sixteenth), before = b->root;
-    b->root = fst_wide_select(mask, root, before);
-    return factor * fst_wide_rough_reciprocal(root * before);
-}
-#endif
-
-/* fst_flow_accept() */
 static void accept(batch *b, fst_wide_mask mask, REAL factor)
 {
-    const REAL attempt = b->step.h, size = REAL_ABS(attempt), one = R(1.0), zero = R(0.0);
+    const FN(twofold) end = FN(step_end)(&b->control, b->t, b->t_limit);
     b->norm_drift = fst_wide_add_where(mask, b->norm_drift, b->drift);
-    b->accepted = fst_wide_add_where(mask, b->accepted, one);
-    b->t_start_high = fst_wide_select(mask, b->t_high, b->t_start_high);
-    b->t_start_low = fst_wide_select(mask, b->t_low, b->t_start_low);
-    REAL high = b->t_high, low = b->t_low;
-    add_twofold(&high, &low, attempt);
-    const fst_wide_mask lands = WIDE_LESS(zero, b->lands);
-    b->t_high = fst_wide_select(mask, fst_wide_select(lands, b->t_limit, high), b->t_high);
-    b->t_low = fst_wide_select(mask, fst_wide_select(lands, zero, low), b->t_low);
-    const REAL proposal = size * factor;
-    const REAL kept =
-        REAL_MAX(b->h_next, proposal); /* a step cut short says nothing against the planned size */
-    REAL next = fst_wide_select(lands, kept, proposal);
-    const REAL bounded = -REAL_MAX(-next, -size);
-    next = fst_wide_select(WIDE_LESS(zero, b->rejections), bounded, next);
-    b->h_next = fst_wide_select(mask, next, b->h_next);
+    b->accepted = fst_wide_add_where(mask, b->accepted, R(1.0));
+    b->t_start.high = fst_wide_select(mask, b->t.high, b->t_start.high);
+    b->t_start.low = fst_wide_select(mask, b->t.low, b->t_start.low);
+    b->t.high = fst_wide_select(mask, end.high, b->t.high);
+    b->t.low = fst_wide_select(mask, end.low, b->t.low);
+    FN(accept_step)(&b->control, mask, factor, FST_HOLD_AFTER_REJECTION);
 }
 
-/* fst_flow_reject(); the lanes that give up. */
+/* The lanes that give up. */
 static unsigned reject(batch *b, fst_wide_mask mask, REAL error, REAL factor)
 {
-    const REAL one = R(1.0), zero = R(0.0), infinity = R(INFINITY);
-    const fst_wide_mask finite = WIDE_LESS(REAL_ABS(error), infinity);
-    b->rejected = fst_wide_add_where(mask, b->rejected, one);
-    b->rejections = fst_wide_add_where(mask, b->rejections, one);
-    b->worst_error = fst_wide_select(mask, fst_wide_select(finite, error, infinity), b->worst_error);
-    const REAL attempt = b->step.h * fst_wide_select(finite, factor, R(0.1));
-    b->step.h = fst_wide_select(mask, attempt, b->step.h);
-    b->lands = fst_wide_select(mask, zero, b->lands);
-    const REAL least = R(1e-14) * (one + REAL_ABS(b->t_high));
-    const unsigned large = fst_wide_lanes_of(WIDE_LESS_EQUAL(least, REAL_ABS(attempt)));
-    const unsigned few = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->rejections, R(401.0)));
-    return fst_wide_lanes_of(mask) & ~(large & few);
+    b->rejected = fst_wide_add_where(mask, b->rejected, R(1.0));
+    const REAL given_up = FN(reject_step)(&b->control, mask, error, factor, b->t.high);
+    return fst_wide_lanes_of(WIDE_LESS(R(0.0), given_up));
 }
 
 static fst_lane_tries try_steps(void *memory)
 {
     batch *b = memory;
     FN(bead_step) *s = &b->step;
+    s->h = b->control.size;
     FN(bead_try_step)(s);
     const REAL error = FN(bead_step_error)(s, b->tolerance, b->absolute_tolerance);
     const REAL factor = FN(step_factor)(error);
@@ -328,13 +318,14 @@ static fst_lane_tries try_steps(void *memory)
     const unsigned rejected = b->in_use & ~tries.accepted;
     tries.failed = 0;
 #ifdef FST_FUSED
-    accept(b, fst_wide_mask_of(tries.accepted), control(b, fst_wide_mask_of(tries.accepted), factor));
+    const fst_wide_mask accepted = fst_wide_mask_of(tries.accepted);
+    accept(b, accepted, FN(damped_factor)(&b->control, accepted, factor));
 #else
     accept(b, fst_wide_mask_of(tries.accepted), factor);
 #endif
     if (rejected)
         tries.failed = reject(b, fst_wide_mask_of(rejected), error, factor);
-    tries.landed = tries.accepted & fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t_high));
+    tries.landed = tries.accepted & fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t.high));
     return tries;
 }
 
@@ -343,11 +334,11 @@ static void keep_integrands(batch *b, unsigned accepted)
 {
     const unsigned kept = accepted & b->observed;
     const fst_wide_mask mask = fst_wide_mask_of(kept);
-    enum { LAST = FST_PATH_STAGES - 1 };
+    FN(integrals) *q = &b->sums;
     for (int i = 0; kept && i < FST_Q_COUNT; ++i)
-        b->integrands[0][i] = fst_wide_select(mask, b->integrands[LAST][i], b->integrands[0][i]);
+        q->integrands[0][i] = fst_wide_select(mask, q->integrands[FST_STEP_END][i], q->integrands[0][i]);
     for (int i = 0; kept && i < FST_TRACK_COUNT; ++i)
-        b->tracked[0][i] = fst_wide_select(mask, b->tracked[LAST][i], b->tracked[0][i]);
+        q->tracked[0][i] = fst_wide_select(mask, q->tracked[FST_STEP_END][i], q->tracked[0][i]);
     b->known = (b->known & ~accepted) | kept;
     b->observed = 0;
 }
@@ -355,47 +346,29 @@ static void keep_integrands(batch *b, unsigned accepted)
 static void advance(void *memory, unsigned accepted)
 {
     batch *b = memory;
-    FN(bead_step) *s = &b->step;
     const fst_wide_mask mask = fst_wide_mask_of(accepted);
-    for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        s->y[i] = s->stage[0][i] = fst_wide_select(mask, s->end[i], s->y[i]);
-        s->k[0][i] = fst_wide_select(mask, s->k[12][i], s->k[0][i]);
-    }
-    FN(pull) *to = &s->context.pull[0];
-    const FN(pull) *from = &s->context.pull[12];
-    for (int i = 0; i < 3; ++i) {
-        to->b[i] = fst_wide_select(mask, from->b[i], to->b[i]);
-        to->force[i] = fst_wide_select(mask, from->force[i], to->force[i]);
-    }
-    to->strength = fst_wide_select(mask, from->strength, to->strength);
-#ifdef FIELD_KEEPS_GRADIENT
-    FN(gradient) *g = &to->gradient;
-    g->xx = fst_wide_select(mask, from->gradient.xx, g->xx);
-    g->yy = fst_wide_select(mask, from->gradient.yy, g->yy);
-    g->xy = fst_wide_select(mask, from->gradient.xy, g->xy);
-    g->xz = fst_wide_select(mask, from->gradient.xz, g->xz);
-    g->yz = fst_wide_select(mask, from->gradient.yz, g->yz);
-#endif
+    FN(next_step_where)(&b->step, mask);
     for (int i = 0; i < 2; ++i)
         b->turns_before[i] = fst_wide_select(mask, b->turns[i], b->turns_before[i]);
     keep_integrands(b, accepted);
     plan(b, mask);
 }
 
-/* An event function f may cross zero in a step where its least value at the stages minus half their spread is
- * not positive (fst_flow_first_negative); for the edge, f = edge - r, the spread is taken at its greatest, r.
+/* An event function f may cross zero in a step where its least value at the places of its path minus half their
+ * spread is not positive (fst_flow_first_negative); for the edge, f = edge - r, the spread is taken at its
+ * greatest, r.
  */
 static unsigned may_end(const batch *b)
 {
     const FN(bead_step) *s = &b->step;
     const REAL edge = b->plate_radius;
     REAL least = R(INFINITY), greatest = R(-INFINITY), farthest2 = R(0.0);
-    for (int n = 0; n < FST_PATH_STAGES; ++n) {
-        const int j = FST_PATH_STAGE[n];
-        const REAL load = FN(load)(&s->context.coefficients, s->context.pull[j].force);
+    for (int n = 0; n < FST_PATH_PLACES; ++n) {
+        const REAL load = FN(load)(&s->context.coefficients, FST_PATH_PULL(s, n)->force);
+        const REAL *y = FST_PATH_STATE(s, n);
         least = -REAL_MAX(-load, -least);
         greatest = REAL_MAX(load, greatest);
-        farthest2 = REAL_MAX(s->stage[j][0] * s->stage[j][0] + s->stage[j][1] * s->stage[j][1], farthest2);
+        farthest2 = REAL_MAX(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y], farthest2);
     }
     const REAL margin = R(1e-9) * greatest;
     const fst_wide_mask lifts = WIDE_LESS_EQUAL(least - R(0.5) * (greatest - least), margin);
@@ -422,23 +395,17 @@ static unsigned wind(REAL *turns, REAL x0, REAL y0, REAL x, REAL y)
     return ~an_end & fst_wide_lanes_of(WIDE_LESS(R(16.0) * (cross * cross), length2 * length2));
 }
 
-/* The plane in which phi turns, as in the quadrature. */
-static void small_phi_point(const REAL *y, REAL *u, REAL *w)
-{
-    *u = -y[FST_NZ] * REAL_SQRT(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y]);
-    *w = y[FST_X] * y[FST_NY] - y[FST_Y] * y[FST_NX];
-}
-
 static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed, unsigned in_window)
 {
     batch *b = memory;
     const REAL *y = b->step.y, *end = b->step.end, zero = R(0.0);
-    REAL speed = REAL_ABS(b->step.k[12][0]);
+    const REAL *slope = FST_PATH_SLOPE(&b->step, FST_STEP_END);
+    REAL speed = REAL_ABS(slope[0]);
     for (int i = 1; i < FST_STATE_SIZE; ++i)
-        speed = REAL_MAX(REAL_ABS(b->step.k[12][i]), speed);
+        speed = REAL_MAX(REAL_ABS(slope[i]), speed);
     b->speed = speed;
-    const unsigned ending = may_end(b), landed = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t_high));
-    const unsigned at_mark = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->next_mark, b->t_high + R(1e-9) * b->step.h));
+    const unsigned ending = may_end(b), landed = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t.high));
+    const unsigned at_mark = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->next_mark, b->t.high + R(1e-9) * b->step.h));
     const unsigned crossing = fst_wide_lanes_of(WIDE_LESS_EQUAL(y[FST_X] * end[FST_X], zero)) & in_window;
     unsigned close = ending | landed | crossing;
     b->turns[0] = b->turns_before[0];
@@ -446,8 +413,8 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     close |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
     if (observed) {
         REAL u0, w0, u, w;
-        small_phi_point(y, &u0, &w0);
-        small_phi_point(end, &u, &w);
+        FN(small_phi_point)(y, &u0, &w0);
+        FN(small_phi_point)(end, &u, &w);
         close |= wind(&b->turns[1], u0, w0, u, w) & observed;
         b->turns[1] = fst_wide_select(fst_wide_mask_of(observed), b->turns[1], b->turns_before[1]);
     }
@@ -486,11 +453,12 @@ const fst_lane_engine ENGINE = {
     .observe = observe,
     .advance = advance,
     .extract = extract,
-    .extract_stages = extract_stages,
+    .extract_path = extract_path,
     .extract_clock = extract_clock,
+    .extract_integrals = extract_integrals,
     .tangents = TANGENT_ENGINE,
 #ifdef FST_FUSED
-    .slots_bytes = sizeof(slots),
+    .waiting_bytes = sizeof(waiting),
     .set_aside = set_aside,
     .locate = locate,
 #endif

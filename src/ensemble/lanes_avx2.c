@@ -2,8 +2,6 @@
 #include "ensemble/engines.h"
 
 #ifdef FST_HAVE_LANES
-#include "ode/path_stages.h"
-
 #define FST_LANES 4
 #define FST_FUSED
 #include "base/wide.h"

@@ -29,13 +29,13 @@ static void view_tangents(void *memory, double **y, const double **slope)
 {
     tangents *t = memory;
     *y = numbers(t->step.y);
-    *slope = numbers(t->step.k[0]);
+    *slope = numbers(FST_PATH_SLOPE(&t->step, FST_STEP_START));
 }
 
 static void evaluate_tangents(void *memory)
 {
     tangents *t = memory;
-    FN(tangent_rhs)(&t->step.context, t->step.omega, t->step.y, t->step.k[0]);
+    FN(tangent_begin)(&t->step);
 }
 
 static void try_tangents(void *memory, const double *h, double *errors, double *factors)

@@ -1,4 +1,9 @@
-/* advance.c - the public way along a trajectory: to a time or the first event. */
+/* advance.c - the public way along a trajectory: to a time or the first event.
+ *
+ * The flow makes whole steps; the caller of fst_flow_advance() stops anywhere.  So the flow keeps a cursor, the
+ * fraction of the last step at which the caller stands: the next call first looks through the rest of that
+ * step.
+ */
 #include "ode/flow.h"
 
 #include <string.h>
@@ -115,7 +120,7 @@ fst_flow_info fst_flow_get(const fst_flow *flow)
     double whole, rest;
     fst_flow_drive_turns(&copy, t, &whole, &rest);
     info.omega = fst_flow_omega(&copy, t);
-    info.step = copy.h_next;
+    info.step = copy.control.proposal;
     info.phi = fst_winding_angle(&phi);
     info.drive_turns = whole + rest;
     info.alpha = info.phi + TWO_PI * (whole + rest);

@@ -1,10 +1,19 @@
 /* bead_step.inl - the integrator's step applied to the bead, over REAL; the including file brings
- * model/bodies.inl first. */
+ * model/bodies.inl first.
+ *
+ * What one step leaves for the next, and for what observes it:
+ *
+ *     begin_steps()            try_step()                   finish_step()           next_step()
+ *     first stage at s->y ---> stages 2 to 12, s->end ----> n of unit length, ----> the end is the start:
+ *                              (as often as it takes)       stage 13 at the end     stage 13 becomes stage 1
+ *
+ * The magnet's pull is kept at every stage, because integrals and events need it there (path.h).
+ */
 #include "ode/dop853_tableau.h"
 
 typedef struct FN(bead) {
     FN(coefficients) coefficients;
-    FN(pull) pull[16]; /* at the stages, for whoever observes them */
+    FN(pull) pull[16]; /* at the stages */
 } FN(bead);
 
 #define STEP_DIM FST_STATE_SIZE
@@ -55,15 +64,25 @@ static inline REAL FN(finish_step)(FN(bead_step) * s)
     return drift;
 }
 
-/* Make the end of the last step the start of the next, where the drive is `omega`. */
+/* Make the end of the last step the start of the next, in the lanes of `mask`. */
+static inline void FN(next_step_where)(FN(bead_step) * s, REAL_MASK mask)
+{
+    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+        s->y[i] = s->stage[0][i] = REAL_SELECT(mask, s->end[i], s->y[i]);
+        s->k[0][i] = REAL_SELECT(mask, s->k[12][i], s->k[0][i]);
+    }
+    /* A pull has no members but REALs. */
+    REAL *to = (REAL *)&s->context.pull[0];
+    const REAL *from = (const REAL *)&s->context.pull[12];
+    for (size_t i = 0; i < sizeof(FN(pull)) / sizeof(REAL); ++i)
+        to[i] = REAL_SELECT(mask, from[i], to[i]);
+}
+
+/* The same in all lanes, where the drive is now `omega`. */
 static inline void FN(next_step)(FN(bead_step) * s, REAL omega)
 {
     s->omega = omega;
-    for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        s->y[i] = s->stage[0][i] = s->end[i];
-        s->k[0][i] = s->k[12][i];
-    }
-    s->context.pull[0] = s->context.pull[12];
+    FN(next_step_where)(s, REAL_EVERYWHERE);
 }
 
 /* First stage of a trajectory that starts at s->y. */
@@ -72,17 +91,4 @@ static inline void FN(begin_steps)(FN(bead_step) * s)
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         s->stage[0][i] = s->y[i];
     FN(rhs)(&s->context.coefficients, s->omega, s->y, s->k[0], &s->context.pull[0]);
-}
-
-/* The factor by which the step size may change after a step of this error (<= 1: accepted): 0.9 error^(-1/8)
- * within [1/6, 6]. */
-static inline REAL FN(step_factor)(REAL error)
-{
-#ifdef REAL_INVERSE_EIGHTH_ROOT
-    const REAL factor = R(0.9) * REAL_INVERSE_EIGHTH_ROOT(REAL_MAX(error, R(2.562890625e-7))); /* 0.15^8 */
-#else
-    const REAL eighth = REAL_SQRT(REAL_SQRT(REAL_SQRT(error)));
-    const REAL factor = R(0.9) / REAL_MAX(eighth, R(0.15));
-#endif
-    return REAL_MAX(factor, R(1.0) / R(6.0));
 }

@@ -1,23 +1,55 @@
 /* dop853.inl - one step of Dormand and Prince's method of order 8(5,3), and its dense output, over REAL.
  *
- * The including file defines STEP_DIM (number of components), STEP_CONTEXT (what the right-hand side needs),
- * STEP_NAME(name), by which what this body defines is named, and STEP_DERIVATIVES(s, drive, j): fill k[j - 1]
- * of the step with the derivative at its stage[j - 1].  Instead of the last it may define its parts:
+ * The scheme.  A step of size h from the state y evaluates the derivative at twelve trial states, the stages.
+ * Each is y plus h times a weighted sum of the derivatives k of the stages before it, and the end of the step
+ * is y plus h times a weighted sum of all of them:
  *
- * - STEP_KNOWN(i): whether component i is one of those whose derivative follows from the state alone, as that
- * of a place follows from a velocity;
+ *     stage 1:  y                                  k1 = f(y)           the derivative that the step before left
+ *     stage 2:  y + h a21 k1                       k2 = f(stage 2)
+ *     stage 3:  y + h (a31 k1 + a32 k2)            k3 = f(stage 3)
+ *     ...
+ *     stage 12                                     k12
+ *     end:      y + h (b1 k1 + b6 k6 + ... + b12 k12)
+ *     stage 13: the end, projected by the caller   k13 = f(end)        stage 1 of the next step
+ *
+ * The weights (dop853_tableau.h) are chosen so that the end is wrong by O(h^9) only.  Two other sums of the
+ * same derivatives have the orders 5 and 3; how far they are from the end is the error by which the step is
+ * judged (step_error).
+ *
+ * The dense output.  Where something happens within a step, the state is wanted there.  A polynomial of degree
+ * 7 in the fraction x of the step meets the states and derivatives of both ends; four of its coefficients need
+ * three more stages, 14 to 16, at x = 0.1, 0.2 and 7/9, which are evaluated only if somebody asks (make_dense).
+ * It is written so that both ends come out exactly:
+ *
+ *     y(x) = c0 + x (c1 + (1-x) (c2 + x (c3 + (1-x) (c4 + x (c5 + (1-x) (c6 + x c7))))))
+ *
+ *     c0 = y,   c1 = end - y,   c2 = h k1 - c1,   c3 = c1 - h k13 - c2,   c4 ... c7 = h times sums of the k
+ *
+ * Anything that is integrated along with the state, by its values at the stages, has a dense output by the same
+ * coefficients (path.inl).
+ *
+ * For speed, what the older stages add to the next one is summed before the newest derivative is evaluated, so
+ * that a processor can do both at once.  Do not reorder: every sum has one order, and the published bits are
+ * those of it.
+ *
+ * The including file defines STEP_DIM (number of components), STEP_CONTEXT (what the right-hand side needs
+ * besides the state), STEP_NAME(name), by which what this body defines is named, and either STEP_RHS(context,
+ * drive, y, dy), the right-hand side, or STEP_DERIVATIVES(s, drive, j): fill k[j - 1] of the step with the
+ * derivative at its stage[j - 1].  Stages are numbered from 1 as in Hairer's code, and no number leaves this
+ * room (path.h).
+ *
+ * Instead of STEP_DERIVATIVES it may define its parts.  The place at a stage is then known before the forces at
+ * the stage before it are, and the forces at both, which take most of the time, do not wait for each other:
+ *
+ * - STEP_KNOWN(i): whether the derivative of component i follows from the state alone, without forces;
  * - STEP_KINEMATICS(s, drive, j): fill these derivatives;
- * - STEP_FORCES(s, j): make what the other derivatives need of these components of a stage;
+ * - STEP_FORCES(s, j): compute what the other derivatives need, from the known components of a stage;
  * - STEP_DYNAMICS(s, drive, j): fill the other derivatives;
  * - STEP_FORCES_AND_DYNAMICS(s, next, drive, j): the forces at stage `next`, and the dynamics at stage j.
- *
- * With the parts, a place is known before the forces at the stage before it are, and the forces at both, which
- * take most of the time, do not wait for each other: a processor that looks ahead works on both.
- *
- * Stages are numbered from 1 as in Hairer's code; stage 13 is the end of the step and the first stage of the
- * next.  Zeros of the tableau are left out; every sum has one order: what the older stages add to the next one
- * is summed before the newest derivative is evaluated, so that a processor can do both at once.
  */
+#ifdef STEP_RHS
+#define STEP_DERIVATIVES(s, drive, j) STEP_RHS(&(s)->context, drive, (s)->stage[(j)-1], (s)->k[(j)-1])
+#endif
 #ifdef STEP_DERIVATIVES
 #define STEP_KINEMATICS(s, drive, j) ((void)0)
 #define STEP_FORCES(s, j) ((void)0)
@@ -210,6 +242,31 @@ static inline void STEP_NAME(evaluate_dense)(int dim, const REAL *c_flat, int st
 #undef TERM
 }
 
+#ifdef STEP_RHS
+/* The first stage of a step from s->y. */
+static inline void STEP_NAME(begin)(STEP_NAME(step) * s)
+{
+    STEP_RHS(&s->context, s->omega, s->y, s->k[0]);
+}
+
+/* The last stage of an accepted step, whose end needs no projection; and the end as the start of the next step.
+ */
+static inline REAL STEP_NAME(finish)(STEP_NAME(step) * s)
+{
+    STEP_RHS(&s->context, s->omega + s->h * s->ramp, s->end, s->k[12]);
+    return R(0.0);
+}
+
+static inline void STEP_NAME(next)(STEP_NAME(step) * s, REAL omega)
+{
+    s->omega = omega;
+    for (int i = 0; i < STEP_DIM; ++i) {
+        s->y[i] = s->end[i];
+        s->k[0][i] = s->k[12][i];
+    }
+}
+#endif
+
 #undef K
 #undef STATE
 #undef EACH_KNOWN
@@ -219,6 +276,7 @@ static inline void STEP_NAME(evaluate_dense)(int dim, const REAL *c_flat, int st
 #undef STEP_DIM
 #undef STEP_CONTEXT
 #undef STEP_NAME
+#undef STEP_RHS
 #undef STEP_DERIVATIVES
 #undef STEP_KNOWN
 #undef STEP_KINEMATICS

@@ -1,4 +1,16 @@
-/* events.c - zeros and extremes of functions of the state on the dense output. */
+/* events.c - where in the last step something happens: zeros and extremes of functions of the state.
+ *
+ * An event is a sign change of a function along the trajectory: X on the section, plate radius minus r at the
+ * edge, the normal load where the bead lifts off.  Its place is the fraction x of the step, 0 to 1, found on
+ * the dense output to rounding.  A function that has one sign at both ends of the step may still dip below zero
+ * in between:
+ *
+ *       f                      The values at the places of the path (path.h), which cost nothing, tell most
+ *       |o               o     steps that hold no dip: those whose least value lies above zero by half of the
+ *       |  o           o       spread or more.  In the others the function is sampled at 16 places, and the
+ *     --|------o---o------x    neighbourhood of each low one is searched.
+ *       |        v
+ */
 #include "ode/flow.h"
 
 #include "base/bracket.h"
@@ -26,7 +38,7 @@ double fst_load_function(const fst_flow *flow, const double *state, const fst_pu
 double fst_flow_function_at(fst_flow *flow, double x, fst_state_function function)
 {
     if (x == 1.0)
-        return function(flow, flow->step.end, &flow->step.context.pull[12]);
+        return function(flow, flow->step.end, FST_PATH_PULL(&flow->step, FST_STEP_END));
     double state[FST_STATE_SIZE];
     if (function == fst_section_function) { /* all that it looks at; n need not be normalised for that */
         fst_flow_make_dense(flow);
@@ -39,15 +51,12 @@ double fst_flow_function_at(fst_flow *flow, double x, fst_state_function functio
     return function(flow, state, &p);
 }
 
-void fst_flow_stage_range(const fst_flow *flow, fst_state_function function, double *least, double *greatest)
+void fst_flow_path_range(const fst_flow *flow, fst_state_function function, double *least, double *greatest)
 {
-    /* Stages 1, 6 to 12 and 13 approximate the trajectory well enough to see where an extreme may lie. */
-    static const int stages[] = {0, 5, 6, 7, 8, 9, 10, 11, 12};
     *least = INFINITY;
     *greatest = -INFINITY;
-    for (size_t i = 0; i < sizeof stages / sizeof *stages; ++i) {
-        const int j = stages[i];
-        const double value = function(flow, flow->step.stage[j], &flow->step.context.pull[j]);
+    for (int n = 0; n < FST_PATH_PLACES; ++n) {
+        const double value = function(flow, FST_PATH_STATE(&flow->step, n), FST_PATH_PULL(&flow->step, n));
         *least = value < *least ? value : *least;
         *greatest = value > *greatest ? value : *greatest;
     }
@@ -153,7 +162,7 @@ static double state_function_at(fst_flow *flow, double x, const void *function)
 int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double lo, double *x)
 {
     double least, greatest;
-    fst_flow_stage_range(flow, function, &least, &greatest);
+    fst_flow_path_range(flow, function, &least, &greatest);
     if (least - 0.5 * (greatest - least) > 0)
         return 0;
     enum { PIECES = 16 };

@@ -1,34 +1,44 @@
-/* flow.h - one trajectory of the bead, step by step: what fst_flow is made of. */
+/* flow.h - one trajectory of the bead, step by step: what fst_flow is made of (flow.inl tells how it goes). */
 #ifndef FST_ODE_FLOW_H
 #define FST_ODE_FLOW_H
+
+#include <string.h>
 
 #include "base/compensated.h"
 #include "base/winding.h"
 #include "model/model.h"
 
 #include "ode/bead_step.inl"
+#include "ode/path.inl"
+#include "ode/step_control.inl"
 
-struct fst_flow {
-    fst_bead_step_double step; /* the last accepted step, from step.y to step.end */
-    fst_groups groups;
-    double rtol, atol[FST_STATE_SIZE], greatest_step;
-    double omega_start;          /* drive at ramp_start, from where it changes at the rate step.ramp */
-    fst_twofold ramp_start;      /* when that began */
-    fst_twofold phase_start;     /* angle of the drive there */
-    fst_twofold t_start, t;      /* times of step.y and step.end */
-    double h_next;               /* proposal for the next step, positive */
-    int has_step;                /* a step was made: step.end is the state, else step.y */
-    int has_dense;               /* step.dense belongs to the last step */
-    fst_winding phi_start, phi;  /* Phi at step.y and at step.end */
-    double cursor;               /* fst_flow_advance: how far into the last step its caller has got, 0 to 1 */
-    fst_twofold cursor_time;     /* the time there, where that was asked for */
-    int section_side;            /* sign of X where the caller is, 0 before the first step */
-    unsigned beyond;             /* bounds (1 << FST_STOP_*) that were reported and not come back from */
-    double attempt, worst_error; /* size of the present try; error of the last one that failed */
-    int attempt_lands, rejections;
-    double norm_drift;
-    uint64_t rhs_calls, accepted, rejected;
-};
+#define FLOW_DIM FST_STATE_SIZE
+#define FLOW_TAG fst_flow
+#define FLOW_NAME(name) fst_bead_flow_##name
+#define FLOW_STEP(name) fst_bead_##name##_double
+#define FLOW_BEGIN(s) fst_begin_steps_double(s)
+#define FLOW_FINISH(s) fst_finish_step_double(s)
+#define FLOW_NEXT(s, omega) fst_next_step_double(s, omega)
+#define FLOW_PROJECT(y) ((void)fst_renormalise_double(y))
+#define FLOW_DERIVATIVE(s, y, dy)                                                                              \
+    do {                                                                                                       \
+        fst_pull_double unused;                                                                                \
+        fst_rhs_double(&(s)->context.coefficients, (s)->omega, y, dy, &unused);                                \
+    } while (0)
+/* What a bead's flow has besides: the angle of the drive at ramp_start; Phi at step.y and at step.end; and
+ * where the caller of fst_flow_advance() is: how far into the last step (0 to 1), the time there (where that
+ * was asked for), the sign of X there (0 before the first step), and the bounds (1 << FST_STOP_*) that were
+ * reported and from which the bead has not come back. */
+#define FLOW_MEMBERS                                                                                           \
+    fst_groups groups;                                                                                         \
+    fst_twofold phase_start;                                                                                   \
+    fst_winding phi_start, phi;                                                                                \
+    double cursor;                                                                                             \
+    fst_twofold cursor_time;                                                                                   \
+    int section_side;                                                                                          \
+    unsigned beyond;
+
+#include "ode/flow.inl"
 
 /* Make one accepted step towards t_limit, forward or backward in time, landing on it exactly where it is in
  * reach. FST_STEP_UNDERFLOW, FST_NOT_FINITE: the flow stays at the end of its last good step. */
@@ -37,24 +47,14 @@ fst_status fst_flow_step(fst_flow *flow, double t_limit, fst_error *error);
 /* The end of the last step becomes a start, at which the first stage is evaluated anew. */
 void fst_flow_restart(fst_flow *flow);
 
-/* The parts of a step, for whoever makes the tries elsewhere (in lanes).  Choose the size of the first try
- * towards t_limit: flow->attempt. */
-void fst_flow_plan(fst_flow *flow, double t_limit);
-
-/* A try failed: choose the next size by step_factor() of its error.  0: the steps have become too small. */
-int fst_flow_reject(fst_flow *flow, double error, double factor);
-
-/* A try was accepted: time, counters, the next size.  Phi is left to fst_flow_follow(). */
-void fst_flow_accept(fst_flow *flow, double error, double factor, double drift, double t_limit);
-
-/* Follow Phi to the end of the accepted step; where it passes the axis closely, the step must be in flow->step.
- */
+/* Follow Phi to the end of the last step, which was made in lanes; where it passes the axis closely, the step
+ * must be in flow->step. */
 void fst_flow_follow(fst_flow *flow, const double *end);
 
-/* The failure after fst_flow_reject() gave up; flow->step.y is where the bead was. */
+/* The failure after a step was given up; flow->step.y is where the bead was. */
 fst_status fst_flow_fail(const fst_flow *flow, fst_error *error);
 
-/* Form the dense output of the last step (three more evaluations), unless it is there. */
+/* Form the dense output of the last step (three more evaluations), unless that is done. */
 void fst_flow_make_dense(fst_flow *flow);
 
 /* The state at the fraction x of the last step, n renormalised; makes the dense output. */
@@ -62,6 +62,12 @@ void fst_flow_at(fst_flow *flow, double x, double state[FST_STATE_SIZE]);
 
 /* Phi at the fraction x of the last step. */
 fst_winding fst_flow_phi(fst_flow *flow, double x);
+
+/* Greatest component of |d(state)/dt| at the end of the last step. */
+double fst_flow_speed(const fst_flow *flow);
+
+/* d(state)/dt at the end of the last step. */
+const double *fst_flow_slope(const fst_flow *flow);
 
 /* The fraction of the last step at which the time t lies, and the time at a fraction. */
 double fst_flow_fraction(const fst_flow *flow, fst_twofold t);
@@ -105,6 +111,6 @@ double fst_load_function(const fst_flow *flow, const double *state, const fst_pu
 int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double lo, double *x);
 
 /* Least and greatest value of a function at the stages of the last step that lie on the trajectory. */
-void fst_flow_stage_range(const fst_flow *flow, fst_state_function function, double *least, double *greatest);
+void fst_flow_path_range(const fst_flow *flow, fst_state_function function, double *least, double *greatest);
 
 #endif

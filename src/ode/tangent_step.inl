@@ -1,14 +1,16 @@
-/* tangent_step.inl - the integrator's step applied to the bead and one tangent vector, over REAL; the including
- * file brings model/bodies.inl, and bead_step.inl for what follows a step.
+/* tangent_step.inl - the integrator's step applied to the bead and one tangent vector, over REAL.
  *
- * The state comes first, the tangent vector after it; its derivative is that of the right-hand side along it.
+ * A tangent vector is an infinitesimal difference of two states; it changes by the derivative of the right-hand
+ * side along it.  Both are integrated as one state of twice the length, the bead's state first, so that the
+ * tangent belongs to exactly the trajectory that was computed.  The including file brings
+ * model/bodies.inl.
  */
 #include "model/tangent.inl"
 
 #define STEP_DIM (2 * FST_STATE_SIZE)
 #define STEP_NAME(name) FN(tangent_##name)
 #define STEP_CONTEXT FN(coefficients)
-#define STEP_DERIVATIVES(s, drive, j) FN(tangent_rhs)(&(s)->context, drive, (s)->stage[(j)-1], (s)->k[(j)-1])
+#define STEP_RHS(c, drive, y, dy) FN(tangent_rhs)(c, drive, y, dy)
 
 RHS_KIND void FN(tangent_rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy)
 {

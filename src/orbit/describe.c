@@ -1,11 +1,13 @@
-/* describe.c - means, extremes and shape of an orbit, with the quadrature of a run. */
+/* describe.c - means, extremes and shape of an orbit: it is followed once round, observed by a window that
+ * spans it. */
 #include "orbit/describe.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
-#include "study/run_state.h"
+#include "observe/means.h"
+#include "study/conclude.h"
 
 #define TWO_PI 6.283185307179586476925287
 
@@ -78,15 +80,59 @@ static void look_at_step(fst_flow *flow, extremes_of_r *e, fst_description *out)
     }
 }
 
-static void conclude(fst_run_state *run, const fst_solution *s, fst_description *out)
+/* An orbit on its way round. */
+typedef struct round_trip {
+    fst_params params;
+    fst_model *model;
+    fst_flow *flow;
+    fst_window window;
+    fst_mark_series ends; /* marks of the orbit's start and end, between which the means are taken */
+    extremes_of_r extremes_met;
+} round_trip;
+
+static void mark_end(round_trip *trip)
 {
-    const fst_mark *first = &run->section_marks.kept[0], *last = &run->section_marks.latest;
-    const double turned = (last->big_phi - first->big_phi) / TWO_PI, omega = run->model->groups.omega;
+    fst_mark mark;
+    fst_window_mark(&trip->window, trip->flow, 1.0, &mark);
+    fst_marks_offer(&trip->ends, &mark);
+}
+
+/* Follow the orbit once round; `extremes`: locate them too. */
+static fst_status go_round(round_trip *trip, const fst_family *family, double period, int extremes,
+                           fst_description *out, fst_error *error)
+{
+    fst_window *window = &trip->window;
+    const fst_twofold end = {period, 0.0};
+    const fst_span span = {.from = 0.0, .until = period};
+    fst_status status = FST_OK;
+    fst_window_begin(window, &span, TWO_PI / trip->model->groups.omega, trip->flow);
+    fst_marks_begin(&trip->ends);
+    mark_end(trip);
+    while (status == FST_OK && fst_twofold_difference(end, trip->flow->t) > 0) {
+        status = fst_flow_step(trip->flow, end.high, error);
+        if (status == FST_OK)
+            status = fst_watch_count(family->watch, 2 * FST_FLOW_STEP_WORK, error);
+        if (status != FST_OK)
+            return status;
+        fst_quadrature_step(&window->quadrature, trip->flow, trip->flow->accepted == 1);
+        if (extremes)
+            fst_extremes_step(window->extremes, &window->quadrature, trip->flow, 0.0);
+        look_at_step(trip->flow, &trip->extremes_met, out);
+    }
+    mark_end(trip);
+    return status;
+}
+
+static void conclude(const round_trip *trip, const fst_solution *s, fst_description *out)
+{
+    const fst_mark *first = &trip->ends.kept[0], *last = &trip->ends.latest;
+    const fst_groups *groups = &trip->model->groups;
+    const double turned = (last->big_phi - first->big_phi) / TWO_PI, omega = groups->omega;
     out->turns = (int)floor(turned + 0.5);
     fst_run_result *means = &out->means;
-    fst_fill_window(run, &run->section_marks, means);
+    fst_means_fill(&trip->window, &trip->ends, &trip->params, means);
     means->omega = omega;
-    means->frequency_hz = omega / (TWO_PI * run->model->groups.time_unit);
+    means->frequency_hz = omega / (TWO_PI * groups->time_unit);
     means->period = fst_whole_period(s);
     means->mean_alpha_dot = omega + TWO_PI * out->turns / means->period;
     if (s->symmetric)
@@ -97,6 +143,10 @@ static void conclude(fst_run_state *run, const fst_solution *s, fst_description 
                                                 : FST_REGIME_COROTATING;
     if (out->turns)
         means->festoons = (s->symmetric ? 2.0 : 1.0) * (1.0 + omega / fabs(means->mean_alpha_dot));
+    out->swing_ratio = out->turns == 0                                 ? NAN
+                       : s->symmetric && trip->extremes_met.count == 4 ? 0.0
+                                                                       : swing_ratio(&trip->extremes_met);
+    out->least_load = trip->window.extremes[FST_TRACK_LOAD].least;
 }
 
 fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, int extremes,
@@ -105,48 +155,19 @@ fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, i
     memset(out, 0, sizeof *out);
     fst_result_clear(&out->means);
     out->closest = NAN;
-    fst_run_state *run = calloc(1, sizeof *run);
-    if (!run)
+    round_trip *trip = calloc(1, sizeof *trip);
+    if (!trip)
         return fst_fail(error, FST_NO_MEMORY, "fst_describe_orbit", "out of memory");
-    const fst_params params = fst_family_params(family, s->value);
-    run->params = &params;
+    trip->params = fst_family_params(family, s->value);
     fst_status status =
-        fst_solution_flow(family, s->value, s->y[0], family->tolerance, &run->model, &run->flow, error);
-    if (status == FST_OK) {
-        run->drive_period = TWO_PI / run->model->groups.omega;
-        const fst_twofold end = {fst_whole_period(s), 0.0};
-        fst_mark mark;
-        extremes_of_r extremes_met = {.count = 0};
-        fst_quadrature_begin(&run->q, run->flow);
-        fst_marks_begin(&run->section_marks);
-        fst_mark_take(&mark, &run->q, run->flow, 1.0, 1);
-        fst_marks_offer(&run->section_marks, &mark);
-        while (status == FST_OK && fst_twofold_difference(end, run->flow->t) > 0) {
-            status = fst_flow_step(run->flow, end.high, error);
-            if (status == FST_OK)
-                status = fst_watch_count(family->watch, 2 * FST_FLOW_STEP_WORK, error);
-            if (status != FST_OK)
-                break;
-            if (run->flow->accepted == 1)
-                fst_quadrature_set_references(&run->q, run->flow);
-            fst_quadrature_step(&run->q, run->flow);
-            if (extremes)
-                fst_quadrature_track(&run->q, run->flow, 0.0);
-            look_at_step(run->flow, &extremes_met, out);
-        }
-        if (status == FST_OK) {
-            fst_mark_take(&mark, &run->q, run->flow, 1.0, 1);
-            fst_marks_offer(&run->section_marks, &mark);
-            conclude(run, s, out);
-            out->swing_ratio = out->turns == 0                           ? NAN
-                               : s->symmetric && extremes_met.count == 4 ? 0.0
-                                                                         : swing_ratio(&extremes_met);
-            out->least_load = run->q.extreme[FST_TRACK_LOAD].least;
-        }
-    }
-    fst_flow_free(run->flow);
-    fst_model_free(run->model);
-    free(run);
+        fst_solution_flow(family, s->value, s->y[0], family->tolerance, &trip->model, &trip->flow, error);
+    if (status == FST_OK)
+        status = go_round(trip, family, fst_whole_period(s), extremes, out, error);
+    if (status == FST_OK)
+        conclude(trip, s, out);
+    fst_flow_free(trip->flow);
+    fst_model_free(trip->model);
+    free(trip);
     return status;
 }
 

@@ -6,12 +6,13 @@
 
 #include "base/error.h"
 #include "model/tangent.inl"
-#include "ode/bead_step.inl"
+#include "ode/flow.h"
 
 /* ------------------------------------------------------------------ the state with its tangents */
 
 /* A try of a step, in evaluations of the equations alone: twelve, each with its Jacobian and the columns. */
 enum { TRY_WORK = 50 };
+static const double FIRST_SIZE = 0.1; /* of a step; the controller mends it within a few */
 
 typedef struct bundle_context {
     const fst_setup *setup;
@@ -22,8 +23,7 @@ static void bundle_rhs(const bundle_context *context, const double *y, double *d
 #define STEP_DIM FST_BUNDLE_SIZE
 #define STEP_NAME(name) fst_bundle_##name##_double
 #define STEP_CONTEXT bundle_context
-#define STEP_DERIVATIVES(s, drive, j)                                                                          \
-    ((void)(drive), bundle_rhs(&(s)->context, (s)->stage[(j)-1], (s)->k[(j)-1]))
+#define STEP_RHS(context, drive, y, dy) ((void)(drive), bundle_rhs(context, y, dy))
 
 #include "ode/dop853.inl"
 
@@ -55,7 +55,7 @@ static void accept_step(fst_bundle_step_double *s)
 {
     (void)fst_renormalise_double(s->end);
     memcpy(s->y, s->end, sizeof s->y);
-    bundle_rhs(&s->context, s->y, s->k[0]);
+    fst_bundle_begin_double(s);
 }
 
 static fst_status carry_failed(double t, const double *y, int finite, fst_error *error)
@@ -79,27 +79,27 @@ fst_status fst_carry(const fst_setup *setup, double tolerance, double duration, 
     /* The error is a mean over all components; the state, a tenth of them, must not hide among the tangents. */
     for (int i = 0; i < FST_BUNDLE_SIZE; ++i)
         atol[i] = i < FST_STATE_SIZE ? 0.3 * tolerance : 10.0 * tolerance;
-    bundle_rhs(&s.context, s.y, s.k[0]);
-    double t = 0.0, h = 0.1;
+    fst_bundle_begin_double(&s);
+    fst_step_control_double control = fst_begin_control_double(FIRST_SIZE, INFINITY);
+    double t = 0.0;
+    fst_plan_step_double(&control, REAL_EVERYWHERE, duration);
     while (t < duration) {
-        const double rest = duration - t;
-        const int lands = h * 1.01 >= rest;
-        s.h = lands ? rest : h;
         const fst_status status = fst_watch_count(setup->watch, TRY_WORK, error);
         if (status != FST_OK)
             return status;
+        s.h = control.size;
         fst_bundle_try_step_double(&s);
-        const double e = fst_bundle_step_error_double(&s, 0.3 * tolerance, atol);
+        const double e = fst_bundle_step_error_double(&s, 0.3 * tolerance, atol),
+                     factor = fst_step_factor_double(e);
         if (!(e <= 1.0)) {
-            h = s.h * (isfinite(e) ? fst_step_factor_double(e) : 0.1);
-            if (!(h > 1e-12))
+            if (fst_reject_step_double(&control, REAL_EVERYWHERE, e, factor, t) > 0)
                 return carry_failed(t, s.y, isfinite(e), error);
             continue;
         }
-        t = lands ? duration : t + s.h;
+        t = control.lands > 0 ? duration : t + control.size;
         accept_step(&s);
-        const double proposal = s.h * fst_step_factor_double(e);
-        h = lands && proposal < h ? h : proposal;
+        fst_accept_step_double(&control, REAL_EVERYWHERE, factor, FST_GROW_AFTER_REJECTION);
+        fst_plan_step_double(&control, REAL_EVERYWHERE, duration - t);
     }
     memcpy(y, s.y, FST_STATE_SIZE * sizeof *y);
     memcpy(tangent, s.y + FST_STATE_SIZE, sizeof(double[FST_STATE_SIZE][FST_COLUMNS]));

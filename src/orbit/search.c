@@ -9,7 +9,7 @@
 #include "ode/flow.h"
 #include "orbit/departure.h"
 #include "orbit/describe.h"
-#include "study/run_state.h"
+#include "study/conclude.h"
 
 #define TWO_PI 6.283185307179586476925287
 
@@ -249,10 +249,7 @@ static int note_peak(search *s)
 /* The speed in the turning frame. */
 static double speed_of(const search *s)
 {
-    double greatest = 0.0;
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        greatest = fmax(greatest, fabs(s->flow->step.k[12][i]));
-    return greatest;
+    return fst_flow_speed(s->flow);
 }
 
 /* At rest, and not just passing an equilibrium from which it will depart slowly. */

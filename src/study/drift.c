@@ -25,7 +25,7 @@
 #include <math.h>
 #include <stddef.h>
 
-#include "study/regime.h"
+#include "observe/means.h"
 
 #define TWO_PI 6.283185307179586476925287
 
@@ -53,27 +53,27 @@ typedef struct line {
     double hidden;              /* change that a slow swing could hide */
 } line;
 
-static int takes_section(const fst_run_state *run)
+static int takes_section(const fst_watched_run *run)
 {
-    return fst_window_of(run) == &run->section_marks;
+    return fst_window_series(&run->window, run->flow->t) == &run->window.returns.marks;
 }
 
-static void fill_blocks(const fst_run_state *run, blocks *b)
+static void fill_blocks(const fst_watched_run *run, blocks *b)
 {
-    const fst_mark_series *series = fst_window_of(run);
+    const fst_mark_series *series = fst_window_series(&run->window, run->flow->t);
     if (series->count - 1 < LEAST_BLOCKS)
-        series = &run->period_marks;
+        series = &run->window.periods;
     b->count = series->count - 1;
     for (int i = 0; i < b->count; ++i) {
         fst_ramp_point means;
-        fst_means_between(run, &series->kept[i], &series->kept[i + 1], &means);
+        fst_means_between(&run->window, &series->kept[i], &series->kept[i + 1], &means);
         b->r[i] = means.mean_r;
         b->alpha_dot[i] = means.mean_alpha_dot;
         b->nz[i] = means.mean_nz;
         b->swing[i] = means.std_r;
     }
     b->turns = b->count > 0
-                   ? fst_twofold_difference(series->kept[b->count].t, series->kept[0].t) / run->drive_period
+                   ? fst_twofold_difference(series->kept[b->count].t, series->kept[0].t) / run->window.period
                    : 0;
 }
 
@@ -123,7 +123,7 @@ static void compare(fst_drift *worst, double *greatest, const char *what, const 
     worst->mean = l->mean;
 }
 
-fst_drift fst_drift_of(const fst_run_state *run)
+fst_drift fst_drift_of(const fst_watched_run *run)
 {
     fst_drift worst = {.what = NULL};
     blocks b;
@@ -155,7 +155,7 @@ fst_drift fst_drift_of(const fst_run_state *run)
     return worst;
 }
 
-fst_drift fst_hidden_drift_of(const fst_run_state *run)
+fst_drift fst_hidden_drift_of(const fst_watched_run *run)
 {
     fst_drift found = {.what = NULL};
     blocks b;
@@ -181,9 +181,9 @@ fst_drift fst_hidden_drift_of(const fst_run_state *run)
 
 /* The second half alone: where a bead comes to rest the steps lengthen first, and what their errors leave of
  * motion grows with them. */
-int fst_speed_grows(const fst_run_state *run)
+int fst_speed_grows(const fst_watched_run *run)
 {
-    const fst_mark_series *marks = &run->period_marks;
+    const fst_mark_series *marks = &run->window.periods;
     const int from = 1 + (marks->count - 1) / 2, count = marks->count - from;
     if (count < 2 * LEAST_BLOCKS)
         return 0;

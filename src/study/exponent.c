@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "ensemble/lanes.h"
+#include "ode/flow.h"
 #include "study/growth.h"
 
 /* Exponents are computed at these tolerances where the run's own is tighter: the regime comes out the same, and
@@ -26,14 +27,14 @@ static const double ALIGNING_PIECES = 32, PIECES = 320;
 static const double TURNING = 1.0;
 /* What the errors of the steps leave of a growth rate, in units of the tolerance: docs/regimes.md. */
 static const double OF_TOLERANCE = 10.0;
+static const double FIRST_SIZE = 0.1; /* of a step; the controller mends it within a few */
 enum { STEPS_UNTOLD = 64 };
 
 /* One bead and its vector on their way. */
 typedef struct follower {
     fst_exponent *asked;
-    double h, t, piece; /* the step size carried along; the time in the present piece, and a piece's length */
-    double attempt;     /* size of the present try */
-    int lands;          /* it ends the piece */
+    double t, piece; /* the time in the present piece, and a piece's length */
+    fst_step_control_double control;
     double aligning, pieces, done; /* pieces before the growth counts; all pieces; pieces already done */
     double rtol;
     fst_growth growth;
@@ -135,18 +136,13 @@ static void begin(crew *c, int l, fst_exponent *asked)
     const double aligned = asked->duration * ALIGNING, measured = asked->duration - aligned;
     const double finer = fmax(1.0, ceil(measured / PIECES / LONGEST_PIECE));
     c->followers[l] = (follower){.asked = asked,
-                                 .h = 0.1,
                                  .piece = measured / PIECES / finer,
                                  .aligning = ALIGNING_PIECES * finer,
                                  .pieces = (ALIGNING_PIECES + PIECES) * finer,
                                  .rtol = rtol,
-                                 .clock = {.duration = measured}};
-}
-
-static void plan(follower *f)
-{
-    f->lands = f->h * 1.01 >= f->piece - f->t;
-    f->attempt = f->over ? 0.0 : f->lands ? f->piece - f->t : f->h;
+                                 .clock = {.duration = measured},
+                                 .control = fst_begin_control_double(FIRST_SIZE, INFINITY)};
+    fst_plan_step_double(&c->followers[l].control, REAL_EVERYWHERE, c->followers[l].piece);
 }
 
 /* What became of a try; 1 if it is accepted. */
@@ -154,13 +150,12 @@ static int judge(follower *f, double error, double factor)
 {
     f->asked->rhs_calls += 12;
     if (!(error <= 1.0)) {
-        f->h = f->attempt * (isfinite(error) ? factor : 0.1);
-        f->over = f->asked->failed = !(f->h > 1e-12);
+        f->over = f->asked->failed =
+            fst_reject_step_double(&f->control, REAL_EVERYWHERE, error, factor, f->t) > 0;
         return 0;
     }
-    f->t = f->lands ? f->piece : f->t + f->attempt;
-    const double proposal = f->attempt * factor;
-    f->h = f->lands && proposal < f->h ? f->h : proposal;
+    f->t = f->control.lands > 0 ? f->piece : f->t + f->control.size;
+    fst_accept_step_double(&f->control, REAL_EVERYWHERE, factor, FST_GROW_AFTER_REJECTION);
     return 1;
 }
 
@@ -187,10 +182,8 @@ static int step(crew *c)
     double h[FST_MOST_LANES] = {0}, errors[FST_MOST_LANES], factors[FST_MOST_LANES];
     unsigned accepted = 0;
     int at_work = 0, projected = 0;
-    for (int l = 0; l < c->count; ++l) {
-        plan(&c->followers[l]);
-        h[l] = c->followers[l].attempt;
-    }
+    for (int l = 0; l < c->count; ++l)
+        h[l] = c->followers[l].over ? 0.0 : c->followers[l].control.size;
     c->engine->try_steps(c->memory, h, errors, factors);
     for (int l = 0; l < c->count; ++l)
         if (!c->followers[l].over && judge(&c->followers[l], errors[l], factors[l]))
@@ -198,10 +191,12 @@ static int step(crew *c)
     c->engine->accept(c->memory, accepted);
     for (int l = 0; l < c->count; ++l) {
         follower *f = &c->followers[l];
-        if (accepted & 1u << l && f->lands) {
+        if (accepted & 1u << l && f->control.lands > 0) {
             end_piece(f, project_lane(c, l));
             projected = 1;
         }
+        if (accepted & 1u << l)
+            fst_plan_step_double(&f->control, REAL_EVERYWHERE, f->piece - f->t);
         at_work |= !f->over;
     }
     if (projected)

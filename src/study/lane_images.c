@@ -4,17 +4,29 @@
 #include <string.h>
 
 #include "base/clock.h"
-#include "study/lane_crew.h"
+#include "study/lane_worker.h"
 
-void fst_crew_take_up(const fst_crew *c, fst_lane *at)
+/* Make a run the one of its image; a parked one is given the exponent that it waits for. */
+static int take(const fst_row_worker *w, fst_lane *at)
+{
+    fst_exponent *exponent = malloc(sizeof *exponent);
+    const int taken = exponent && fst_run_image_take(at->image, at->image_size, w->engine->numbers, at->run,
+                                                     exponent, &at->place, &at->numbers);
+    if (taken && at->place.stage == FST_STAGE_PARKED)
+        at->exponent = exponent;
+    else
+        free(exponent);
+    return taken;
+}
+
+void fst_worker_take_up(const fst_row_worker *w, fst_lane *at)
 {
     at->image = NULL;
-    if (!c->images)
+    if (!w->images)
         return;
     at->saved = fst_clock_seconds();
-    at->image = c->images->find(c->images->user, &at->job, &at->image_size);
-    if (at->image &&
-        fst_run_image_take(at->image, at->image_size, c->engine->numbers, at->run, &at->place, &at->numbers))
+    at->image = w->images->find(w->images->user, &at->job, &at->image_size);
+    if (at->image && take(w, at))
         return;
     free(at->image);
     at->image = NULL;
@@ -25,23 +37,24 @@ static unsigned with_bit(unsigned lanes, int l, int set)
     return (lanes & ~fst_lane_bit(l)) | (set ? fst_lane_bit(l) : 0);
 }
 
-void fst_crew_restore(fst_crew *c, fst_squad *s, int l)
+void fst_worker_restore(fst_row_worker *w, fst_lane_batch *b, int l)
 {
-    fst_lane *at = &s->lanes[l];
-    c->engine->restore(s->batch, l, at->numbers);
-    if (s == &c->observed) {
-        c->in_window = with_bit(c->in_window, l, at->place.in_window);
-        c->tracked = with_bit(c->tracked, l, at->place.tracked);
-        c->turning = with_bit(c->turning, l, at->place.turning);
+    fst_lane *at = &b->lanes[l];
+    w->engine->restore(b->memory, l, at->numbers);
+    if (b == &w->observed) {
+        w->in_window = with_bit(w->in_window, l, at->place.in_window);
+        w->tracked = with_bit(w->tracked, l, at->place.tracked);
+        w->turning = with_bit(w->turning, l, at->place.turning);
     }
     free(at->image);
     at->image = NULL;
 }
 
 /* The image of a run, if it is due. */
-static void save(fst_crew *c, fst_lane *at, const fst_squad *s, int l, fst_run_stage stage, double time)
+static void save(fst_row_worker *w, fst_lane *at, const fst_lane_batch *b, int l, fst_run_stage stage,
+                 double time)
 {
-    const fst_row_images *images = c->images;
+    const fst_row_images *images = w->images;
     if (!at->run || time - at->saved < images->seconds)
         return;
     at->saved = time;
@@ -49,36 +62,37 @@ static void save(fst_crew *c, fst_lane *at, const fst_squad *s, int l, fst_run_s
         images->save(images->user, &at->job, at->image, at->image_size);
         return;
     }
-    if (c->aside > 0)
-        fst_crew_locate(c); /* extremes that were set aside belong to the runs */
+    if (w->pending_count > 0)
+        fst_worker_locate(w); /* extremes that were set aside belong to the runs */
     const unsigned bit = fst_lane_bit(l);
     const int observed = stage == FST_STAGE_OBSERVED;
-    const fst_run_place place = {stage, observed && c->in_window & bit, observed && c->tracked & bit,
-                                 observed && c->turning & bit};
+    const fst_run_place place = {stage, observed && w->in_window & bit, observed && w->tracked & bit,
+                                 observed && w->turning & bit};
     double *numbers;
     size_t size;
-    void *image = fst_run_image_make(at->run, &place, s ? c->engine->numbers : 0, &numbers, &size);
+    void *image =
+        fst_run_image_make(at->run, at->exponent, &place, b ? w->engine->numbers : 0, &numbers, &size);
     if (!image)
         return; /* without memory there is no image, which costs nothing but what it would have saved */
-    if (s)
-        c->engine->save(s->batch, l, numbers);
+    if (b)
+        w->engine->save(b->memory, l, numbers);
     images->save(images->user, &at->job, image, size);
     free(image);
 }
 
-int fst_crew_stopped(fst_crew *c)
+int fst_worker_stopped(fst_row_worker *w)
 {
-    const int stop = c->work->stopped(c->work->user);
-    if (!c->images)
+    const int stop = w->work->stopped(w->work->user);
+    if (!w->images)
         return stop;
     const double time = stop ? INFINITY : fst_clock_seconds();
-    for (int l = 0; l < c->engine->width; ++l) {
-        save(c, &c->run_up.lanes[l], &c->run_up, l, FST_STAGE_RUN_UP, time);
-        save(c, &c->observed.lanes[l], &c->observed, l, FST_STAGE_OBSERVED, time);
+    for (int l = 0; l < w->engine->width; ++l) {
+        save(w, &w->run_up.lanes[l], &w->run_up, l, FST_STAGE_RUN_UP, time);
+        save(w, &w->observed.lanes[l], &w->observed, l, FST_STAGE_OBSERVED, time);
     }
-    for (int i = 0; i < c->ready_count; ++i)
-        save(c, &c->ready[i], NULL, 0, FST_STAGE_READY, time);
-    for (int i = 0; i < c->parked_count; ++i)
-        save(c, &c->parked[i], NULL, 0, FST_STAGE_PARKED, time);
+    for (int i = 0; i < w->ready_count; ++i)
+        save(w, &w->ready[i], NULL, 0, FST_STAGE_READY, time);
+    for (int i = 0; i < w->parked_count; ++i)
+        save(w, &w->parked[i], NULL, 0, FST_STAGE_PARKED, time);
     return stop;
 }

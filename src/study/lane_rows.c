@@ -1,14 +1,36 @@
-/* lane_rows.c - rows in lanes: the engine makes the steps and their integrals, the code of fst_run() looks at
- * them.
+/* lane_rows.c - rows in lanes: which run is in which lane, and when.
  *
- * Each lane has the fst_run_state of its run.  Time, windings and what is to be looked at are followed in the
- * lanes.  A step that may hold an end, a mark or a return to the section is taken out of the lanes into the
- * run's own flow and quadrature, and fst_run_watch_step() does the rest: dense output, locating, marking.  In
- * the portable form new extremes go the same way, so that a row has the bits of fst_run(); in the fast forms
- * the steps that may hold one are set aside, and located as many at a time as there are lanes.
+ * An engine (lanes.h) makes one step of every lane of a batch at once, and adds up the integrals.  Everything
+ * else about a run is the code of fst_run(): each lane has a watched run of its own, whose window observes it.
+ * That code would cost more than the step, so a step is taken out of its lane only when it may hold something:
+ * the end of the run, a mark, a return to the section, an extreme.  The engine tells which steps may;
+ * lane_watch.c looks at them.
  *
- * In the fast forms there are two batches: in one, runs go up to the end of their discard, in the other they
- * are observed, so that no lane is observed for nothing because its neighbour has to be.
+ * A row's way, in the fast form:
+ *
+ *     next job ----> run-up batch ----> ready ----> observed batch ----> parked ----> result
+ *                    (discard)          (queue)     (window)             (queue)
+ *                        |                              |                   |
+ *                        +--- ejected, lifted ----------+--- regime known --+--- exponent found: many at once
+ *
+ * There are two batches so that no lane is observed for nothing because its neighbour has to be.  A run without
+ * a discard starts in the queue of ready ones.  The observed batch makes its steps when all its lanes are
+ * occupied, or no run is left before it; in between the run-up batch makes its own:
+ *
+ *     run-up     |a b c d|   |a - c d|   |a e c d|    the discard of b is over: its window opens, and b goes to
+ *     ready                      b                    the queue; a new job, e, takes its lane
+ *     observed   |- - - -|   |- - - -|   |b - - -|
+ *
+ * The portable form has the bits of fst_run(), which opens a window within a step; so there all runs begin in
+ * the observed batch, and new extremes are looked for by the window's own code.  In the fast form steps that
+ * may hold an extreme are set aside, and located as many at a time as there are lanes.
+ *
+ * A batch shares the integers of its models: number of lines, material, dynamics.  A job that differs is
+ * deferred until nothing is at work; the next batch then takes its kind.  Some motions need their largest
+ * exponent to be told (conclude.h).  Their runs are parked until there are as many as lanes, and followed side
+ * by side too.
+ *
+ * No row's bits depend on any of this: lanes do not mix (only the order in which rows come out does).
  */
 #include "study/lane_rows.h"
 
@@ -17,7 +39,8 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "study/lane_crew.h"
+#include "study/conclude.h"
+#include "study/lane_worker.h"
 
 /* ------------------------------------------------------------------ beginning and ending */
 
@@ -27,10 +50,11 @@ static void free_run(fst_lane *at)
         return;
     free(at->image);
     at->image = NULL;
-    fst_flow_free(at->run->flow);
-    fst_model_free(at->run->model);
+    fst_watched_run_free(at->run);
     free(at->run);
     at->run = NULL;
+    free(at->exponent);
+    at->exponent = NULL;
 }
 
 static void move_run(fst_lane *to, fst_lane *from)
@@ -38,128 +62,120 @@ static void move_run(fst_lane *to, fst_lane *from)
     *to = *from;
     from->run = NULL;
     from->image = NULL;
-    to->options.start = to->job.has_start ? to->job.start : NULL;
+    from->exponent = NULL;
     to->run->params = &to->job.params;
-    to->run->options = &to->options;
 }
 
 /* The run of a lane is no longer there. */
-static void vacate(fst_crew *c, fst_squad *s, int l)
+static void vacate(fst_row_worker *w, fst_lane_batch *b, int l)
 {
-    c->engine->release(s->batch, l);
-    s->occupied -= 1;
-    if (s == &c->observed) {
-        c->in_window &= ~fst_lane_bit(l);
-        c->tracked &= ~fst_lane_bit(l);
-        c->turning &= ~fst_lane_bit(l);
+    w->engine->release(b->memory, l);
+    b->occupied -= 1;
+    if (b == &w->observed) {
+        w->in_window &= ~fst_lane_bit(l);
+        w->tracked &= ~fst_lane_bit(l);
+        w->turning &= ~fst_lane_bit(l);
     }
 }
 
 /* Runs that are on their way to their ends. */
-static int on_their_way(const fst_crew *c)
+static int on_their_way(const fst_row_worker *w)
 {
-    return c->run_up.occupied + c->observed.occupied + c->ready_count;
+    return w->run_up.occupied + w->observed.occupied + w->ready_count;
 }
 
 /* These, and those at their ends whose exponents are wanted. */
-static int at_work(const fst_crew *c)
+static int at_work(const fst_row_worker *w)
 {
-    return on_their_way(c) + c->parked_count;
+    return on_their_way(w) + w->parked_count;
 }
 
 /* Whether a model can share the batches with those at work. */
-static int fits(const fst_crew *c, const fst_model *model)
+static int fits(const fst_row_worker *w, const fst_model *model)
 {
-    return at_work(c) == 0 || fst_kinds_equal(&c->kind.kinds, &model->coefficients.kinds);
+    return at_work(w) == 0 || fst_kinds_equal(&w->kind.kinds, &model->coefficients.kinds);
 }
 
 typedef enum { BEGUN, REFUSED, FAILED } beginning;
 
 /* Begin the job of `at`.  FAILED: `error` says why; REFUSED: it has to wait until nothing is at work. */
-static beginning begin(fst_crew *c, fst_lane *at, fst_status *status, fst_error *error)
+static beginning begin(fst_row_worker *w, fst_lane *at, fst_status *status, fst_error *error)
 {
-    fst_run_state *run = calloc(1, sizeof *run);
+    fst_watched_run *run = calloc(1, sizeof *run);
     if (!run) {
         *status = fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
         return FAILED;
     }
-    at->options = fst_default_run_options();
-    at->options.start = at->job.has_start ? at->job.start : NULL;
-    run->params = &at->job.params;
-    run->options = &at->options;
-    *status = fst_run_begin(run, error);
-    const int refused = *status == FST_OK && !fits(c, run->model);
+    *status = fst_watched_run_begin(run, &at->job.params, at->job.has_start ? at->job.start : NULL, error);
+    const int refused = *status == FST_OK && !fits(w, run->model);
     if (*status != FST_OK || refused) {
-        fst_flow_free(run->flow);
-        fst_model_free(run->model);
+        fst_watched_run_free(run);
         free(run);
         return refused ? REFUSED : FAILED;
     }
     at->run = run;
-    c->kind = run->model->coefficients;
-    run->extremes_elsewhere = c->engine->fused;
-    run->exponent_elsewhere = 1;
-    run->sparse_marks = 1;
+    w->kind = run->model->coefficients;
+    run->window.span.asked_at_end = 1;
     return BEGUN;
 }
 
 /* Hand over the result of a job; 1 if another one follows in its place. */
-static int hand_over(fst_crew *c, fst_lane *at, fst_status status, const fst_run_result *result,
+static int hand_over(fst_row_worker *w, fst_lane *at, fst_status status, const fst_run_result *result,
                      const fst_error *error)
 {
-    return c->work->done(c->work->user, &at->job, status, result, error);
+    return w->work->done(w->work->user, &at->job, status, result, error);
 }
 
-static int idle_lane(const fst_crew *c, const fst_squad *s)
+static int idle_lane(const fst_row_worker *w, const fst_lane_batch *b)
 {
     int l = 0;
-    while (l < c->engine->width && s->lanes[l].run)
+    while (l < w->engine->width && b->lanes[l].run)
         ++l;
     return l;
 }
 
 /* A run is to be observed from now on. */
-static void enter_observed(fst_crew *c, int l, fst_lane *from)
+static void enter_observed(fst_row_worker *w, int l, fst_lane *from)
 {
-    fst_squad *s = &c->observed;
-    move_run(&s->lanes[l], from);
-    fst_run_state *run = s->lanes[l].run;
-    s->occupied += 1;
-    c->engine->load(s->batch, l, run->flow, run->t_end);
-    s->view.next_mark[l] = fst_next_mark(run);
-    if (run->in_window) { /* it comes from the run-up */
-        c->in_window |= fst_lane_bit(l);
-        c->tracked |= fst_lane_bit(l);
-        s->view.r_reference[l] = run->q.r_reference;
-        s->view.b_reference[l] = run->q.b_reference;
-        fst_crew_keep_phi_range(c, l);
+    fst_lane_batch *b = &w->observed;
+    move_run(&b->lanes[l], from);
+    fst_watched_run *run = b->lanes[l].run;
+    b->occupied += 1;
+    w->engine->load(b->memory, l, run->flow, run->window.span.until);
+    b->view.next_mark[l] = fst_window_next_mark(&run->window);
+    if (fst_window_is_open(&run->window)) { /* it comes from the run-up */
+        w->in_window |= fst_lane_bit(l);
+        w->tracked |= fst_lane_bit(l);
+        b->view.r_reference[l] = run->window.quadrature.sums.r_reference;
+        b->view.b_reference[l] = run->window.quadrature.sums.b_reference;
+        fst_worker_keep_phi_range(w, l);
     }
-    if (s->lanes[l].image)
-        fst_crew_restore(c, s, l);
+    if (b->lanes[l].image)
+        fst_worker_restore(w, b, l);
 }
 
-static void enter_run_up(fst_crew *c, int l, fst_lane *from)
+static void enter_run_up(fst_row_worker *w, int l, fst_lane *from)
 {
-    fst_squad *s = &c->run_up;
-    move_run(&s->lanes[l], from);
-    s->occupied += 1;
-    c->engine->load(s->batch, l, s->lanes[l].run->flow, s->lanes[l].run->t_discard);
-    if (s->lanes[l].image)
-        fst_crew_restore(c, s, l);
+    fst_lane_batch *b = &w->run_up;
+    move_run(&b->lanes[l], from);
+    b->occupied += 1;
+    w->engine->load(b->memory, l, b->lanes[l].run->flow, b->lanes[l].run->window.span.from);
+    if (b->lanes[l].image)
+        fst_worker_restore(w, b, l);
 }
 
 /* A run that was begun, or taken up, goes to its place. */
-static void place(fst_crew *c, fst_lane *fresh)
+static void place(fst_row_worker *w, fst_lane *fresh)
 {
-    const int runs_up = c->engine->fused && fresh->run->t_discard > 0;
+    const int runs_up = w->engine->fused && fresh->run->window.span.from > 0;
     const fst_run_stage stage = fresh->image ? fresh->place.stage
                                 : runs_up    ? FST_STAGE_RUN_UP
                                              : FST_STAGE_READY;
     if (stage == FST_STAGE_RUN_UP) {
-        enter_run_up(c, idle_lane(c, &c->run_up), fresh);
+        enter_run_up(w, idle_lane(w, &w->run_up), fresh);
         return;
     }
-    fst_lane *to = stage == FST_STAGE_PARKED ? &c->parked[c->parked_count++] : &c->ready[c->ready_count++];
+    fst_lane *to = stage == FST_STAGE_PARKED ? &w->parked[w->parked_count++] : &w->ready[w->ready_count++];
     move_run(to, fresh);
     if (stage == FST_STAGE_OBSERVED)
         return; /* the image is wanted when there is a lane */
@@ -168,256 +184,269 @@ static void place(fst_crew *c, fst_lane *fresh)
 }
 
 /* Begin the next job, or put it aside if it does not fit; 0 if there is none. */
-static int admit(fst_crew *c)
+static int admit(fst_row_worker *w)
 {
     fst_lane fresh = {.run = NULL};
     for (int has_job = 0;;) {
-        if (!has_job && c->waiting_count > 0) {
-            fresh.job = c->waiting[--c->waiting_count];
-        } else if (!has_job && (c->no_more || !c->work->next(c->work->user, &fresh.job))) {
-            c->no_more = 1;
+        if (!has_job && w->waiting_count > 0) {
+            fresh.job = w->waiting[--w->waiting_count];
+        } else if (!has_job && (w->no_more || !w->work->next(w->work->user, &fresh.job))) {
+            w->no_more = 1;
             return 0;
         }
         fst_status status;
         fst_error error = {FST_OK, "", ""};
-        const beginning begun = begin(c, &fresh, &status, &error);
+        const beginning begun = begin(w, &fresh, &status, &error);
         if (begun == REFUSED) {
-            c->misfits[c->misfit_count++] = fresh.job;
+            w->deferred[w->deferred_count++] = fresh.job;
             return 1;
         }
         if (begun == BEGUN)
             break;
         fst_run_result nothing;
         fst_result_clear(&nothing);
-        has_job = hand_over(c, &fresh, status, &nothing, &error);
+        has_job = hand_over(w, &fresh, status, &nothing, &error);
     }
-    fst_crew_take_up(c, &fresh);
-    place(c, &fresh);
+    fst_worker_take_up(w, &fresh);
+    place(w, &fresh);
     return 1;
 }
 
 /* Idle lanes take runs that are ready, and new jobs; those that do not fit wait until nothing is at work. */
-static void occupy_idle(fst_crew *c)
+static void occupy_idle(fst_row_worker *w)
 {
-    const int width = c->engine->width;
-    const fst_squad *entrance = c->engine->fused ? &c->run_up : &c->observed;
-    while (at_work(c) == 0 && c->misfit_count > 0)
-        c->waiting[c->waiting_count++] = c->misfits[--c->misfit_count];
+    const int width = w->engine->width;
+    const fst_lane_batch *entrance = w->engine->fused ? &w->run_up : &w->observed;
+    while (at_work(w) == 0 && w->deferred_count > 0)
+        w->waiting[w->waiting_count++] = w->deferred[--w->deferred_count];
     do {
-        while (c->ready_count > 0 && c->observed.occupied < width)
-            enter_observed(c, idle_lane(c, &c->observed), &c->ready[--c->ready_count]);
-    } while (c->ready_count == 0 && entrance->occupied < width && c->misfit_count < FST_MOST_MISFITS &&
-             c->parked_count < width && admit(c));
+        while (w->ready_count > 0 && w->observed.occupied < width)
+            enter_observed(w, idle_lane(w, &w->observed), &w->ready[--w->ready_count]);
+    } while (w->ready_count == 0 && entrance->occupied < width && w->deferred_count < FST_MOST_DEFERRED &&
+             w->parked_count < width && admit(w));
+}
+
+/* A finished run needs its exponent: it waits for others that do. */
+static fst_status park(fst_row_worker *w, fst_lane *at, fst_error *error)
+{
+    at->exponent = malloc(sizeof *at->exponent);
+    if (!at->exponent)
+        return fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
+    fst_ask_exponent(at->run, at->exponent);
+    move_run(&w->parked[w->parked_count++], at);
+    return FST_OK;
 }
 
 /* The run of a lane is over; `status` other than FST_OK: it failed. */
-static void finish(fst_crew *c, fst_squad *s, int l, fst_status status, fst_error *error)
+static void finish(fst_row_worker *w, fst_lane_batch *b, int l, fst_status status, fst_error *error)
 {
-    fst_lane *at = &s->lanes[l];
+    fst_lane *at = &b->lanes[l];
     fst_run_result result;
+    int needs_exponent = 0;
     fst_result_clear(&result);
-    if (c->aside > 0)
-        fst_crew_locate(c);
+    if (w->pending_count > 0)
+        fst_worker_locate(w);
     if (status == FST_OK)
-        status = fst_run_conclude(at->run, &result, error);
-    vacate(c, s, l);
-    if (status == FST_OK && at->run->exponent_is == FST_EXPONENT_WANTED) {
-        move_run(&c->parked[c->parked_count++], at);
-        return;
+        status = fst_conclude(at->run, NULL, &result, &needs_exponent, error);
+    vacate(w, b, l);
+    if (status == FST_OK && needs_exponent) {
+        status = park(w, at, error);
+        if (status == FST_OK)
+            return;
     }
     free_run(at);
-    if (hand_over(c, at, status, &result, error))
-        c->waiting[c->waiting_count++] = at->job;
+    if (hand_over(w, at, status, &result, error))
+        w->waiting[w->waiting_count++] = at->job;
 }
 
 static fst_status watch_exponents(void *user, double fraction, fst_error *error)
 {
     (void)fraction;
-    return fst_crew_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+    return fst_worker_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 
 /* The exponents of runs that are parked, side by side too: the last ones, as many as there are lanes. */
-static fst_status conclude_parked(fst_crew *c, fst_error *error)
+static fst_status conclude_parked(fst_row_worker *w, fst_error *error)
 {
     fst_exponent *asked[FST_MOST_LANES] = {NULL};
-    const int count = c->parked_count < c->engine->width ? c->parked_count : c->engine->width;
-    fst_lane *last = c->parked + (c->parked_count - count);
+    const int count = w->parked_count < w->engine->width ? w->parked_count : w->engine->width;
+    fst_lane *last = w->parked + (w->parked_count - count);
     for (int i = 0; i < count; ++i)
-        asked[i] = &last[i].run->exponent;
-    const fst_progress progress = {c, watch_exponents};
-    const fst_status status = fst_largest_exponents(&c->engine->tangents, asked, count, &progress, error);
+        asked[i] = last[i].exponent;
+    const fst_progress progress = {w, watch_exponents};
+    const fst_status status = fst_largest_exponents(&w->engine->tangents, asked, count, &progress, error);
     for (int i = 0; status == FST_OK && i < count; ++i) {
         fst_lane *at = &last[i];
         fst_run_result result;
         fst_error own = {FST_OK, "", ""};
+        int needs_exponent;
         fst_result_clear(&result);
-        at->run->exponent_is = FST_EXPONENT_KNOWN;
-        const fst_status concluded = fst_run_conclude(at->run, &result, &own);
+        const fst_status concluded = fst_conclude(at->run, at->exponent, &result, &needs_exponent, &own);
         free_run(at);
-        if (hand_over(c, at, concluded, &result, &own))
-            c->waiting[c->waiting_count++] = at->job;
+        if (hand_over(w, at, concluded, &result, &own))
+            w->waiting[w->waiting_count++] = at->job;
     }
-    c->parked_count -= status == FST_OK ? count : 0;
+    w->parked_count -= status == FST_OK ? count : 0;
     return status;
 }
 
-static void conclude(fst_crew *c, fst_squad *s, int l)
+static void conclude(fst_row_worker *w, fst_lane_batch *b, int l)
 {
     fst_error error = {FST_OK, "", ""};
-    finish(c, s, l, FST_OK, &error);
+    finish(w, b, l, FST_OK, &error);
 }
 
-static void give_up(fst_crew *c, fst_squad *s, int l)
+static void give_up(fst_row_worker *w, fst_lane_batch *b, int l)
 {
-    fst_flow *flow = s->lanes[l].run->flow;
+    fst_flow *flow = b->lanes[l].run->flow;
     fst_error error = {FST_OK, "", ""};
-    c->engine->extract(s->batch, l, &flow->step);
-    c->engine->extract_clock(s->batch, l, flow);
-    finish(c, s, l, fst_flow_fail(flow, &error), &error);
+    w->engine->extract(b->memory, l, &flow->step);
+    w->engine->extract_clock(b->memory, l, flow);
+    finish(w, b, l, fst_flow_fail(flow, &error), &error);
 }
 
 /* A step in every lane of those that are observed. */
-static void step_observed(fst_crew *c)
+static void step_observed(fst_row_worker *w)
 {
-    fst_squad *s = &c->observed;
-    const fst_lane_tries tries = c->engine->try_steps(s->batch);
+    fst_lane_batch *b = &w->observed;
+    const fst_lane_tries tries = w->engine->try_steps(b->memory);
     const unsigned accepted = tries.accepted;
-    fst_lane_events events = c->engine->watch(s->batch, accepted, accepted, c->in_window);
+    fst_lane_events events = w->engine->watch(b->memory, accepted, accepted, w->in_window);
     unsigned beaten[FST_RECORD_COUNT] = {0};
     /* In the fast form, a run that is not in its window yet has no discard: its first step is in it. */
-    const unsigned tracked = c->engine->fused ? c->tracked | ~c->in_window : c->tracked;
+    const unsigned tracked = w->engine->fused ? w->tracked | ~w->in_window : w->tracked;
     if (accepted)
-        c->engine->observe(s->batch, accepted, c->in_window, tracked, beaten);
-    for (int i = 0; !c->engine->fused && i < FST_RECORD_COUNT; ++i)
+        w->engine->observe(b->memory, accepted, w->in_window, tracked, beaten);
+    for (int i = 0; !w->engine->fused && i < FST_RECORD_COUNT; ++i)
         events.close |= beaten[i];
-    const unsigned over = fst_crew_look(c, events);
-    if (c->engine->fused)
-        fst_crew_set_aside(c, beaten);
-    c->engine->advance(s->batch, accepted & ~over);
-    for (int l = 0; (over | tries.failed) != 0 && l < c->engine->width; ++l) {
+    const unsigned over = fst_worker_look(w, events);
+    if (w->engine->fused)
+        fst_worker_set_aside(w, beaten);
+    w->engine->advance(b->memory, accepted & ~over);
+    for (int l = 0; (over | tries.failed) != 0 && l < w->engine->width; ++l) {
         if (over & fst_lane_bit(l))
-            conclude(c, s, l);
+            conclude(w, b, l);
         else if (tries.failed & fst_lane_bit(l))
-            give_up(c, s, l);
+            give_up(w, b, l);
     }
 }
 
 /* ------------------------------------------------------------------ before the window */
 
 /* The discard of a run is over: its window begins with the state that it has. */
-static void open_window(fst_crew *c, int l)
+static void open_window(fst_row_worker *w, int l)
 {
-    fst_squad *s = &c->run_up;
-    fst_run_state *run = s->lanes[l].run;
-    run->activity = s->view.activity[l];
-    fst_quadrature_begin_phi(&run->q, run->flow->step.end);
-    fst_run_mark_periods(run);
+    fst_lane_batch *b = &w->run_up;
+    fst_watched_run *run = b->lanes[l].run;
+    run->window.activity = b->view.activity[l];
+    fst_quadrature_begin_phi(&run->window.quadrature, run->flow->step.end);
+    fst_window_mark_periods(&run->window, run->flow);
     fst_flow_restart(run->flow);
-    fst_quadrature_set_references(&run->q, run->flow);
-    fst_returns_begin(run);
-    fst_run_watch_quietly(run, 0.0);
-    vacate(c, s, l);
-    move_run(&c->ready[c->ready_count++], &s->lanes[l]);
+    fst_quadrature_set_references(&run->window.quadrature, run->flow);
+    fst_returns_see_side(&run->window.returns, run->flow);
+    fst_window_pass(&run->window, &run->flow->phi, 0.0);
+    vacate(w, b, l);
+    move_run(&w->ready[w->ready_count++], &b->lanes[l]);
 }
 
 /* A step in every lane of those that are not. */
-static void step_run_up(fst_crew *c)
+static void step_run_up(fst_row_worker *w)
 {
-    fst_squad *s = &c->run_up;
-    const fst_lane_tries tries = c->engine->try_steps(s->batch);
-    const fst_lane_events events = c->engine->watch(s->batch, tries.accepted, 0, 0);
+    fst_lane_batch *b = &w->run_up;
+    const fst_lane_tries tries = w->engine->try_steps(b->memory);
+    const fst_lane_events events = w->engine->watch(b->memory, tries.accepted, 0, 0);
     unsigned over = 0;
     for (int l = 0; (events.close >> l) != 0; ++l)
         if (events.close & fst_lane_bit(l)) {
-            fst_crew_extract_step(c, s, l);
-            s->view.turns[0][l] = (double)s->lanes[l].run->flow->phi.turns;
-            s->view.activity[l] = fmax(s->view.activity[l], s->view.speed[l]);
-            over |= (events.ending & fst_lane_bit(l)) && fst_crew_ends_run(c, s, l) ? fst_lane_bit(l) : 0;
+            fst_worker_extract_step(w, b, l);
+            b->view.turns[0][l] = (double)b->lanes[l].run->flow->phi.turns;
+            b->view.activity[l] = fmax(b->view.activity[l], b->view.speed[l]);
+            over |= (events.ending & fst_lane_bit(l)) && fst_worker_ends_run(w, b, l) ? fst_lane_bit(l) : 0;
         }
-    c->engine->advance(s->batch, tries.accepted & ~(over | tries.landed));
-    for (int l = 0; (over | tries.landed | tries.failed) != 0 && l < c->engine->width; ++l) {
+    w->engine->advance(b->memory, tries.accepted & ~(over | tries.landed));
+    for (int l = 0; (over | tries.landed | tries.failed) != 0 && l < w->engine->width; ++l) {
         if (over & fst_lane_bit(l))
-            conclude(c, s, l);
+            conclude(w, b, l);
         else if (tries.landed & fst_lane_bit(l))
-            open_window(c, l);
+            open_window(w, l);
         else if (tries.failed & fst_lane_bit(l))
-            give_up(c, s, l);
+            give_up(w, b, l);
     }
 }
 
 /* ------------------------------------------------------------------ */
 
-static int make_squad(const fst_lane_engine *engine, fst_squad *s)
+static int make_batch(const fst_lane_engine *engine, fst_lane_batch *b)
 {
-    s->batch = aligned_alloc(64, (engine->bytes + 63) / 64 * 64);
-    if (!s->batch)
+    b->memory = aligned_alloc(64, (engine->bytes + 63) / 64 * 64);
+    if (!b->memory)
         return 0;
-    memset(s->batch, 0, engine->bytes);
-    engine->view(s->batch, &s->view);
+    memset(b->memory, 0, engine->bytes);
+    engine->view(b->memory, &b->view);
     return 1;
 }
 
-static fst_crew *make_crew(const fst_row_work *work, const fst_row_images *images,
-                           const fst_lane_engine *engine)
+static fst_row_worker *make_worker(const fst_row_work *work, const fst_row_images *images,
+                                   const fst_lane_engine *engine)
 {
-    fst_crew *c = calloc(1, sizeof *c);
-    if (!c)
+    fst_row_worker *w = calloc(1, sizeof *w);
+    if (!w)
         return NULL;
-    c->work = work;
-    c->images = fst_run_images_possible() ? images : NULL;
-    c->engine = engine;
-    const size_t bytes = (engine->slots_bytes + 63) / 64 * 64;
-    c->slots = bytes > 0 ? aligned_alloc(64, bytes) : NULL;
-    if (c->slots)
-        memset(c->slots, 0, bytes);
-    if ((c->slots || bytes == 0) && make_squad(engine, &c->observed) && make_squad(engine, &c->run_up))
-        return c;
-    free(c->run_up.batch);
-    free(c->observed.batch);
-    free(c->slots);
-    free(c);
+    w->work = work;
+    w->images = fst_run_images_possible() ? images : NULL;
+    w->engine = engine;
+    const size_t bytes = (engine->waiting_bytes + 63) / 64 * 64;
+    w->pending_steps = bytes > 0 ? aligned_alloc(64, bytes) : NULL;
+    if (w->pending_steps)
+        memset(w->pending_steps, 0, bytes);
+    if ((w->pending_steps || bytes == 0) && make_batch(engine, &w->observed) && make_batch(engine, &w->run_up))
+        return w;
+    free(w->run_up.memory);
+    free(w->observed.memory);
+    free(w->pending_steps);
+    free(w);
     return NULL;
 }
 
-static void free_crew(fst_crew *c)
+static void free_worker(fst_row_worker *w)
 {
-    for (int l = 0; l < c->engine->width; ++l) {
-        free_run(&c->run_up.lanes[l]);
-        free_run(&c->observed.lanes[l]);
+    for (int l = 0; l < w->engine->width; ++l) {
+        free_run(&w->run_up.lanes[l]);
+        free_run(&w->observed.lanes[l]);
     }
-    for (int i = 0; i < c->ready_count; ++i)
-        free_run(&c->ready[i]);
-    for (int i = 0; i < c->parked_count; ++i)
-        free_run(&c->parked[i]);
-    free(c->run_up.batch);
-    free(c->observed.batch);
-    free(c->slots);
-    free(c);
+    for (int i = 0; i < w->ready_count; ++i)
+        free_run(&w->ready[i]);
+    for (int i = 0; i < w->parked_count; ++i)
+        free_run(&w->parked[i]);
+    free(w->run_up.memory);
+    free(w->observed.memory);
+    free(w->pending_steps);
+    free(w);
 }
 
 fst_status fst_lane_rows(const fst_row_work *work, const fst_row_images *images, const fst_lane_engine *engine,
                          fst_error *error)
 {
-    fst_crew *c = make_crew(work, images, engine);
-    if (!c)
+    fst_row_worker *w = make_worker(work, images, engine);
+    if (!w)
         return fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
     fst_status status = FST_OK;
-    occupy_idle(c);
-    for (unsigned steps = 1; status == FST_OK && at_work(c) > 0; ++steps) {
+    occupy_idle(w);
+    for (unsigned steps = 1; status == FST_OK && at_work(w) > 0; ++steps) {
         /* Those that are observed wait until they are as many as lanes, or no more are to come. */
-        if (c->observed.occupied == engine->width || (c->run_up.occupied == 0 && c->observed.occupied > 0))
-            step_observed(c);
-        else if (c->run_up.occupied > 0)
-            step_run_up(c);
-        occupy_idle(c);
+        if (w->observed.occupied == engine->width || (w->run_up.occupied == 0 && w->observed.occupied > 0))
+            step_observed(w);
+        else if (w->run_up.occupied > 0)
+            step_run_up(w);
+        occupy_idle(w);
         while (status == FST_OK &&
-               (c->parked_count >= engine->width || (on_their_way(c) == 0 && c->parked_count > 0))) {
-            status = conclude_parked(c, error);
-            occupy_idle(c);
+               (w->parked_count >= engine->width || (on_their_way(w) == 0 && w->parked_count > 0))) {
+            status = conclude_parked(w, error);
+            occupy_idle(w);
         }
-        if (status == FST_OK && steps % 64 == 0 && fst_crew_stopped(c))
+        if (status == FST_OK && steps % 64 == 0 && fst_worker_stopped(w))
             status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
     }
-    free_crew(c);
+    free_worker(w);
     return status;
 }

@@ -1,204 +1,193 @@
 /* lane_watch.c - what the steps of runs in lanes hold, looked at by the code of fst_run(). */
 #include <math.h>
 
-#include "ode/path_stages.h"
-#include "study/lane_crew.h"
+#include "study/lane_worker.h"
 
 #define TWO_PI 6.283185307179586476925287
 
-/* Locate the extremes that were set aside. */
-void fst_crew_locate(fst_crew *c)
+/* Locate the extremes of the steps that were set aside. */
+void fst_worker_locate(fst_row_worker *w)
 {
     double values[FST_MOST_LANES];
-    c->engine->locate(c->slots, values);
-    for (int i = 0; i < c->aside; ++i) {
-        const int record = c->set_aside[i].record;
-        fst_extreme *e = &c->observed.lanes[c->set_aside[i].lane].run->q.extreme[FST_RECORD_TRACKS[record]];
-        if (fst_record_sign(record) > 0)
-            e->greatest = values[i] > e->greatest ? values[i] : e->greatest;
-        else
-            e->least = -values[i] < e->least ? -values[i] : e->least;
-    }
-    c->aside = 0;
-}
-
-/* The integrals of a lane's last step, as the scalar quadrature has them. */
-static void extract_quadrature(const fst_crew *c, int l, fst_quadrature *q)
-{
-    const int width = c->engine->width;
-    const fst_lane_view *v = &c->observed.view;
-    for (int i = 0; i < FST_Q_COUNT; ++i) {
-        q->total[i].high = v->total_high[i * width + l];
-        q->total[i].low = v->total_low[i * width + l];
-        q->increment[i] = v->increment[i * width + l];
-    }
-    q->r_reference = v->r_reference[l];
-    q->b_reference = v->b_reference[l];
-    for (int n = 0; n < FST_PATH_STAGES; ++n) {
-        for (int i = 0; i < FST_Q_COUNT; ++i)
-            q->stage[FST_PATH_STAGE[n]][i] = v->integrands[(n * FST_Q_COUNT + i) * width + l];
-        for (int i = 0; i < FST_TRACK_COUNT; ++i)
-            q->tracked[n][i] = v->tracked[(n * FST_TRACK_COUNT + i) * width + l];
-    }
-    q->has_dense = 0;
+    w->engine->locate(w->pending_steps, values);
+    for (int i = 0; i < w->pending_count; ++i)
+        fst_extremes_offer(w->observed.lanes[w->pending[i].lane].run->window.extremes, w->pending[i].record,
+                           values[i]);
+    w->pending_count = 0;
 }
 
 /* The portable form's records are those of the run. */
-static void keep_records(fst_crew *c, int l, const fst_quadrature *q)
+static void keep_records(fst_row_worker *w, int l, const fst_window *window)
 {
-    for (int i = 0; i < FST_RECORD_COUNT; ++i) {
-        const fst_extreme *e = &q->extreme[FST_RECORD_TRACKS[i]];
-        c->observed.view.records[i * c->engine->width + l] = fst_record_sign(i) > 0 ? e->greatest : -e->least;
-    }
+    for (int i = 0; i < FST_RECORD_COUNT; ++i)
+        w->observed.view.records[i * w->engine->width + l] = fst_extremes_record(window->extremes, i);
 }
 
-/* Whether the orbit repeats itself so closely that later returns can raise no record by what counts (1e-6 after
- * hundreds of returns, or what the integration's errors make of them at loose tolerances): the fast form then
- * looks for extremes no more. */
-static int repeats(const fst_run_state *run)
+/* Whether the orbit repeats itself so closely that later returns can raise no record by as much as matters
+ * (1e-6 after hundreds of returns, or what the integration's errors make of them at loose tolerances): the fast
+ * form then looks for extremes no more. */
+static int repeats(const fst_watched_run *run)
 {
-    const fst_mark_series *marks = &run->section_marks;
+    const fst_mark_series *marks = &run->window.returns.marks;
     return marks->offered >= 3 && marks->latest.full_distance < fmax(1e-9, 10.0 * run->params->run_rtol);
 }
 
 /* The fast form: set the steps aside in which a record may be beaten. */
-void fst_crew_set_aside(fst_crew *c, const unsigned *beaten)
+void fst_worker_set_aside(fst_row_worker *w, const unsigned *beaten)
 {
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
-        for (int l = 0; (beaten[i] & c->tracked) != 0 && l < c->engine->width; ++l)
-            if (beaten[i] & c->tracked & fst_lane_bit(l)) {
-                c->engine->set_aside(c->observed.batch, l, i, c->slots, c->aside);
-                c->set_aside[c->aside].lane = l;
-                c->set_aside[c->aside].record = i;
-                c->aside += 1;
-                if (c->aside == c->engine->width)
-                    fst_crew_locate(c);
+        for (int l = 0; (beaten[i] & w->tracked) != 0 && l < w->engine->width; ++l)
+            if (beaten[i] & w->tracked & fst_lane_bit(l)) {
+                w->engine->set_aside(w->observed.memory, l, i, w->pending_steps, w->pending_count);
+                w->pending[w->pending_count].lane = l;
+                w->pending[w->pending_count].record = i;
+                w->pending_count += 1;
+                if (w->pending_count == w->engine->width)
+                    fst_worker_locate(w);
             }
 }
 
 /* A lane's state at the end of its step. */
-static void read_end(const fst_crew *c, int l, double end[FST_STATE_SIZE])
+static void read_end(const fst_row_worker *w, int l, double end[FST_STATE_SIZE])
 {
     for (int i = 0; i < FST_STATE_SIZE; ++i)
-        end[i] = c->observed.view.end[i * c->engine->width + l];
+        end[i] = w->observed.view.end[i * w->engine->width + l];
 }
 
 /* Tell the lanes between which directions Phi has stayed; where that is more than half a turn, they cannot
  * know. */
-void fst_crew_keep_phi_range(fst_crew *c, int l)
+void fst_worker_keep_phi_range(fst_row_worker *w, int l)
 {
-    const int width = c->engine->width;
-    const fst_run_state *run = c->observed.lanes[l].run;
-    const double range = run->greatest_phi - run->least_phi;
-    if (range > TWO_PI) { /* as fst_run_watch_quietly() has it */
-        c->turning |= fst_lane_bit(l);
+    const int width = w->engine->width;
+    const fst_watched_run *run = w->observed.lanes[l].run;
+    const double range = run->window.greatest_phi - run->window.least_phi;
+    if (range > TWO_PI) { /* as fst_window_pass() has it */
+        w->turning |= fst_lane_bit(l);
         return;
     }
     const int known = range >= 0 && range < 3.0;
-    c->observed.view.phi_least[l] = known ? cos(run->least_phi) : 0.0;
-    c->observed.view.phi_least[width + l] = known ? sin(run->least_phi) : 0.0;
-    c->observed.view.phi_most[l] = known ? cos(run->greatest_phi) : 0.0;
-    c->observed.view.phi_most[width + l] = known ? sin(run->greatest_phi) : 0.0;
+    w->observed.view.phi_least[l] = known ? cos(run->window.least_phi) : 0.0;
+    w->observed.view.phi_least[width + l] = known ? sin(run->window.least_phi) : 0.0;
+    w->observed.view.phi_most[l] = known ? cos(run->window.greatest_phi) : 0.0;
+    w->observed.view.phi_most[width + l] = known ? sin(run->window.greatest_phi) : 0.0;
 }
 
 /* A step of which nothing but Phi's range is of interest. */
-static void watch_phi(fst_crew *c, int l)
+static void watch_phi(fst_row_worker *w, int l)
 {
-    fst_run_state *run = c->observed.lanes[l].run;
+    fst_watched_run *run = w->observed.lanes[l].run;
     double end[FST_STATE_SIZE];
-    read_end(c, l, end);
-    run->flow->phi = (fst_winding){(int64_t)c->observed.view.turns[0][l], end[FST_X], end[FST_Y]};
-    fst_run_watch_quietly(run, 0.0);
-    fst_crew_keep_phi_range(c, l);
+    read_end(w, l, end);
+    run->flow->phi = (fst_winding){(int64_t)w->observed.view.turns[0][l], end[FST_X], end[FST_Y]};
+    fst_window_pass(&run->window, &run->flow->phi, 0.0);
+    fst_worker_keep_phi_range(w, l);
 }
 
 /* A lane's step as the run's own flow has it, the clock, and Phi at its end. */
-void fst_crew_extract_step(const fst_crew *c, const fst_squad *s, int l)
+void fst_worker_extract_step(const fst_row_worker *w, const fst_lane_batch *b, int l)
 {
-    fst_flow *flow = s->lanes[l].run->flow;
-    c->engine->extract_clock(s->batch, l, flow);
-    c->engine->extract(s->batch, l, &flow->step);
+    fst_flow *flow = b->lanes[l].run->flow;
+    w->engine->extract_clock(b->memory, l, flow);
+    w->engine->extract(b->memory, l, &flow->step);
     const double *y = flow->step.y;
-    flow->phi_start = (fst_winding){(int64_t)s->view.turns_before[0][l], y[FST_X], y[FST_Y]};
+    flow->phi_start = (fst_winding){(int64_t)b->view.turns_before[0][l], y[FST_X], y[FST_Y]};
     flow->phi = flow->phi_start;
     fst_flow_follow(flow, flow->step.end);
 }
 
 /* Whether a step that may end a run does. */
-int fst_crew_ends_run(const fst_crew *c, const fst_squad *s, int l)
+int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l)
 {
-    c->engine->extract_stages(s->batch, l, &s->lanes[l].run->flow->step);
-    return fst_run_watch_end(s->lanes[l].run);
+    w->engine->extract_path(b->memory, l, &b->lanes[l].run->flow->step);
+    return fst_watched_run_ends(b->lanes[l].run);
 }
 
 /* Whether a step that is looked at is wanted with its integrals. */
-static int needs_integrals(const fst_crew *c, int l, int at_mark)
+static int needs_integrals(const fst_row_worker *w, const fst_watched_run *run, int at_mark)
 {
-    const fst_run_state *run = c->observed.lanes[l].run;
-    return !c->engine->fused || fst_returns_need_integrals(run) ||
-           (at_mark && fst_run_period_needs_integrals(run));
+    const fst_window *window = &run->window;
+    return !w->engine->fused || fst_returns_need_integrals(&window->returns, &window->span, run->flow) ||
+           (at_mark && fst_window_period_needs_integrals(window, run->flow));
+}
+
+/* The integrals of a lane's last step, as the window has them. */
+static void extract_integrals(const fst_row_worker *w, int l, fst_quadrature *q)
+{
+    w->engine->extract_integrals(w->observed.memory, l, &q->sums);
+    q->has_dense = 0;
+}
+
+/* Tell the lane what its window made of a step. */
+static void follow_window(fst_row_worker *w, int l)
+{
+    fst_lane_batch *b = &w->observed;
+    const fst_watched_run *run = b->lanes[l].run;
+    const int is_open = fst_window_is_open(&run->window);
+    b->view.activity[l] = run->window.activity;
+    b->view.turns[0][l] = (double)run->flow->phi.turns;
+    b->view.turns[1][l] = (double)run->window.quadrature.small_phi.turns;
+    b->view.next_mark[l] = fst_window_next_mark(&run->window);
+    w->in_window |= is_open ? fst_lane_bit(l) : 0;
+    w->tracked &= ~fst_lane_bit(l);
+    if (is_open && !(w->engine->fused && repeats(run)))
+        w->tracked |= fst_lane_bit(l);
+    if (!w->engine->fused)
+        keep_records(w, l, &run->window);
+    fst_worker_keep_phi_range(w, l);
 }
 
 /* Look closely at a lane's accepted step; 1 if its run is over. */
-static int watch(fst_crew *c, int l, fst_lane_events events)
+static int watch(fst_row_worker *w, int l, fst_lane_events events)
 {
-    fst_squad *s = &c->observed;
-    fst_run_state *run = s->lanes[l].run;
+    fst_lane_batch *b = &w->observed;
+    fst_watched_run *run = b->lanes[l].run;
     fst_flow *flow = run->flow;
-    fst_crew_extract_step(c, s, l);
-    fst_quadrature_begin_phi(&run->q, flow->step.y);
-    run->q.small_phi.turns = (int64_t)s->view.turns_before[1][l];
-    fst_quadrature_follow(&run->q, flow, flow->step.end);
-    if ((events.ending & fst_lane_bit(l)) && fst_crew_ends_run(c, s, l))
+    fst_quadrature *q = &run->window.quadrature;
+    fst_worker_extract_step(w, b, l);
+    fst_quadrature_begin_phi(q, flow->step.y);
+    q->small_phi.turns = (int64_t)b->view.turns_before[1][l];
+    fst_quadrature_follow(q, flow, flow->step.end);
+    if ((events.ending & fst_lane_bit(l)) && fst_worker_ends_run(w, b, l))
         return 1;
-    if (needs_integrals(c, l, (events.at_mark & fst_lane_bit(l)) != 0))
-        extract_quadrature(c, l, &run->q);
-    if (!run->in_window) /* crossings before it were not looked at */
-        fst_returns_begin(run);
-    run->activity = s->view.activity[l];
-    fst_run_watch_step(run);
-    s->view.activity[l] = run->activity;
-    s->view.turns[0][l] = (double)flow->phi.turns;
-    s->view.turns[1][l] = (double)run->q.small_phi.turns;
-    s->view.next_mark[l] = fst_next_mark(run);
-    c->in_window |= run->in_window ? fst_lane_bit(l) : 0;
-    c->tracked &= ~fst_lane_bit(l);
-    if (run->in_window && !(c->engine->fused && repeats(run)))
-        c->tracked |= fst_lane_bit(l);
-    if (!c->engine->fused)
-        keep_records(c, l, &run->q);
-    fst_crew_keep_phi_range(c, l);
-    return flow->t.high >= run->t_end;
+    if (needs_integrals(w, run, (events.at_mark & fst_lane_bit(l)) != 0))
+        extract_integrals(w, l, q);
+    if (!fst_window_is_open(&run->window)) /* crossings before it were not looked at */
+        fst_returns_see_side(&run->window.returns, flow);
+    run->window.activity = b->view.activity[l];
+    fst_window_look(&run->window, flow, !w->engine->fused);
+    follow_window(w, l);
+    return flow->t.high >= run->window.span.until;
 }
 
 /* A step that ends a period whose mark is not needed, and holds nothing else. */
-static void pass_mark(fst_crew *c, int l)
+static void pass_mark(fst_row_worker *w, int l)
 {
-    fst_run_state *run = c->observed.lanes[l].run;
-    run->activity = c->observed.view.activity[l];
-    fst_run_mark_periods(run);
-    c->observed.view.activity[l] =
-        c->observed.view.speed[l] > run->activity ? c->observed.view.speed[l] : run->activity;
-    c->observed.view.next_mark[l] = fst_next_mark(run);
+    const fst_lane_view *v = &w->observed.view;
+    fst_watched_run *run = w->observed.lanes[l].run;
+    run->window.activity = v->activity[l];
+    fst_window_mark_periods(&run->window, run->flow);
+    v->activity[l] = v->speed[l] > run->window.activity ? v->speed[l] : run->window.activity;
+    v->next_mark[l] = fst_window_next_mark(&run->window);
 }
 
 /* Look at the accepted steps that may hold something; the lanes whose runs are over. */
-unsigned fst_crew_look(fst_crew *c, fst_lane_events events)
+unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events)
 {
-    const unsigned wandering = events.wandering & c->in_window & ~c->turning;
+    const unsigned wandering = events.wandering & w->in_window & ~w->turning;
     unsigned over = 0;
     for (int l = 0; ((events.close | events.at_mark | wandering) >> l) != 0; ++l) {
         int close = (events.close & fst_lane_bit(l)) != 0;
         if (!close && events.at_mark & fst_lane_bit(l)) {
-            c->engine->extract_clock(c->observed.batch, l, c->observed.lanes[l].run->flow);
-            close = fst_run_period_needs_integrals(c->observed.lanes[l].run);
+            w->engine->extract_clock(w->observed.memory, l, w->observed.lanes[l].run->flow);
+            close = fst_window_period_needs_integrals(&w->observed.lanes[l].run->window,
+                                                      w->observed.lanes[l].run->flow);
             if (!close)
-                pass_mark(c, l);
+                pass_mark(w, l);
         }
         if (close)
-            over |= watch(c, l, events) ? fst_lane_bit(l) : 0;
+            over |= watch(w, l, events) ? fst_lane_bit(l) : 0;
         else if (wandering & fst_lane_bit(l))
-            watch_phi(c, l);
+            watch_phi(w, l);
     }
     return over;
 }

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/error.h"
 #include "study/drift.h"
 
 #define TWO_PI 6.283185307179586476925287
@@ -31,99 +30,51 @@ static const double SIGNIFICANT = 3.0; /* exponent over the part of its error th
 static const double ONE_WAY = 5.0; /* |<alpha'>| over its standard error: below, the bead circles neither way */
 enum {
     LEAST_PERIODS = 4,                      /* whole drive periods without which nothing is decided */
-    LEAST_CROSSINGS = 6,                    /* of the section: for regular turning */
     LEAST_OPEN_CROSSINGS = 64,              /* the same, where the orbit does not close */
     LEAST_CROSSINGS_WITHOUT_FRICTION = 256, /* and nothing draws the bead to it */
     LEAST_PERIODS_WITHOUT_FRICTION = 100    /* the same for a wide libration, and for chaos */
 };
 
-static int turns_regularly(const fst_run_state *run)
-{
-    if (run->returns.irregular || run->returns.crossings < LEAST_CROSSINGS)
-        return 0;
-    /* Turning that stopped within the window is not regular: the last crossing may lie two returns back. */
-    const fst_mark_series *marks = &run->section_marks;
-    const double turning = fst_twofold_difference(marks->latest.t, marks->kept[0].t);
-    const double since = fst_twofold_difference(run->flow->t, marks->latest.t);
-    return since * (double)(marks->offered - 1) <= 2.0 * turning;
-}
-
-const fst_mark_series *fst_window_of(const fst_run_state *run)
-{
-    return turns_regularly(run) && run->section_marks.offered >= 2 ? &run->section_marks : &run->period_marks;
-}
-
 #define REASON(...) (void)snprintf(result->reason, sizeof result->reason, __VA_ARGS__)
 
-/* The exponent's progress as the run's. */
-static fst_status tell_of_exponent(void *user, double fraction, fst_error *error)
-{
-    const fst_run_sink *sink = &((const fst_run_state *)user)->options->sink;
-    return sink->progress(sink->user, FST_RUN_SHARE + (1.0 - FST_RUN_SHARE) * fraction, error);
-}
+/* What the exponent says: neighbours part exponentially, or they do not, or the window is too short to tell; or
+ * nobody has computed it yet. */
+typedef enum { REGULAR, UNCLEAR, CHAOTIC, NOT_KNOWN } chaos;
 
-/* The exponent over the window, unless it is known or left to someone else. */
-static fst_status find_exponent(fst_run_state *run, fst_error *error)
-{
-    fst_exponent *asked = &run->exponent;
-    if (run->exponent_is == FST_EXPONENT_UNASKED) {
-        memset(asked, 0, sizeof *asked);
-        asked->coefficients = &run->flow->step.context.coefficients;
-        memcpy(asked->state, run->window_start, sizeof asked->state);
-        asked->duration = fst_twofold_difference(run->flow->t, run->period_marks.kept[0].t);
-        asked->rtol = run->params->run_rtol;
-        run->exponent_is = FST_EXPONENT_WANTED;
-        if (!run->exponent_elsewhere) {
-            const fst_progress progress = {run, tell_of_exponent};
-            const fst_status status = fst_largest_exponents(
-                &fst_tangents_scalar, &asked, 1, run->options->sink.progress ? &progress : NULL, error);
-            if (status != FST_OK)
-                return status;
-            run->exponent_is = FST_EXPONENT_KNOWN;
-        }
-    }
-    if (asked->failed)
-        return fst_fail(error, FST_STEP_UNDERFLOW, "Lyapunov exponent",
-                        "the step size underflowed while the Lyapunov exponent was computed; try a larger "
-                        "run.rtol");
-    return FST_OK;
-}
-
-/* What the exponent says: neighbours part exponentially, or they do not, or the window is too short to tell. */
-typedef enum { REGULAR, UNCLEAR, CHAOTIC } chaos;
+/* What decides a motion returns this: the regime is decided, or not until the exponent is known. */
+typedef enum { DECIDED, NEEDS_EXPONENT } decision;
 
 /* Chaotic if the exponent across the flow is positive beyond its error: the regime is set then, and the reason
  * too where it cannot be told. */
-static fst_status test_chaos(fst_run_state *run, fst_run_result *result, chaos *found, fst_error *error)
+static chaos test_chaos(const fst_watched_run *run, const fst_exponent *known, fst_run_result *result)
 {
-    const fst_status status = find_exponent(run, error);
-    if (status != FST_OK)
-        return status;
-    const double exponent = run->exponent.value, standard_error = run->exponent.standard_error;
-    result->rhs_calls += run->exponent.rhs_calls;
+    if (!known)
+        return NOT_KNOWN;
+    const double exponent = known->value, standard_error = known->standard_error;
+    result->rhs_calls += known->rhs_calls;
     result->largest_exponent = exponent;
     result->largest_exponent_error = standard_error;
     const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
-    const double growth = exponent * run->exponent.duration;
+    const double growth = exponent * known->duration;
     const double quiet = friction ? QUIET : QUIET_WITHOUT_FRICTION;
-    *found = exponent > SIGNIFICANT * run->exponent.chance && growth > GROWTH ? CHAOTIC
-             : growth > quiet                                                 ? UNCLEAR
-                                                                              : REGULAR;
-    if (*found == CHAOTIC && !friction && run->period_marks.offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
+    const chaos found = exponent > SIGNIFICANT * known->chance && growth > GROWTH ? CHAOTIC
+                        : growth > quiet                                          ? UNCLEAR
+                                                                                  : REGULAR;
+    if (found == CHAOTIC && !friction && run->window.periods.offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
         REASON("chaotic over the window (exponent %.4g +- %.2g), but without friction nothing holds the bead: "
                "run longer",
                exponent, standard_error);
-    } else if (*found == CHAOTIC) {
+    } else if (found == CHAOTIC) {
         result->regime = FST_REGIME_CHAOTIC;
         REASON("the largest Lyapunov exponent is positive over the window: %.4g +- %.2g", exponent,
                standard_error);
-    } else if (*found == UNCLEAR) {
+    } else if (found == UNCLEAR) {
         REASON("regular or chaotic cannot be told yet: the Lyapunov exponent across the flow is %.3g +- %.2g, "
                "so that "
                "neighbours parted by e^%.2g over the window; run longer",
                exponent, standard_error, growth);
     }
-    return FST_OK;
+    return found;
 }
 
 /* Phi turns regularly: with, against, or - where <alpha'> does not stand out of its error - neither. */
@@ -158,7 +109,7 @@ static int stays_close(const fst_mark_series *marks)
 }
 
 /* A mean drifts beyond its noise: nothing is settled yet. */
-static int still_drifts(const fst_run_state *run, fst_run_result *result)
+static int still_drifts(const fst_watched_run *run, fst_run_result *result)
 {
     const fst_drift drift = fst_drift_of(run);
     if (!drift.what)
@@ -171,66 +122,66 @@ static int still_drifts(const fst_run_state *run, fst_run_result *result)
 }
 
 /* Phi turns regularly on an orbit that does not close: chaotic, regular, or not to be told. */
-static fst_status decide_open(fst_run_state *run, fst_run_result *result, double full, fst_error *error)
+static decision decide_open(const fst_watched_run *run, const fst_exponent *exponent, double full,
+                            fst_run_result *result)
 {
-    chaos found;
-    const fst_status status = test_chaos(run, result, &found, error);
-    if (status != FST_OK || found != REGULAR)
-        return status;
+    const chaos found = test_chaos(run, exponent, result);
+    if (found != REGULAR)
+        return found == NOT_KNOWN ? NEEDS_EXPONENT : DECIDED;
     const fst_drift hidden = fst_hidden_drift_of(run);
     if (hidden.what) {
         REASON("may still drift: %s changed by %.2g over the window of %.4g turns (mean %.4g), and varies so "
                "slowly that a drift by %.2g could be in it; raise run.periods and run.discard until the window "
                "holds many swings",
                hidden.what, hidden.change, hidden.turns, hidden.mean, hidden.noise);
-        return FST_OK;
+        return DECIDED;
     }
     const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
-    if (run->returns.crossings < (friction ? LEAST_OPEN_CROSSINGS : LEAST_CROSSINGS_WITHOUT_FRICTION)) {
+    if (run->window.returns.crossings < (friction ? LEAST_OPEN_CROSSINGS : LEAST_CROSSINGS_WITHOUT_FRICTION)) {
         REASON("Phi turned regularly %lld times, but the orbit has not closed (whole returns differ by %.2g): "
                "run longer",
-               (long long)(run->returns.crossings / 2), full);
-        return FST_OK;
+               (long long)(run->window.returns.crossings / 2), full);
+        return DECIDED;
     }
     REASON("Phi turns regularly on an orbit that does not close in one return (differing by %.2g); exponent "
            "across the flow %.3g +- %.2g, not positive",
            full, result->largest_exponent, result->largest_exponent_error);
     set_direction(result);
-    return FST_OK;
+    return DECIDED;
 }
 
 /* Phi turns regularly: which orbit closes, or is it chaotic, or open? */
-static fst_status decide_turning(fst_run_state *run, fst_run_result *result, fst_error *error)
+static decision decide_turning(const fst_watched_run *run, const fst_exponent *exponent, fst_run_result *result)
 {
-    const fst_mark *middle = &run->section_marks.kept[run->section_marks.count / 2];
-    const fst_mark *last = &run->section_marks.latest;
+    const fst_mark *middle = &run->window.returns.marks.kept[run->window.returns.marks.count / 2];
+    const fst_mark *last = &run->window.returns.marks.latest;
     const double half = last->half_distance, full = last->full_distance;
     if (still_drifts(run, result))
-        return FST_OK;
+        return DECIDED;
     if (half < CLOSED) {
         result->symmetry = FST_SYMMETRY_S2;
         REASON("a closed orbit with the symmetry S2: successive half returns differ by %.2g", half);
         set_direction(result);
-        return FST_OK;
+        return DECIDED;
     }
     const int half_is_steady = fabs(half - middle->half_distance) <= STEADY * half;
     if (full < CLOSED && half_is_steady) {
         result->symmetry = FST_SYMMETRY_S1;
         REASON("a closed orbit: successive whole returns differ by %.2g, half returns by %.2g", full, half);
         set_direction(result);
-        return FST_OK;
+        return DECIDED;
     }
-    const int nears = stays_close(&run->section_marks) &&
+    const int nears = stays_close(&run->window.returns.marks) &&
                       (half < 0.5 * middle->half_distance || full < 0.5 * middle->full_distance ||
-                       is_closing(&run->section_marks));
+                       is_closing(&run->window.returns.marks));
     if (full < CLOSED || (full < RELAXING && nears && !fst_hidden_drift_of(run).what)) {
         REASON("Phi turns regularly and the orbit is still closing: half returns differ by %.2g, in the middle "
                "of the window by %.2g; whole ones by %.2g, %.2g; for the symmetry run longer",
                half, middle->half_distance, full, middle->full_distance);
         set_direction(result);
-        return FST_OK;
+        return DECIDED;
     }
-    return decide_open(run, result, full, error);
+    return decide_open(run, exponent, full, result);
 }
 
 /* Greatest activity over the marks [from, to[. */
@@ -254,11 +205,11 @@ static int grows(const fst_mark_series *marks)
 
 /* The speed below which a bead at rest is not told from noise: that of the integrator, or what the torque of a
  * strong magnet makes of the errors of n while the place is kept. */
-static double noise_of(const fst_run_state *run)
+static double noise_of(const fst_watched_run *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
     const double of_steps = NOISE * run->params->run_rtol;
-    if (run->greatest_phi - run->least_phi > fmax(KEPT, run->params->run_rtol))
+    if (run->window.greatest_phi - run->window.least_phi > fmax(KEPT, run->params->run_rtol))
         return of_steps;
     fst_pull_double p;
     fst_magnetic_pull_double(c, run->flow->step.end, &p);
@@ -267,9 +218,9 @@ static double noise_of(const fst_run_state *run)
 }
 
 /* Phi stays within one turn: librating, chaotic, or dying out towards a locked state. */
-static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst_error *error)
+static decision decide_bounded(const fst_watched_run *run, const fst_exponent *exponent, fst_run_result *result)
 {
-    const fst_mark_series *marks = &run->period_marks;
+    const fst_mark_series *marks = &run->window.periods;
     const int half = 1 + (marks->count - 1) / 2;
     const double early = activity_over(marks, 1, half), late = activity_over(marks, half, marks->count);
     const double noise = noise_of(run);
@@ -280,72 +231,73 @@ static fst_status decide_bounded(fst_run_state *run, fst_run_result *result, fst
         REASON("at rest in the turning frame to within the integrator's noise: |d(state)/dt| stays below %.2g, "
                "that is %.2g run.rtol, and does not grow",
                late, late / run->params->run_rtol);
-        return FST_OK;
+        return DECIDED;
     }
     if (late < STILL_FALLING * early) {
         REASON("Phi is bounded and the motion is dying out (speed in the turning frame from %.2g to %.2g): run "
                "longer to see whether it locks",
                early, late);
-        return FST_OK;
+        return DECIDED;
     }
     if (late >= noise && still_drifts(run, result))
-        return FST_OK;
-    const int small = run->greatest_phi - run->least_phi < SMALL;
+        return DECIDED;
+    const int small = run->window.greatest_phi - run->window.least_phi < SMALL;
     if (late < noise || (small && fst_speed_grows(run))) {
         REASON("the motion is hardly faster than the integrator's noise but grows (speed in the turning frame "
                "from "
                "%.2g "
                "to %.2g): run longer, or lower run.rtol",
                early, late);
-        return FST_OK;
+        return DECIDED;
     }
-    chaos found;
-    const fst_status status = test_chaos(run, result, &found, error);
-    if (status != FST_OK || found != REGULAR)
-        return status;
+    const chaos found = test_chaos(run, exponent, result);
+    if (found != REGULAR)
+        return found == NOT_KNOWN ? NEEDS_EXPONENT : DECIDED;
     const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
-    if (!friction && run->greatest_phi - run->least_phi > WIDE &&
+    if (!friction && run->window.greatest_phi - run->window.least_phi > WIDE &&
         marks->offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
         REASON("Phi stays within %.4g rad, but nothing damps so wide a motion, which may turn out chaotic: run "
                "longer",
-               run->greatest_phi - run->least_phi);
-        return FST_OK;
+               run->window.greatest_phi - run->window.least_phi);
+        return DECIDED;
     }
     result->regime = FST_REGIME_LIBRATING;
-    REASON("Phi stays within %.4g rad and the motion does not die out", run->greatest_phi - run->least_phi);
-    return FST_OK;
+    REASON("Phi stays within %.4g rad and the motion does not die out",
+           run->window.greatest_phi - run->window.least_phi);
+    return DECIDED;
 }
 
 /* Greatest component of d(state)/dt at the end.  Where nothing acts on n it may turn as it likes. */
-static double speed_at_end(const fst_run_state *run)
+static double speed_at_end(const fst_watched_run *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
     const int n_is_free = c->hard == 0.0 && c->twice_b == 0.0;
+    const double *slope = fst_flow_slope(run->flow);
     double speed = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        const double component = fabs(run->flow->step.k[12][i]);
+        const double component = fabs(slope[i]);
         if (component > speed && !(n_is_free && i >= FST_NX && i <= FST_NZ))
             speed = component;
     }
     return speed;
 }
 
-fst_status fst_decide_regime(fst_run_state *run, fst_run_result *result, fst_error *error)
+static decision decide(const fst_watched_run *run, const fst_exponent *exponent, fst_run_result *result)
 {
     result->regime = FST_REGIME_UNDECIDED;
-    if (run->period_marks.offered <= LEAST_PERIODS) {
+    if (run->window.periods.offered <= LEAST_PERIODS) {
         REASON("too short: nothing is decided on less than %d whole drive periods after the discard",
                LEAST_PERIODS);
-        return FST_OK;
+        return DECIDED;
     }
     const double speed = speed_at_end(run), at_rest = fmax(AT_REST, run->params->run_rtol);
-    const fst_mark_series *marks = &run->period_marks;
+    const fst_mark_series *marks = &run->window.periods;
     const double lately = activity_over(marks, 1 + (marks->count - 1) / 2, marks->count);
     if (speed < at_rest && lately > LEAVING * run->params->run_rtol && fst_speed_grows(run)) {
         REASON("nearly at rest in the turning frame (|d(state)/dt| = %.2g), but that grows: the bead may be "
                "leaving an unstable state; run longer",
                speed);
-        return FST_OK;
+        return DECIDED;
     }
     if (speed < at_rest) {
         const fst_drift approach = fst_drift_of(run);
@@ -357,20 +309,25 @@ fst_status fst_decide_regime(fst_run_state *run, fst_run_result *result, fst_err
                    speed);
         else
             REASON("at rest in the turning frame: |d(state)/dt| = %.2g", speed);
-        return FST_OK;
+        return DECIDED;
     }
-    if (turns_regularly(run))
-        return decide_turning(run, result, error);
-    if (run->greatest_phi - run->least_phi < TWO_PI)
-        return decide_bounded(run, result, error);
+    if (fst_returns_are_regular(&run->window.returns, run->flow->t))
+        return decide_turning(run, exponent, result);
+    if (run->window.greatest_phi - run->window.least_phi < TWO_PI)
+        return decide_bounded(run, exponent, result);
     if (still_drifts(run, result))
-        return FST_OK;
-    chaos found;
-    const fst_status status = test_chaos(run, result, &found, error);
-    if (status == FST_OK && found == REGULAR)
+        return DECIDED;
+    const chaos found = test_chaos(run, exponent, result);
+    if (found == REGULAR)
         REASON("Phi turns irregularly (%lld crossings of the section), but the exponent %.3g +- %.2g is not "
                "positive "
                "beyond its error: run longer",
-               (long long)run->returns.crossings, result->largest_exponent, result->largest_exponent_error);
-    return status;
+               (long long)run->window.returns.crossings, result->largest_exponent,
+               result->largest_exponent_error);
+    return found == NOT_KNOWN ? NEEDS_EXPONENT : DECIDED;
+}
+
+int fst_decide_regime(const fst_watched_run *run, const fst_exponent *exponent, fst_run_result *result)
+{
+    return decide(run, exponent, result) == DECIDED;
 }

@@ -2,12 +2,11 @@
 #ifndef FST_STUDY_REGIME_H
 #define FST_STUDY_REGIME_H
 
-#include "study/run_state.h"
+#include "study/exponent.h"
+#include "study/watched_run.h"
 
-/* The marks between which the means are taken: whole returns where Phi turns regularly, else drive periods. */
-const fst_mark_series *fst_window_of(const fst_run_state *run);
-
-/* Fill in regime, symmetry, reason and, where it was needed, the largest exponent. */
-fst_status fst_decide_regime(fst_run_state *run, fst_run_result *result, fst_error *error);
+/* Fill in regime, symmetry and reason.  0: the motion cannot be told without its largest exponent, and
+ * `exponent` is NULL; the result means nothing then. */
+int fst_decide_regime(const fst_watched_run *run, const fst_exponent *exponent, fst_run_result *result);
 
 #endif

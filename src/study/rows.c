@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "study/conclude.h"
 #include "study/lane_rows.h"
 #include "study/run_image.h"
 
@@ -24,9 +25,9 @@ typedef struct lone_run {
     const fst_row_work *work;
     const fst_row_images *images;
     fst_row_job job;
-    fst_run_options options;
-    fst_run_state *run;
-    fst_run_stage stage;
+    fst_watched_run *run;
+    fst_run_stage stage;   /* parked: it is at its end, but for ... */
+    fst_exponent exponent; /* ... this */
     double saved;
 } lone_run;
 
@@ -40,7 +41,8 @@ static int is_stopped(lone_run *l)
     const fst_run_place place = {.stage = l->stage};
     double *none;
     size_t size;
-    void *image = fst_run_image_make(l->run, &place, 0, &none, &size);
+    void *image =
+        fst_run_image_make(l->run, l->stage == FST_STAGE_PARKED ? &l->exponent : NULL, &place, 0, &none, &size);
     if (image)
         l->images->save(l->images->user, &l->job, image, size);
     free(image);
@@ -56,23 +58,19 @@ static fst_status watch_exponent(void *user, double fraction, fst_error *error)
 
 static fst_status begin(lone_run *l, fst_error *error)
 {
-    l->options = fst_default_run_options();
-    l->options.start = l->job.has_start ? l->job.start : NULL;
     l->stage = FST_STAGE_ALONE;
     l->run = calloc(1, sizeof *l->run);
     if (!l->run)
         return fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
-    l->run->params = &l->job.params;
-    l->run->options = &l->options;
-    l->run->exponent_elsewhere = 1;
-    const fst_status status = fst_run_begin(l->run, error);
+    const fst_status status =
+        fst_watched_run_begin(l->run, &l->job.params, l->job.has_start ? l->job.start : NULL, error);
     if (status != FST_OK || !l->images)
         return status;
     size_t size;
     fst_run_place place;
     const double *none;
     void *image = l->images->find(l->images->user, &l->job, &size);
-    if (fst_run_image_take(image, size, 0, l->run, &place, &none))
+    if (fst_run_image_take(image, size, 0, l->run, &l->exponent, &place, &none))
         l->stage = place.stage;
     free(image);
     l->saved = fst_clock_seconds();
@@ -84,24 +82,25 @@ static fst_status go_on(lone_run *l, fst_run_result *result, fst_error *error)
 {
     enum { STEPS = 64 }; /* between two looks whether to stop */
     fst_status status = FST_OK;
-    for (int over = l->stage == FST_STAGE_PARKED; status == FST_OK && !over;) {
-        status = fst_run_go_on(l->run, STEPS, &over, error);
+    int needs_exponent = l->stage == FST_STAGE_PARKED;
+    for (int over = needs_exponent; status == FST_OK && !over;) {
+        status = fst_watched_run_go_on(l->run, STEPS, &over, error);
         if (status == FST_OK && !over && is_stopped(l))
             status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
     }
-    if (status == FST_OK && l->stage != FST_STAGE_PARKED)
-        status = fst_run_conclude(l->run, result, error);
-    if (status == FST_OK && l->run->exponent_is == FST_EXPONENT_WANTED) {
-        const fst_progress progress = {l, watch_exponent};
-        fst_exponent *asked = &l->run->exponent;
-        l->stage = FST_STAGE_PARKED;
-        status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, &progress, error);
-        l->run->exponent_is = FST_EXPONENT_KNOWN;
-        fst_result_clear(result);
-        if (status == FST_OK)
-            status = fst_run_conclude(l->run, result, error);
+    if (status == FST_OK && !needs_exponent) {
+        status = fst_conclude(l->run, NULL, result, &needs_exponent, error);
+        if (status == FST_OK && needs_exponent)
+            fst_ask_exponent(l->run, &l->exponent);
     }
-    return status;
+    if (status != FST_OK || !needs_exponent)
+        return status;
+    const fst_progress progress = {l, watch_exponent};
+    fst_exponent *asked = &l->exponent;
+    l->stage = FST_STAGE_PARKED;
+    status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, &progress, error);
+    fst_result_clear(result);
+    return status == FST_OK ? fst_conclude(l->run, asked, result, &needs_exponent, error) : status;
 }
 
 static fst_status single_rows(const fst_row_work *work, const fst_row_images *images, fst_error *error)
@@ -115,11 +114,9 @@ static fst_status single_rows(const fst_row_work *work, const fst_row_images *im
         fst_status status = begin(&l, &own);
         if (status == FST_OK)
             status = go_on(&l, &result, &own);
-        if (l.run) {
-            fst_flow_free(l.run->flow);
-            fst_model_free(l.run->model);
-            free(l.run);
-        }
+        if (l.run)
+            fst_watched_run_free(l.run);
+        free(l.run);
         if (status == FST_INTERRUPTED)
             return fst_fail(error, FST_INTERRUPTED, "", "interrupted");
         more = work->done(work->user, &l.job, status, &result, &own) || work->next(work->user, &l.job);

@@ -9,7 +9,9 @@ typedef struct image {
     uint64_t layout;
     fst_run_place place;
     int numbers;
-    fst_run_state run;
+    fst_window window;
+    fst_run_end end;
+    fst_exponent exponent; /* of a parked run */
     fst_flow flow;
 } image;
 
@@ -70,7 +72,7 @@ static uint64_t layout(int numbers)
     static const char here = 0;
     search s = {.address = (uintptr_t)&here, .hash = 0xcbf29ce484222325u};
     (void)dl_iterate_phdr(look_at_object, &s);
-    const size_t sizes[] = {sizeof(image), sizeof(fst_run_state), sizeof(fst_flow), (size_t)numbers};
+    const size_t sizes[] = {sizeof(image), sizeof(fst_window), sizeof(fst_flow), (size_t)numbers};
     const uint64_t hash = add_bytes(s.hash, sizes, sizeof sizes);
     return s.found ? hash | 1u : 0u;
 }
@@ -82,8 +84,8 @@ int fst_run_images_possible(void)
 
 /* ------------------------------------------------------------------ making, taking */
 
-void *fst_run_image_make(const fst_run_state *run, const fst_run_place *place, int numbers, double **lane,
-                         size_t *size)
+void *fst_run_image_make(const fst_watched_run *run, const fst_exponent *exponent, const fst_run_place *place,
+                         int numbers, double **lane, size_t *size)
 {
     *size = sizeof(image) + (size_t)numbers * sizeof **lane;
     image *made = calloc(1, *size);
@@ -92,13 +94,13 @@ void *fst_run_image_make(const fst_run_state *run, const fst_run_place *place, i
     made->layout = layout(numbers);
     made->place = *place;
     made->numbers = numbers;
-    memcpy(&made->run, run, sizeof *run);
-    memcpy(&made->flow, run->flow, sizeof *run->flow);
-    made->run.params = NULL;
-    made->run.options = NULL;
-    made->run.model = NULL;
-    made->run.flow = NULL;
-    made->run.exponent.coefficients = NULL;
+    made->window = run->window;
+    made->end = run->end;
+    made->flow = *run->flow;
+    if (exponent) {
+        made->exponent = *exponent;
+        made->exponent.coefficients = NULL;
+    }
     *lane = (double *)(made + 1);
     return made;
 }
@@ -114,32 +116,30 @@ static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
     return expected != 0 && i->layout == expected && i->numbers == count &&
            size == sizeof *i + (size_t)count * sizeof(double) && (unsigned)i->place.stage < FST_STAGE_COUNT &&
            (i->place.stage == FST_STAGE_ALONE) == (numbers == 0 && i->place.stage != FST_STAGE_PARKED) &&
-           is_sound_series(&i->run.section_marks) && is_sound_series(&i->run.period_marks) &&
-           i->run.exponent_is <= FST_EXPONENT_KNOWN && !i->run.is_ramp; /* whose indices are not checked */
+           is_sound_series(&i->window.returns.marks) && is_sound_series(&i->window.periods);
 }
 
-int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_run_state *run, fst_run_place *place,
-                       const double **lane)
+int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_run *run,
+                       fst_exponent *exponent, fst_run_place *place, const double **lane)
 {
     if (!bytes || size < sizeof(image))
         return 0;
     const image *from = bytes;
     if (!is_sound(from, layout(from->numbers == 0 ? 0 : numbers), numbers, size))
         return 0;
-    const fst_run_state begun = *run;
     const fst_coefficients_double coefficients = run->flow->step.context.coefficients;
     const fst_groups groups = run->flow->groups;
-    memcpy(run, &from->run, sizeof *run);
-    run->params = begun.params;
-    run->options = begun.options;
-    run->model = begun.model;
-    run->flow = begun.flow;
-    memcpy(run->flow, &from->flow, sizeof *run->flow);
+    run->window = from->window;
+    run->window.groups = groups;
+    run->end = from->end;
+    *run->flow = from->flow;
     run->flow->step.context.coefficients = coefficients;
     run->flow->groups = groups;
-    run->exponent.coefficients =
-        run->exponent_is == FST_EXPONENT_UNASKED ? NULL : &run->flow->step.context.coefficients;
     *place = from->place;
+    if (place->stage == FST_STAGE_PARKED) {
+        *exponent = from->exponent;
+        exponent->coefficients = &run->flow->step.context.coefficients;
+    }
     *lane = (const double *)(from + 1);
     return 1;
 }

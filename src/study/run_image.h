@@ -1,15 +1,18 @@
 /* run_image.h - a run that is not over as bytes, from which it goes on to the bits that it would have had.
  *
+ *     | build and sizes | place | lane's numbers | window, end | exponent | flow |  numbers of the lane ...
+ *
  * An image is what a run carries, as it lies in memory, with the numbers of its lane: it means nothing to
  * another build.  So it begins with a number made of the build's identity and of the sizes of what follows, and
  * is taken for nothing where that number is another one.  Pointers are not part of it; a run takes up an image
- * after it was begun from its parameters, and keeps its own.  A new pointer in fst_run_state is to be added
- * to fst_run_image_take(), and a new index to what is checked there: files may be damaged.
+ * after it was begun from its parameters, and keeps its own.  A new pointer in what an image holds is to be
+ * added to fst_run_image_take(), and a new index to what is checked there: files may be damaged.
  */
 #ifndef FST_STUDY_RUN_IMAGE_H
 #define FST_STUDY_RUN_IMAGE_H
 
-#include "study/run_state.h"
+#include "study/exponent.h"
+#include "study/watched_run.h"
 
 /* Where a run is between its beginning and its end. */
 typedef enum fst_run_stage {
@@ -29,13 +32,15 @@ typedef struct fst_run_place {
 /* Whether this build can make images: it knows what tells it from others. */
 int fst_run_images_possible(void);
 
-/* The image of a run, to be freed, with room for `numbers` of its lane at *lane; NULL: no memory. */
-void *fst_run_image_make(const fst_run_state *run, const fst_run_place *place, int numbers, double **lane,
-                         size_t *size);
+/* The image of a run, to be freed, with room for `numbers` of its lane at *lane; `exponent`: what a parked run
+ * waits for, else NULL.  NULL: no memory. */
+void *fst_run_image_make(const fst_watched_run *run, const fst_exponent *exponent, const fst_run_place *place,
+                         int numbers, double **lane, size_t *size);
 
-/* Make a run that was just begun the one of an image: 1, or 0 (and the run is as it was) where the image is
- * none of this build, or damaged.  *lane points into the image. */
-int fst_run_image_take(const void *image, size_t size, int numbers, fst_run_state *run, fst_run_place *place,
-                       const double **lane);
+/* Make a run that was just begun the one of an image, and where it is parked `exponent` what it waits for: 1,
+ * or 0 (and the run is as it was) where the image is none of this build, or damaged.  *lane points into the
+ * image. */
+int fst_run_image_take(const void *image, size_t size, int numbers, fst_watched_run *run,
+                       fst_exponent *exponent, fst_run_place *place, const double **lane);
 
 #endif

@@ -8,7 +8,7 @@ the runs that are left undecided would have kept what they seemed to be: the pri
 Scenes are drawn in batches of 250.  A batch has one dynamics, friction law, material, start of the spin, number of lines and
 length; and in it frequency, kappa, gamma, start.r, start.phi, height, and the magnetisabilities a and b are random, each
 uniform within a band that is drawn for the batch.  `bands()` below is the whole of the sampling; everything follows from the
-seed.  The criteria were found on the seeds 1 and 2; the published table is of the seed 3.
+seed.  The criteria were found on the seeds 1 and 2; the published table is of the seed 4.
 
 Environment: FESTOON is the program (default: build/festoon).  The databases are kept in --keep DIR, and the same command
 again goes on with them: an interrupted study loses at most the sweep at work.
@@ -25,6 +25,7 @@ import random
 import subprocess
 import sys
 import tempfile
+import textwrap
 
 SOURCE_DIR = os.environ.get("SOURCE_DIR", os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 FESTOON = os.environ.get("FESTOON", os.path.join(SOURCE_DIR, "build", "festoon"))
@@ -150,7 +151,8 @@ def report(pairs, given, out):
     table = outcomes(pairs)
     lengths = "400" if given.default_length else "40 to 100"
     kinds = f"{given.count} of the whole sampling, {given.quick_count} of the quick one, seed {given.seed}"
-    print(f"{len(pairs)} scenes ({kinds}), runs of {lengths} drive periods against runs ten times as long:", file=out)
+    print(f"{len(pairs)} scenes ({kinds}),", file=out)
+    print(f"runs of {lengths} drive periods against runs ten times as long:", file=out)
     print(file=out)
     for line in lines_of(table):
         print(line, file=out)
@@ -168,8 +170,9 @@ def report(pairs, given, out):
     row = table["undecided"]
     words = ", ".join(f"{count} {regime}" for regime, count in row.most_common())
     regular = row["locked"] + row["librating"] + row["counter-rotating"] + row["corotating"]
-    print(f"Left undecided: {sum(row.values())} of {len(pairs)} runs; in the longer run: {words or 'none'}. The caution costs at "
-          f"most the {regular} that turn out regular, {percent(regular / max(1, len(pairs)))} of all.", file=out)
+    undecided = (f"Left undecided: {sum(row.values())} of {len(pairs)} runs; in the longer run: {words or 'none'}. The caution "
+                 f"costs at most the {regular} that turn out regular, {percent(regular / max(1, len(pairs)))} of all.")
+    print(textwrap.fill(undecided, 115), file=out)
     ends = ", ".join(f"{sum(table[regime].values())} {regime}" for regime in ("ejected", "lifted"))
     failed = len(pairs) - sum(sum(row.values()) for row in table.values())
     print(f"Ended early: {ends}. Failed in one of the two lengths: {failed}.", file=out)
@@ -194,7 +197,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=1000, help="scenes (1000)")
     parser.add_argument("--quick-count", type=int, default=0, help="further scenes, of the quick sampling (0)")
-    parser.add_argument("--seed", type=int, default=3, help="of the sampling (3, the published table's)")
+    parser.add_argument("--seed", type=int, default=4, help="of the sampling (4, the published table's)")
     parser.add_argument("--default-length", action="store_true", help="runs of 400 drive periods against 4000")
     parser.add_argument("--keep", metavar="DIR", help="folder of the databases; without: thrown away")
     parser.add_argument("--threads", type=int, default=1)

@@ -1,37 +1,44 @@
-/* summit.inl - where a quantity is greatest among the path's stages of a step, and whether it may be greater
- * still between them, over REAL.
+/* peaks.inl - where a quantity is greatest among the places of a step's path (ode/path.h), and whether it may
+ * be greater still between them, over REAL.
  *
- * Through the best stage and two others goes a parabola; with f1 and f2 the falls to these, at the distances d1
- * and d2 (of one sign where both lie on one side), and p = d1/d2, it rises above the best stage by
+ * Through the best place and two others goes a parabola; with f1 and f2 the falls to these, at the distances d1
+ * and d2 (of one sign where both lie on one side), and p = d1/d2, it rises above the best place by
  *
  *     (p f2 - f1/p)^2 / (4 ((1 - p) f2 + (1 - 1/p) f1)).
  *
+ *                 rise
+ *              . - ^ - .
+ *           o          .
+ *         .  best       o     f2, at d2 > 0
+ *        .
+ *       o                     f1, at d1 < 0
+ *
  * Within the step the two are the neighbours.  At its ends they are the next two of other nodes, and only a
- * parabola that rises into the step, p f2 > f1/p, has its vertex there.  The path is no parabola and the stages
- * lie on it but roughly; r even has a corner where the bead passes the axis.  So SUMMIT_RISES times the rise
- * and SUMMIT_FALL of the fall to the neighbours is what the path may have above the best stage
- * (a third of both is enough in tests/test_extremes.c).
+ * parabola that rises into the step, p f2 > f1/p, has its vertex there.  The path is no parabola, and the
+ * places within the step lie on it only roughly; r even has a corner where the bead passes the axis.  So
+ * PEAK_RISES times the rise and PEAK_FALL of the fall to the neighbours are added to the best place, and a step
+ * is looked at where that exceeds the record so far (a third of both is enough in tests/test_extremes.c).
  */
-#define SUMMIT_RISES 3.0
-#define SUMMIT_FALL 0.3
+#define PEAK_RISES 3.0
+#define PEAK_FALL 0.3
 
-typedef struct FN(summit) {
-    REAL best, fall;     /* sign times the value at the best stage; how far its neighbours lie lower */
+typedef struct FN(peak) {
+    REAL best, fall;     /* sign times the value at the best place; how far its neighbours lie lower */
     REAL rise_over, per; /* the rise is their quotient; neither is negative */
     REAL before, after;  /* the nodes between which the extreme lies */
-} FN(summit);
+} FN(peak);
 
-/* The values at the path's stages lie `stride` apart. */
-static inline FN(summit) FN(find_summit)(const REAL *values, int stride, REAL sign)
+/* The values at the path's places lie `stride` apart. */
+static inline FN(peak) FN(find_peak)(const REAL *values, int stride, REAL sign)
 {
-    enum { LAST = FST_PATH_STAGES - 1 };
+    enum { LAST = FST_STEP_END };
     const REAL zero = R(0.0), one = R(1.0);
     REAL first = sign * values[stride], second = sign * values[2 * stride];
     REAL p = REAL_OF(FST_PATH_RATIO[0]), q = REAL_OF(1.0 / FST_PATH_RATIO[0]);
-    FN(summit) top = {sign * values[0], zero, zero, zero, zero, REAL_OF(FST_PATH_NODE[1])};
+    FN(peak) top = {sign * values[0], zero, zero, zero, zero, REAL_OF(FST_PATH_NODE[1])};
     _Pragma("GCC unroll 16") for (int n = 1; n <= LAST; ++n)
     {
-        /* The last two stages both lie at the end. */
+        /* The last two places both lie at the end. */
         const int at_end = n >= LAST - 1, before = at_end ? LAST - 2 : n - 1, after = at_end ? LAST : n + 1;
         const REAL value = sign * values[n * stride],
                    other = sign * values[(at_end ? LAST - 3 : after) * stride];
@@ -54,8 +61,8 @@ static inline FN(summit) FN(find_summit)(const REAL *values, int stride, REAL si
 }
 
 /* Positive where the path may have more than `record` in the step. */
-static inline REAL FN(may_exceed)(const FN(summit) * top, REAL record)
+static inline REAL FN(may_exceed)(const FN(peak) * top, REAL record)
 {
-    const REAL lacking = (record - top->best) - R(SUMMIT_FALL) * top->fall;
-    return REAL_MAX(R(SUMMIT_RISES) * top->rise_over - lacking * top->per, -lacking);
+    const REAL lacking = (record - top->best) - R(PEAK_FALL) * top->fall;
+    return REAL_MAX(R(PEAK_RISES) * top->rise_over - lacking * top->per, -lacking);
 }

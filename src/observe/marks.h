@@ -1,20 +1,21 @@
-/* marks.h - snapshots along a run, thinned so that their number stays bounded however long the run is. */
-#ifndef FST_STUDY_MARKS_H
-#define FST_STUDY_MARKS_H
+/* marks.h - snapshots along a motion, thinned so that their number stays bounded however long it lasts. */
+#ifndef FST_OBSERVE_MARKS_H
+#define FST_OBSERVE_MARKS_H
 
-#include "study/quadrature.h"
+#include "observe/quadrature.h"
 
-/* A snapshot: everything accumulated up to one moment. */
+/* A snapshot: everything added up until one moment. */
 typedef struct fst_mark {
     fst_twofold t;
+    double omega; /* drive */
     double integrals[FST_Q_COUNT];
     double big_phi;   /* unwrapped Phi */
     double small_phi; /* unwrapped phi */
     double energy;    /* kinetic and magnetic, per mass */
     double state[FST_STATE_SIZE];
-    double half_distance; /* section marks: from the state half a return ago, its image under S2 */
-    double full_distance; /* section marks: from the state a whole return ago */
-    double activity;      /* period marks: greatest speed in the turning frame since the mark before */
+    double half_distance; /* marks of returns: from the state half a return ago, its image under S2 */
+    double full_distance; /* marks of returns: from the state a whole return ago */
+    double activity;      /* marks of periods: greatest speed in the turning frame since the mark before */
 } fst_mark;
 
 enum { FST_MARKS = 32 };

@@ -1,4 +1,18 @@
-#include "study/marks.h"
+/* marks.c - snapshots kept evenly over a motion whose length nobody knows.
+ *
+ * Errors of means and tests for drifts want some thirty marks spread evenly over the whole window.  Marks come
+ * one by one, a whole return or a drive period apart, and how many will come is not known.  So every stride-th
+ * one is kept; when there is no room left, every other one of the kept is dropped, and the stride doubles:
+ *
+ *     stride 1   0  1  2  3  4  5  6  7  8           full
+ *     stride 2   0     2     4     6     8           halved ...
+ *     stride 2   0     2     4     6     8     10 .. and on, at every other one
+ *
+ * The kept marks are then the multiples of the stride, at least half as many as there is room for, and depend
+ * on nothing but how many came.  fst_marks_stride() tells the last stride before: which marks need not be made
+ * at all.
+ */
+#include "observe/marks.h"
 
 #include <string.h>
 
@@ -17,7 +31,7 @@ void fst_marks_offer(fst_mark_series *series, const fst_mark *mark)
     series->kept[series->count++] = *mark;
     if (series->count <= FST_MARKS)
         return;
-    /* Full: keep every other one, and from now on every other of those to come. */
+    /* Full: keep every other one, and take only every other one from now on. */
     int kept = 0;
     for (int i = 0; i < series->count; i += 2)
         series->kept[kept++] = series->kept[i];
@@ -37,6 +51,7 @@ void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, 
 {
     memset(mark, 0, sizeof *mark);
     mark->t = fst_flow_time(flow, x);
+    mark->omega = fst_flow_omega(flow, mark->t);
     if (x == 1.0)
         memcpy(mark->state, flow->step.end, sizeof mark->state);
     else

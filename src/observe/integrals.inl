@@ -1,0 +1,77 @@
+/* integrals.inl - time integrals along a trajectory, with the integrator's own stages, over REAL: one run is
+ * this over double, lanes are this over wide values.  The including file brings the bodies of the model,
+ * base/twofold.inl and path.inl.
+ *
+ * The method makes a step from the derivatives at its stages:  y1 = y0 + h sum(b_j k_j).  Any quantity q that
+ * can be read off the state at a stage is integrated by the same weights,
+ *
+ *     Q1 = Q0 + h sum(b_j q(stage j)),
+ *
+ * as if Q were one more component of the state with the derivative q.  It costs no evaluation of the field: the
+ * stages and the magnet's pull at them are there already.
+ *
+ *     y0 o----x--x-x----------x-x-------x------o y1      the places of a step (ode/path.h)
+ *        q    q  q q          q q       q      q         the integrands there
+ *
+ * Squares of deviations are integrated from a reference value near the mean: of <(r - r0)^2> - <r - r0>^2 few
+ * digits are lost, where <r^2> - <r>^2 would lose them all for an orbit that is nearly round.
+ */
+
+/* The integrals of one trajectory, or of one in each lane.  Members are REALs only: lanes are copied as
+ * numbers. */
+typedef struct FN(integrals) {
+    REAL total_high[FST_Q_COUNT], total_low[FST_Q_COUNT]; /* up to the start of the last step */
+    REAL increment[FST_Q_COUNT];                          /* and over it */
+    REAL r_reference, b_reference; /* r and |B| when the window began: deviations are taken from them */
+    REAL integrands[FST_PATH_PLACES][FST_Q_COUNT];  /* at the places of the last step */
+    REAL tracked[FST_PATH_PLACES][FST_TRACK_COUNT]; /* quantities whose extremes are looked for, there */
+} FN(integrals);
+
+/* A new step follows where `mask` holds: the increments belong to the past. */
+static inline void FN(add_increments)(FN(integrals) * q, REAL_MASK mask)
+{
+    for (int i = 0; i < FST_Q_COUNT; ++i) {
+        const FN(twofold) total = {q->total_high[i], q->total_low[i]};
+        const FN(twofold) sum = FN(twofold_add)(total, q->increment[i]);
+        q->total_low[i] = REAL_SELECT(mask, sum.low, q->total_low[i]);
+        q->total_high[i] = REAL_SELECT(mask, sum.high, q->total_high[i]);
+    }
+}
+
+/* Look at one place of the step, where the drive is `omega`.  The references become the values there where
+ * `renew` holds, which makes sense at the first place only. */
+static inline void FN(look_at_place)(FN(integrals) * q, const FN(bead_step) * s, REAL omega, int place,
+                                     REAL_MASK renew)
+{
+    const FN(coefficients) *c = &s->context.coefficients;
+    const REAL *state = FST_PATH_STATE(s, place);
+    const FN(pull) *pull = FST_PATH_PULL(s, place);
+    FN(seen) seen;
+    FN(see)(c, omega, state, pull, &seen);
+    if (place == 0) {
+        q->r_reference = REAL_SELECT(renew, seen.r, q->r_reference);
+        q->b_reference = REAL_SELECT(renew, seen.b_norm, q->b_reference);
+    }
+    FN(integrands)(c, state, pull, &seen, q->r_reference, q->b_reference, q->integrands[place]);
+    q->tracked[place][FST_TRACK_R] = seen.r;
+    q->tracked[place][FST_TRACK_B] = seen.b_norm;
+    q->tracked[place][FST_TRACK_GAP] = seen.gap2;
+    q->tracked[place][FST_TRACK_SLIP] = seen.slip2;
+    q->tracked[place][FST_TRACK_LOAD] = seen.load;
+}
+
+/* The step's increments from the integrands at its places, where `mask` holds. */
+static inline void FN(integrate_step)(FN(integrals) * q, const FN(bead_step) * s, REAL_MASK mask)
+{
+    for (int i = 0; i < FST_Q_COUNT; ++i)
+        q->increment[i] =
+            REAL_SELECT(mask, FN(path_integral)(s, &q->integrands[0][i], FST_Q_COUNT), q->increment[i]);
+}
+
+/* The plane in which phi = atan2(n_alpha, -n_z) turns: both times r, so that no direction is needed on the
+ * axis. */
+static inline void FN(small_phi_point)(const REAL *y, REAL *u, REAL *w)
+{
+    *u = -y[FST_NZ] * REAL_SQRT(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y]);
+    *w = y[FST_X] * y[FST_NY] - y[FST_Y] * y[FST_NX];
+}

@@ -1,0 +1,205 @@
+/* means.c - from marks to means, and to errors of means that cover.
+ *
+ * The mean of any quantity between two marks is the difference of its integrals there over the time between
+ * them. Between the first and the latest mark of a series this is the mean that is reported; between
+ * neighbouring kept marks it is the mean of a block, and the blocks tell how far the mean may be off:
+ *
+ *     kept marks   |-----------|-----------|-----------|-----------|---...
+ *     block means       m1          m2          m3          m4
+ *
+ *     scatter      deviation of the blocks over the root of their number
+ *     drift        what is left of a mean that still moves one way: drift_error()
+ *     tolerance    what the integration may have lost
+ *
+ * The error is the largest of the three.  Whether a drift means that a motion has not settled is not decided
+ * here, but in study/drift.c.
+ */
+#include "observe/means.h"
+
+#include <math.h>
+
+#define TWO_PI 6.283185307179586476925287
+#define DEGREES 57.29577951308232087680
+
+/* Mean of one integrand between two marks. */
+static double mean(const fst_mark *first, const fst_mark *last, int which)
+{
+    return (last->integrals[which] - first->integrals[which]) / fst_twofold_difference(last->t, first->t);
+}
+
+/* sqrt(<u^2> - <u>^2) from <(u - u0)^2> and <u> - u0, never the root of a negative rounding error. */
+static double deviation(double mean_square, double mean_difference)
+{
+    const double variance = mean_square - mean_difference * mean_difference;
+    return variance > 0 ? sqrt(variance) : 0.0;
+}
+
+void fst_means_between(const fst_window *w, const fst_mark *first, const fst_mark *last, fst_ramp_point *means)
+{
+    const double time = fst_twofold_difference(last->t, first->t);
+    means->omega = 0.5 * (first->omega + last->omega); /* on a ramp the mean drive is the one in the middle */
+    means->frequency_hz = means->omega / (TWO_PI * w->groups.time_unit);
+    means->mean_r = mean(first, last, FST_Q_R);
+    means->std_r = deviation(mean(first, last, FST_Q_R2), means->mean_r - w->quadrature.sums.r_reference);
+    means->mean_alpha_dot =
+        means->omega + (last->big_phi - first->big_phi) / time; /* alpha = Phi + drive phase */
+    means->mean_phi_dot = (last->small_phi - first->small_phi) / time;
+    means->mean_nz = mean(first, last, FST_Q_N_Z);
+}
+
+/* Error of a mean whose blocks drift the same way: the distance to where a geometric series through the means
+ * of the window's thirds would end. 0 where there is no such drift. */
+static double drift_error(const double *blocks, int count, double mean_value)
+{
+    const int third = count / 3;
+    double sums[3] = {0, 0, 0};
+    for (int i = 0; i < 3 * third; ++i)
+        sums[i / third] += (blocks[i] - mean_value) / third;
+    const double first_step = sums[1] - sums[0], second_step = sums[2] - sums[1];
+    if (third < 1 || !(first_step * second_step > 0))
+        return 0.0;
+    const double ratio = fmin(second_step / first_step, 0.995); /* 1 and above: it does not say where it ends */
+    return fabs(sums[2] + second_step * ratio / (1.0 - ratio));
+}
+
+/* Error of a mean from the blocks between the kept marks: their scatter, or what is left of a drift, or the
+ * integration's tolerance, whichever is largest; `pick` is the block's mean. */
+static double standard_error(const fst_window *w, const fst_mark_series *series, double tolerance,
+                             double (*pick)(const fst_ramp_point *))
+{
+    const int count = series->count - 1;
+    if (count < 2)
+        return NAN;
+    double blocks[FST_MARKS], sum = 0.0, sum2 = 0.0;
+    for (int i = 0; i < count; ++i) {
+        fst_ramp_point means;
+        fst_means_between(w, &series->kept[i], &series->kept[i + 1], &means);
+        blocks[i] = pick(&means);
+        sum += blocks[i] - blocks[0];
+        sum2 += (blocks[i] - blocks[0]) * (blocks[i] - blocks[0]);
+    }
+    const double variance = (sum2 - sum * sum / count) / (count - 1), mean_value = blocks[0] + sum / count;
+    const double scatter = variance > 0 ? sqrt(variance / count) : 0.0;
+    return fmax(fmax(scatter, drift_error(blocks, count, mean_value)), tolerance * fabs(mean_value));
+}
+
+static double pick_r(const fst_ramp_point *p)
+{
+    return p->mean_r;
+}
+
+static double pick_alpha_dot(const fst_ramp_point *p)
+{
+    return p->mean_alpha_dot;
+}
+
+static double pick_nz(const fst_ramp_point *p)
+{
+    return p->mean_nz;
+}
+
+/* Greatest defect of dE = (drive - friction) dt between kept marks, over the work done in the window, or over
+ * the energy where that is larger: a locked bead that rolls does next to no work. */
+static double energy_residual(const fst_mark_series *series, const fst_mark *last)
+{
+    const fst_mark *first = &series->kept[0];
+    double worst = 0.0;
+    for (int i = 0; i < series->count; ++i) {
+        const fst_mark *from = &series->kept[i], *to = i + 1 < series->count ? &series->kept[i + 1] : last;
+        const double work = (to->integrals[FST_Q_DRIVE_POWER] - from->integrals[FST_Q_DRIVE_POWER]) -
+                            (to->integrals[FST_Q_FRICTION_POWER] - from->integrals[FST_Q_FRICTION_POWER]);
+        const double defect = fabs((to->energy - from->energy) - work);
+        worst = defect > worst ? defect : worst;
+    }
+    const double done = last->integrals[FST_Q_FRICTION_POWER] - first->integrals[FST_Q_FRICTION_POWER];
+    const double scale = done > fabs(last->energy) ? done : fabs(last->energy);
+    return scale > 0 ? worst / scale : NAN;
+}
+
+/* Unit vector of the least eigenvalue of a symmetric 3 x 3 matrix, by Jacobi rotations. */
+static void least_eigenvector(double a[3][3], double vector[3])
+{
+    double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int sweep = 0; sweep < 30; ++sweep)
+        for (int p = 0; p < 2; ++p)
+            for (int q = p + 1; q < 3; ++q) {
+                if (a[p][q] == 0.0)
+                    continue;
+                const double theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+                const double t = (theta >= 0 ? 1.0 : -1.0) / (fabs(theta) + sqrt(theta * theta + 1.0));
+                const double c = 1.0 / sqrt(t * t + 1.0), s = t * c;
+                for (int k = 0; k < 3; ++k) {
+                    const double kp = a[k][p], kq = a[k][q];
+                    a[k][p] = c * kp - s * kq, a[k][q] = s * kp + c * kq;
+                }
+                for (int k = 0; k < 3; ++k) {
+                    const double pk = a[p][k], qk = a[q][k];
+                    a[p][k] = c * pk - s * qk, a[q][k] = s * pk + c * qk;
+                    const double vp = v[k][p], vq = v[k][q];
+                    v[k][p] = c * vp - s * vq, v[k][q] = s * vp + c * vq;
+                }
+            }
+    int least = 0;
+    for (int i = 1; i < 3; ++i)
+        if (a[i][i] < a[least][least])
+            least = i;
+    for (int k = 0; k < 3; ++k)
+        vector[k] = v[k][least];
+}
+
+/* Angle between the best-fit plane of n(t) in (r, alpha, z) and the vertical, deg. */
+static double tilt(const fst_mark *first, const fst_mark *last)
+{
+    static const int second[3][3] = {{FST_Q_N_RR, FST_Q_N_RALPHA, FST_Q_N_RZ},
+                                     {FST_Q_N_RALPHA, FST_Q_N_ALPHAALPHA, FST_Q_N_ALPHAZ},
+                                     {FST_Q_N_RZ, FST_Q_N_ALPHAZ, FST_Q_N_ZZ}};
+    double covariance[3][3], normal[3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            covariance[i][j] = mean(first, last, second[i][j]) -
+                               mean(first, last, FST_Q_N_R + i) * mean(first, last, FST_Q_N_R + j);
+    if (!(covariance[0][0] + covariance[1][1] + covariance[2][2] > 1e-12))
+        return NAN; /* n stands still: no plane */
+    least_eigenvector(covariance, normal);
+    const double sine = fabs(normal[2]);
+    return DEGREES * asin(sine < 1 ? sine : 1.0);
+}
+
+void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fst_params *params,
+                    fst_run_result *result)
+{
+    const fst_mark *first = &series->kept[0], *last = &series->latest;
+    const fst_groups *g = &w->groups;
+    fst_ramp_point means;
+    fst_means_between(w, first, last, &means);
+    result->mean_r = means.mean_r;
+    result->std_r = means.std_r;
+    result->mean_alpha_dot = means.mean_alpha_dot;
+    result->mean_phi_dot = means.mean_phi_dot;
+    result->mean_nz = means.mean_nz;
+    result->mean_r_error = standard_error(w, series, params->run_rtol, pick_r);
+    result->mean_alpha_dot_error = standard_error(w, series, params->run_rtol, pick_alpha_dot);
+    result->mean_nz_error = standard_error(w, series, params->run_rtol, pick_nz);
+    result->mean_b = mean(first, last, FST_Q_B);
+    result->std_b = deviation(mean(first, last, FST_Q_B2), result->mean_b - w->quadrature.sums.b_reference);
+    result->mean_friction_power = mean(first, last, FST_Q_FRICTION_POWER);
+    result->mean_drive_power = mean(first, last, FST_Q_DRIVE_POWER);
+    result->energy_residual = energy_residual(series, last);
+    result->rms_slip = sqrt(mean(first, last, FST_Q_SLIP2));
+    result->tilt_deg = tilt(first, last);
+    const double load = mean(first, last, FST_Q_LOAD);
+    if (g->gravity > 0)
+        result->mean_load_weights = load / g->gravity;
+    result->dry_friction_rate = params->friction_mu * load / (g->eps * g->omega) / g->time_unit;
+    result->eq21_centrifugal = mean(first, last, FST_Q_CENTRIFUGAL);
+    result->eq21_magnetic = mean(first, last, FST_Q_FORCE_R);
+    result->eq21_magnetic_printed = mean(first, last, FST_Q_FORCE_R_PRINTED);
+    result->eq21_friction = -mean(first, last, FST_Q_SLIP_R);
+    result->eq21_spin = mean(first, last, FST_Q_SPIN_TERM);
+    result->eq22_magnetic = mean(first, last, FST_Q_TORQUE_ALPHA);
+    result->eq22_friction = -mean(first, last, FST_Q_R_SLIP_ALPHA);
+    result->eq23_magnetic = mean(first, last, FST_Q_EQ23);
+    result->mean_v_alpha = mean(first, last, FST_Q_SLIP_ALPHA);
+    result->window_periods = fst_twofold_difference(last->t, first->t) / w->period;
+    fst_extremes_fill(w->extremes, g->gravity, result);
+}

@@ -1,0 +1,15 @@
+/* means.h - means over a window between its marks, and their errors. */
+#ifndef FST_OBSERVE_MEANS_H
+#define FST_OBSERVE_MEANS_H
+
+#include "observe/window.h"
+
+/* Means between two marks of a window: what a row of a ramp tells, and a block of a series. */
+void fst_means_between(const fst_window *w, const fst_mark *first, const fst_mark *last, fst_ramp_point *means);
+
+/* The means, errors and extremes among the numbers of a result, between the first and the latest mark of one of
+ * the window's series; `params` are those of the run. */
+void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fst_params *params,
+                    fst_run_result *result);
+
+#endif

@@ -1,0 +1,38 @@
+/* quadrature.h - what one trajectory has added up: its time integrals, and the angle phi. */
+#ifndef FST_OBSERVE_QUADRATURE_H
+#define FST_OBSERVE_QUADRATURE_H
+
+#include "ode/flow.h"
+
+#include "observe/integrals.inl"
+
+typedef struct fst_quadrature {
+    fst_integrals_double sums;
+    /* Of the last step, once integrals within it were asked for: the integrands at the places that the dense
+     * output adds, and the dense output of the increments. */
+    double between[FST_DENSE_PLACES - FST_PATH_PLACES][FST_Q_COUNT];
+    double dense[8][FST_Q_COUNT];
+    int has_dense;
+    fst_winding small_phi_start, small_phi; /* phi = atan2(n_alpha, -n_z), unwrapped: at the step's ends */
+} fst_quadrature;
+
+/* Begin at the flow's present state. */
+void fst_quadrature_begin(fst_quadrature *q, const fst_flow *flow);
+
+/* Begin to follow phi at a state. */
+void fst_quadrature_begin_phi(fst_quadrature *q, const double *state);
+
+/* Follow phi to the end of the flow's last step; where the path passes the origin of its plane closely, the
+ * step must be in flow->step. */
+void fst_quadrature_follow(fst_quadrature *q, fst_flow *flow, const double *end);
+
+/* Take deviations of r and |B| from their values at the start of the flow's last or next step. */
+void fst_quadrature_set_references(fst_quadrature *q, const fst_flow *flow);
+
+/* Take in the flow's last step.  `renew`: deviations are taken from its start on. */
+void fst_quadrature_step(fst_quadrature *q, fst_flow *flow, int renew);
+
+/* The integrals up to the fraction x of the last step, and phi there. */
+void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integrals[FST_Q_COUNT], double *phi);
+
+#endif

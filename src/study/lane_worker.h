@@ -1,0 +1,92 @@
+/* lane_worker.h - runs at work in lanes, shared by the files of fst_lane_rows(); lane_rows.c explains the
+ * scheme. */
+#ifndef FST_STUDY_LANE_WORKER_H
+#define FST_STUDY_LANE_WORKER_H
+
+#include "ensemble/lanes.h"
+#include "study/run_image.h"
+
+enum { FST_MOST_DEFERRED = 2 * FST_MOST_LANES };
+
+/* A place for a run: a lane of a batch, or a place in a queue between two batches. */
+typedef struct fst_lane {
+    fst_watched_run *run; /* NULL: idle */
+    fst_row_job job;
+    fst_exponent *exponent; /* what a run at its end waits for; else NULL */
+    double saved;           /* when its last image was made, or it was begun */
+    /* A run that goes on from an image: that, until it is in its lane. */
+    void *image;
+    size_t image_size;
+    fst_run_place place;
+    const double *numbers;
+} fst_lane;
+
+/* A batch of the engine and the runs in its lanes. */
+typedef struct fst_lane_batch {
+    void *memory;
+    fst_lane_view view;
+    fst_lane lanes[FST_MOST_LANES];
+    int occupied;
+} fst_lane_batch;
+
+/* One thread's work on rows in lanes. */
+typedef struct fst_row_worker {
+    const fst_row_work *work;
+    const fst_row_images *images; /* NULL: none are made */
+    const fst_lane_engine *engine;
+    fst_lane_batch run_up;   /* the fast form: runs before their windows */
+    fst_lane_batch observed; /* the others */
+    /* Lanes of the observed batch, one bit each: */
+    unsigned in_window;                 /* the window is open */
+    unsigned tracked;                   /* extremes are looked for */
+    unsigned turning;                   /* Phi has gone so far that its range no longer matters */
+    fst_lane ready[2 * FST_MOST_LANES]; /* runs that are to be observed as soon as a lane is free */
+    int ready_count;
+    /* The fast form: steps that wait for their extremes to be located, and whose they are. */
+    void *pending_steps;
+    struct {
+        int lane, record;
+    } pending[FST_MOST_LANES];
+    int pending_count;
+    /* Finished runs waiting for a Lyapunov exponent: less than a batch, and those that end in one step. */
+    fst_lane parked[2 * FST_MOST_LANES];
+    int parked_count;
+    /* Jobs to come: at most one for each run that was begun; and those whose models do not fit the batches. */
+    fst_row_job waiting[8 * FST_MOST_LANES], deferred[FST_MOST_DEFERRED];
+    int waiting_count, deferred_count;
+    fst_coefficients_double kind; /* of the runs at work, which share its integers */
+    int no_more;
+} fst_row_worker;
+
+static inline unsigned fst_lane_bit(int l)
+{
+    return 1u << l;
+}
+
+/* A lane's step as the run's own flow has it, the clock, and Phi at its end. */
+void fst_worker_extract_step(const fst_row_worker *w, const fst_lane_batch *b, int l);
+
+/* Whether such a step, which may end the run, does. */
+int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l);
+
+/* Look at the accepted steps of the observed runs that may hold something; the lanes whose runs are over. */
+unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events);
+
+/* The fast form: set the steps aside in which a record may be beaten; locate the extremes of those that are. */
+void fst_worker_set_aside(fst_row_worker *w, const unsigned *beaten);
+void fst_worker_locate(fst_row_worker *w);
+
+/* Tell a lane of the observed runs between which directions Phi has stayed; where that is more than half a
+ * turn, the lane cannot use it. */
+void fst_worker_keep_phi_range(fst_row_worker *w, int l);
+
+/* A job that was just begun goes on where its image says, if there is one. */
+void fst_worker_take_up(const fst_row_worker *w, fst_lane *at);
+
+/* Put what the image of a run knows of its lane into the lane, which was loaded; the image is done with. */
+void fst_worker_restore(fst_row_worker *w, fst_lane_batch *b, int l);
+
+/* Whether to stop; before that, make the images that are due: of all runs if so. */
+int fst_worker_stopped(fst_row_worker *w);
+
+#endif

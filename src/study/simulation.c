@@ -1,0 +1,107 @@
+/* simulation.c - the steps of fst_run(): samples for the caller, the ramp's bookkeeping, progress. */
+#include "study/simulation.h"
+
+#include <math.h>
+#include <string.h>
+
+#define TWO_PI 6.283185307179586476925287
+
+/* ------------------------------------------------------------------ samples */
+
+static void fill_sample(fst_flow *flow, double x, fst_twofold t, fst_sample *sample)
+{
+    memset(sample, 0, sizeof *sample);
+    if (x == 1.0)
+        memcpy(sample->state, flow->step.end, sizeof sample->state);
+    else
+        fst_flow_at(flow, x, sample->state);
+    double whole, rest;
+    fst_flow_drive_turns(flow, t, &whole, &rest);
+    const fst_winding phi = fst_flow_phi(flow, x);
+    sample->t = t.high;
+    sample->drive_turns = whole + rest;
+    sample->omega = fst_flow_omega(flow, t);
+    sample->phi = fst_winding_angle(&phi);
+    sample->alpha = sample->phi + TWO_PI * (whole + rest);
+    const double c = cos(TWO_PI * rest), s = sin(TWO_PI * rest), *y = sample->state;
+    sample->x = c * y[FST_X] - s * y[FST_Y];
+    sample->y = s * y[FST_X] + c * y[FST_Y];
+    sample->v_lab[0] = c * y[FST_VX] - s * y[FST_VY];
+    sample->v_lab[1] = s * y[FST_VX] + c * y[FST_VY];
+    const double *from[2] = {y + FST_NX, y + FST_WX};
+    double *to[2] = {sample->n_lab, sample->w_lab};
+    for (int i = 0; i < 2; ++i) {
+        to[i][0] = c * from[i][0] - s * from[i][1];
+        to[i][1] = s * from[i][0] + c * from[i][1];
+        to[i][2] = from[i][2];
+    }
+    sample->seen = fst_observe_double(&flow->step.context.coefficients, sample->omega, y);
+}
+
+/* Every sample that falls into the last step, up to its fraction `until`. */
+static fst_status push_samples(fst_simulation *s, double until, fst_error *error)
+{
+    const fst_run_sink *sink = &s->options->sink;
+    fst_flow *flow = s->run.flow;
+    const double drive_period = s->run.window.period, end = s->run.window.span.until;
+    if (!sink->sample)
+        return FST_OK;
+    const fst_twofold period = {drive_period, 0.0};
+    for (;;) {
+        const fst_twofold t = fst_twofold_times(period, (double)s->next_sample / s->run.params->run_samples);
+        double x = flow->has_step ? fst_flow_fraction(flow, t) : (t.high == 0.0 ? 1.0 : 2.0);
+        const double slack = flow->has_step ? 1e-9 : 0.0; /* the rounding of times over a short step */
+        if (x > until + (until == 1.0 ? slack : 0.0) || t.high > end * (1.0 + 1e-12))
+            return FST_OK;
+        if (x > 1.0 - slack)
+            x = 1.0;
+        s->next_sample += 1;
+        if (t.high < s->options->sample_from * drive_period * (1.0 - 1e-14))
+            continue;
+        fst_sample sample;
+        fill_sample(flow, x < 0 ? 0.0 : x, t, &sample);
+        const fst_status status = sink->sample(sink->user, &sample, error);
+        if (status != FST_OK)
+            return status;
+    }
+}
+
+fst_status fst_simulation_begin_samples(fst_simulation *s, fst_error *error)
+{
+    return push_samples(s, 1.0, error);
+}
+
+/* ------------------------------------------------------------------ steps */
+
+static fst_status report_progress(fst_simulation *s, fst_error *error)
+{
+    const fst_run_sink *sink = &s->options->sink;
+    const fst_flow *flow = s->run.flow;
+    if (!sink->progress || flow->accepted % 64 != 0)
+        return FST_OK;
+    const double done = s->ramp.waits ? fst_ramp_progress(&s->ramp) : flow->t.high / s->run.window.span.until;
+    const double share = s->ramp.rate != 0.0 ? 1.0 : FST_RUN_SHARE; /* a ramp needs no exponent */
+    return sink->progress(sink->user, share * done, error);
+}
+
+fst_status fst_simulation_step(fst_simulation *s, double t_limit, fst_error *error)
+{
+    fst_status status = fst_watched_run_step(&s->run, t_limit, error);
+    if (status != FST_OK)
+        return status;
+    if (s->run.end.happened)
+        return push_samples(s, s->run.end.fraction, error);
+    status = push_samples(s, 1.0, error);
+    if (status == FST_OK)
+        status = fst_ramp_step(&s->ramp, &s->run.window, s->run.flow, error);
+    return status == FST_OK ? report_progress(s, error) : status;
+}
+
+fst_status fst_simulation_until(fst_simulation *s, double t, fst_error *error)
+{
+    const fst_twofold end = {t, 0.0};
+    fst_status status = FST_OK;
+    while (status == FST_OK && !s->run.end.happened && fst_twofold_difference(end, s->run.flow->t) > 0)
+        status = fst_simulation_step(s, t, error);
+    return status;
+}

@@ -1,0 +1,39 @@
+/* watched_run.h - one run: a model, its flow, the window in which it is observed, and how it ended. */
+#ifndef FST_STUDY_WATCHED_RUN_H
+#define FST_STUDY_WATCHED_RUN_H
+
+#include "observe/window.h"
+
+/* The bead left the plate in the last step. */
+typedef struct fst_run_end {
+    int happened;
+    fst_regime regime; /* ejected or lifted */
+    double fraction;   /* where in the step */
+} fst_run_end;
+
+typedef struct fst_watched_run {
+    const fst_params *params; /* the caller's, who keeps them */
+    fst_model *model;
+    fst_flow *flow;
+    fst_window window; /* from the end of the discard to the end of the run */
+    fst_run_end end;
+} fst_watched_run;
+
+/* Model, start state, flow and window of `params`; `start`: the state to begin from, NULL: what start.* says.
+ * Free the run also where this fails. */
+fst_status fst_watched_run_begin(fst_watched_run *run, const fst_params *params, const double *start,
+                                 fst_error *error);
+
+/* What the run holds, not the run itself. */
+void fst_watched_run_free(fst_watched_run *run);
+
+/* Look at the flow's last step: has the bead left the plate?  Then 1, and run->end. */
+int fst_watched_run_ends(fst_watched_run *run);
+
+/* One step towards t_limit, and what it holds, unless it ends the run. */
+fst_status fst_watched_run_step(fst_watched_run *run, double t_limit, fst_error *error);
+
+/* At most so many steps towards the run's end; *over tells whether that is reached. */
+fst_status fst_watched_run_go_on(fst_watched_run *run, int steps, int *over, fst_error *error);
+
+#endif

@@ -1,0 +1,98 @@
+/* The rules by which every step of festoon grows, shrinks, lands and is given up. */
+#include "physics.h"
+
+#include "ode/flow.h"
+
+static fst_step_control_double control_of(double proposal)
+{
+    return fst_begin_control_double(proposal, INFINITY);
+}
+
+/* A step ends where the way ends, if that is no more than 1 % farther than was proposed. */
+static void test_planning(void **state)
+{
+    (void)state;
+    fst_step_control_double c = control_of(1.0);
+    fst_plan_step_double(&c, REAL_EVERYWHERE, 1.009);
+    assert_true(c.size == 1.009 && c.lands == 1.0);
+    fst_plan_step_double(&c, REAL_EVERYWHERE, 1.011);
+    assert_true(c.size == 1.0 && c.lands == 0.0);
+    fst_plan_step_double(&c, REAL_EVERYWHERE, -0.3);
+    assert_true(c.size == -0.3 && c.lands == 1.0);
+    fst_plan_step_double(&c, REAL_EVERYWHERE, -INFINITY);
+    assert_true(c.size == -1.0 && c.lands == 0.0);
+    c.greatest = 0.25;
+    fst_plan_step_double(&c, REAL_EVERYWHERE, 2.0);
+    assert_true(c.size == 0.25 && c.lands == 0.0 && c.proposal == 1.0);
+    /* Landing is exact, whatever the sum of the steps would be. */
+    const fst_twofold t = {0.1, 1e-18};
+    fst_plan_step_double(&c, REAL_EVERYWHERE, 0.2);
+    const fst_twofold end = fst_step_end_double(&c, t, 0.3);
+    assert_true(end.high == 0.3 && end.low == 0.0);
+}
+
+/* 0.9 error^(-1/8), within a factor of 6. */
+static void test_factors(void **state)
+{
+    (void)state;
+    CHECK_CLOSE(fst_step_factor_double(1.0), 0.9, 0.0);
+    CHECK_CLOSE(fst_step_factor_double(256.0), 0.45, 1e-16);
+    CHECK_CLOSE(fst_step_factor_double(0.0), 6.0, 1e-15);
+    CHECK_CLOSE(fst_step_factor_double(1e300), 1.0 / 6.0, 0.0);
+}
+
+/* A step that was cut short to land leaves a longer proposal as it was; after a failed try runs do not let the
+ * next step grow, tangents do. */
+static void test_proposals(void **state)
+{
+    (void)state;
+    fst_step_control_double c = control_of(1.0);
+    fst_plan_step_double(&c, REAL_EVERYWHERE, 0.01);
+    fst_accept_step_double(&c, REAL_EVERYWHERE, 6.0, FST_HOLD_AFTER_REJECTION);
+    assert_true(c.proposal == 1.0);
+    fst_plan_step_double(&c, REAL_EVERYWHERE, 10.0);
+    fst_accept_step_double(&c, REAL_EVERYWHERE, 0.5, FST_HOLD_AFTER_REJECTION);
+    assert_true(c.proposal == 0.5);
+    for (int rule = FST_HOLD_AFTER_REJECTION; rule <= FST_GROW_AFTER_REJECTION; ++rule) {
+        c = control_of(1.0);
+        fst_plan_step_double(&c, REAL_EVERYWHERE, 10.0);
+        assert_true(fst_reject_step_double(&c, REAL_EVERYWHERE, 2.0, 0.5, 0.0) == 0.0);
+        assert_true(c.size == 0.5 && c.worst_error == 2.0 && c.rejections == 1.0);
+        fst_accept_step_double(&c, REAL_EVERYWHERE, 3.0, rule);
+        assert_true(c.proposal == (rule == FST_GROW_AFTER_REJECTION ? 1.5 : 0.5));
+    }
+}
+
+/* A number that is not finite makes the step ten times smaller.  A step is given up where it is too small for
+ * the time that it is added to, or after 402 failed tries. */
+static void test_giving_up(void **state)
+{
+    (void)state;
+    const double times[] = {1.0, 2e6};
+    for (int i = 0; i < 2; ++i) {
+        fst_step_control_double c = control_of(1.0);
+        fst_plan_step_double(&c, REAL_EVERYWHERE, 10.0);
+        int tries = 1;
+        while (fst_reject_step_double(&c, REAL_EVERYWHERE, NAN, 6.0, times[i]) == 0.0)
+            ++tries;
+        assert_int_equal(tries, i == 0 ? 14 : 8);
+        assert_true(c.worst_error == INFINITY);
+    }
+    fst_step_control_double c = control_of(1.0);
+    fst_plan_step_double(&c, REAL_EVERYWHERE, 10.0);
+    int tries = 1;
+    while (fst_reject_step_double(&c, REAL_EVERYWHERE, 1.01, 0.999, 0.0) == 0.0)
+        ++tries;
+    assert_int_equal(tries, 402);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_planning),
+        cmocka_unit_test(test_factors),
+        cmocka_unit_test(test_proposals),
+        cmocka_unit_test(test_giving_up),
+    };
+    return cmocka_run_group_tests_name("step_control", tests, NULL, NULL);
+}
