@@ -9,6 +9,7 @@
  * in order and given away at once, so memory does not grow with the film.  If ffmpeg is missing, the frames are
  * kept in a folder beside the place of the film, and the error names that folder.
  */
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/number.h"
 #include "base/watch.h"
@@ -110,7 +111,7 @@ static void set_stage(film *f, const fst_table *table)
     double reach = 0.0, omega = fst_collected(table, "omega")[m->first];
     for (size_t row = m->first; row <= m->last; ++row)
         reach = fmax(reach, fmax(fabs(m->x[row]), fabs(m->y[row])));
-    double hertz = omega * p->friction_gamma / 6.283185307179586;
+    double hertz = omega * p->friction_gamma / FST_TWO_PI;
     (void)snprintf(f->title, sizeof f->title, "%.3g Hz (ω = %.4g), %s", hertz, omega,
                    p->model_dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
     f->slower = hertz * f->options->seconds_per_turn;
