@@ -123,7 +123,7 @@ fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_
     *view = (fst_view){.table = table,
                        .gamma = table->params.friction_gamma,
                        .millimetres = 1e3 * table->params.magnet_half_length,
-                       .dynamics = table->params.model_dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020"};
+                       .dynamics = fst_dynamics_name((fst_dynamics)table->params.model_dynamics)};
     fst_status status = choose_rows(view, options, turns, periods, error);
     const double *omega;
     if (status == FST_OK)

@@ -113,7 +113,7 @@ static void set_stage(film *f, const fst_table *table)
         reach = fmax(reach, fmax(fabs(m->x[row]), fabs(m->y[row])));
     double hertz = omega * p->friction_gamma / FST_TWO_PI;
     (void)snprintf(f->title, sizeof f->title, "%.3g Hz (ω = %.4g), %s", hertz, omega,
-                   p->model_dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
+                   fst_dynamics_name((fst_dynamics)p->model_dynamics));
     f->slower = hertz * f->options->seconds_per_turn;
     char unit[32];
     fst_unit_symbols(m->colour_info->unit, unit, sizeof unit);

@@ -352,8 +352,7 @@ fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_pape
                              .curves = all.curve,
                              .curve_count = all.count};
     char title[128];
-    (void)snprintf(title, sizeof title, "%s, %s", figure->title,
-                   figure->dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
+    (void)snprintf(title, sizeof title, "%s, %s", figure->title, fst_dynamics_name(figure->dynamics));
     fst_chart chart = {.title = title,
                        .x_label = "drive ω (γ)",
                        .x_low = 0.15,
