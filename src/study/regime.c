@@ -50,10 +50,9 @@ static const double QUIET_WITHOUT_FRICTION =
 static const double SIGNIFICANT = 3.0; /* exponent over the part of its error that is chance */
 static const double ONE_WAY = 5.0; /* |<alpha'>| over its standard error: below, the bead circles neither way */
 enum {
-    LEAST_PERIODS = 4,                      /* whole drive periods without which nothing is decided */
-    LEAST_OPEN_CROSSINGS = 64,              /* the same, where the orbit does not close */
-    LEAST_CROSSINGS_WITHOUT_FRICTION = 256, /* and nothing draws the bead to it */
-    LEAST_PERIODS_WITHOUT_FRICTION = 100    /* the same for a wide libration, and for chaos */
+    LEAST_PERIODS = 4,                   /* whole drive periods without which nothing is decided */
+    LEAST_OPEN_CROSSINGS = 64,           /* the same, where the orbit does not close */
+    LEAST_PERIODS_WITHOUT_FRICTION = 100 /* without friction, for a wide libration and for chaos */
 };
 
 #define REASON(...) (void)snprintf(result->reason, sizeof result->reason, __VA_ARGS__)
@@ -157,8 +156,13 @@ static decision decide_open(const fst_watched_run *run, const fst_exponent *expo
                hidden.what, hidden.change, hidden.turns, hidden.mean, hidden.noise);
         return DECIDED;
     }
-    const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
-    if (run->window.returns.crossings < (friction ? LEAST_OPEN_CROSSINGS : LEAST_CROSSINGS_WITHOUT_FRICTION)) {
+    if (!fst_kinds_brake(&run->flow->step.context.coefficients.kinds)) {
+        REASON("Phi turned regularly %lld times on an orbit that does not close (whole returns differ by %.2g): "
+               "without friction nothing holds the bead to such an orbit, and it may leave it at any time",
+               (long long)(run->window.returns.crossings / 2), full);
+        return DECIDED;
+    }
+    if (run->window.returns.crossings < LEAST_OPEN_CROSSINGS) {
         REASON("Phi turned regularly %lld times, but the orbit has not closed (whole returns differ by %.2g): "
                "run longer",
                (long long)(run->window.returns.crossings / 2), full);
