@@ -155,7 +155,7 @@ static void messages_help(void **state)
     expect_message("drive.frequency", "10 hz", "nearest is Hz");
     expect_message("bead.radius", "5 m", "1000 mm");
     expect_message("bead.radius", "-1 mm", "0.0001 mm to 1000 mm");
-    expect_message("model.kappa", "1.5 mm", "without unit");
+    expect_message("model.kappa", "1.5 mm", "without a unit");
     expect_message("model.dynamics", "farago", "farago2020");
     expect_message("model.dynamics", "", "rigid|farago2020");
     expect_message("magnet.lines", "2.5", "integer");
