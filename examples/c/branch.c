@@ -13,11 +13,11 @@
 
 #include <festoon/festoon.h>
 
-/* Whatever takes long tells how far it is, and ends if told so (return FST_INTERRUPTED): the branch then holds
- * what was found until then. */
-static fst_status tell(void *user, double fraction, fst_error *error)
+/* A call that may take long tells how far it is, and ends where tell() returns another status than FST_OK (as
+ * FST_INTERRUPTED): the branch then holds what was found until then. */
+static fst_status tell(void *user, double fraction, const char *what, fst_error *error)
 {
-    (void)error;
+    (void)what, (void)error;
     double *told = user;
     if (fraction > *told + 0.1) {
         *told = fraction;
@@ -35,8 +35,8 @@ int main(void)
     options.key = "drive.omega";
     options.from = 0.15;
     options.to = 0.6;
-    options.user = &told;
-    options.progress = tell;
+    const fst_progress progress = {&told, tell};
+    options.progress = &progress;
 
     fst_branch branch;
     fst_error error;
