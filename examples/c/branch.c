@@ -17,7 +17,8 @@
  * FST_INTERRUPTED): the branch then holds what was found until then. */
 static fst_status tell(void *user, double fraction, const char *what, fst_error *error)
 {
-    (void)what, (void)error;
+    (void)what;
+    (void)error;
     double *told = user;
     if (fraction > *told + 0.1) {
         *told = fraction;

@@ -107,7 +107,7 @@ static void write_command(const fst_params *params, fst_scan scan, fst_dynamics 
 {
     const fst_params usual = fst_default_params();
     size_t used = (size_t)snprintf(text, size, "festoon run --set drive.omega=%s --set model.dynamics=%s%s%s",
-                                   omega, dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020",
+                                   omega, fst_dynamics_name(dynamics),
                                    strcmp(scans[scan].spin, "rest") == 0 ? " --set start.spin=rest" : "",
                                    scan == FST_SCAN_CONJUGATE ? " --set start.phi=183" : "");
     for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; ++i)
