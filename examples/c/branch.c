@@ -13,8 +13,8 @@
 
 #include <festoon/festoon.h>
 
-/* Whatever takes long tells how far it is, and ends if told so (return FST_INTERRUPTED): the branch then holds
- * what was found until then. */
+/* A call that may take long tells how far it is, and ends where tell() returns another status than FST_OK (as
+ * FST_INTERRUPTED): the branch then holds what was found until then. */
 static fst_status tell(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)what;
