@@ -137,6 +137,17 @@ static void refusals_and_interruption(void **state)
     o.key = "drive.omga";
     assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
     CHECK_CONTAINS(error.sentence, "drive.omga");
+    o.key = "start.r"; /* errors name the field at fault */
+    assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
+    assert_string_equal(error.where, "fst_branch_options.key");
+    CHECK_CONTAINS(error.sentence, "no orbit and no locked state depends on start.r");
+    o = over_omega(FST_BRANCH_COUNTER, 0.0, 0.3);
+    assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "drive.omega = 0 is out of range");
+    o = over_omega(FST_BRANCH_COUNTER, 0.2, 0.3);
+    o.longest_step = 0.0;
+    assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
+    assert_string_equal(error.where, "fst_branch_options.longest_step");
     o = over_omega(FST_BRANCH_COUNTER, 0.04, 0.06);
     assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_NO_CONVERGENCE);
     CHECK_CONTAINS(error.sentence, "locks to the magnet");

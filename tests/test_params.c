@@ -320,6 +320,56 @@ static void dynamics_have_names(void **state)
     assert_string_equal(fst_dynamics_name((fst_dynamics)2), "unknown");
 }
 
+/* A strength that the bead's material does not use is refused by whoever asks the library. */
+static void values_without_effect(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *material, *key;
+        int used;
+    } cases[] = {{"hard", "bead.a", 0},         {"hard", "bead.b", 0},  {"paramagnetic", "bead.a", 1},
+                 {"paramagnetic", "bead.b", 0}, {"mixed", "bead.a", 1}, {"mixed", "bead.b", 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        fst_params params = fst_default_params();
+        fst_error error;
+        assert_int_equal(fst_params_set(&params, "bead.material", cases[i].material, &error), FST_OK);
+        assert_int_equal(fst_params_check_effects(&params, &error), FST_OK);
+        assert_int_equal(fst_params_set(&params, cases[i].key, "1e-3", &error), FST_OK);
+        assert_int_equal(fst_params_check_effects(&params, &error), cases[i].used ? FST_OK : FST_BAD_INPUT);
+        if (!cases[i].used) {
+            assert_string_equal(error.where, cases[i].key);
+            CHECK_CONTAINS(error.sentence, "mixed");
+        }
+    }
+}
+
+/* Why a text is no value is a number too; the units are named once, whatever the fault. */
+static void faults_of_values(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        fst_unit unit;
+        fst_value_fault fault;
+    } cases[] = {
+        {"2.5 mm", FST_UNIT_LENGTH, FST_VALUE_READ},     {" ", FST_UNIT_LENGTH, FST_VALUE_MISSING},
+        {"two", FST_UNIT_LENGTH, FST_VALUE_NO_NUMBER},   {"0x10", FST_UNIT_LENGTH, FST_VALUE_NO_NUMBER},
+        {"2 Hz", FST_UNIT_LENGTH, FST_VALUE_WRONG_UNIT}, {"2 Hz", FST_UNIT_NUMBER, FST_VALUE_WRONG_UNIT},
+        {"1e999", FST_UNIT_LENGTH, FST_VALUE_TOO_LARGE}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        double value = 0.0;
+        fst_params params = fst_default_params();
+        fst_error error;
+        assert_int_equal(fst_value_read(cases[i].text, cases[i].unit, &value, NULL), cases[i].fault);
+        if (cases[i].unit != FST_UNIT_LENGTH || cases[i].fault == FST_VALUE_READ)
+            continue;
+        assert_int_equal(fst_params_set(&params, "bead.radius", cases[i].text, &error), FST_BAD_INPUT);
+        const char *units = strstr(error.sentence, "units here");
+        assert_non_null(units);
+        assert_null(strstr(units + 1, "units here"));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -331,6 +381,8 @@ int main(void)
         cmocka_unit_test(forms_replace_each_other),
         cmocka_unit_test(kappa_has_two_makers),
         cmocka_unit_test(structs_are_validated),
+        cmocka_unit_test(values_without_effect),
+        cmocka_unit_test(faults_of_values),
         cmocka_unit_test(statuses_have_texts),
         cmocka_unit_test(nearest_names),
         cmocka_unit_test(dynamics_have_names),

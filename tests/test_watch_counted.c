@@ -138,9 +138,8 @@ static void check_part(const char *name, const fst_branch *part, const fst_branc
     for (size_t i = 0; i < part->end_count; ++i) {
         const fst_branch_end *a = &part->ends[i];
         size_t k = 0;
-        while (k < whole->end_count &&
-               !(whole->ends[k].branch == a->branch && whole->ends[k].value == a->value &&
-                 strcmp(whole->ends[k].reason, a->reason) == 0))
+        while (k < whole->end_count && !(whole->ends[k].branch == a->branch &&
+                                         whole->ends[k].value == a->value && whole->ends[k].type == a->type))
             ++k;
         if (k == whole->end_count)
             fail_msg("%s: the end at %g is none of the whole branch: %s", name, a->value, a->reason);

@@ -169,6 +169,11 @@ FST_API fst_status fst_params_set(fst_params *params, const char *key, const cha
  * longer than run.discard, where that has its default of 200. */
 FST_API double fst_run_discard(const fst_params *params);
 
+/* FST_BAD_INPUT: a value was given that the choice of others leaves without effect (bead.a of a hard bead,
+ * bead.b of one that is not mixed); the sentence says what to choose.  fst_model_new() does not look, for a
+ * sweep may vary the choice: ask before a single run. */
+FST_API fst_status fst_params_check_effects(const fst_params *params, fst_error *error);
+
 /* Whether the bead's mass and radius contradict any material: the density is outside 1000 to 23000 kg/m^3, or
  * the radius was changed while mass and magnetic strength (kappa) are those of the default bead.  Returns 0 if
  * they do not; otherwise a sentence that says so is left in `sentence`.  A run is possible all the same.  In a

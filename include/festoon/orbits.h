@@ -18,8 +18,17 @@ FST_API int fst_lapack_present(void);
 
 enum { FST_MULTIPLIER_COUNT = 8, FST_EIGENVALUE_COUNT = 9, FST_LYAPUNOV_TRACE = 64 };
 
+/* Where a start leads. */
+typedef enum {
+    FST_ORBIT_FOUND,
+    FST_ORBIT_LOCKED,   /* no orbit: the bead comes to rest in the turning frame */
+    FST_ORBIT_EJECTED,  /* no orbit: it flies away */
+    FST_ORBIT_UNSETTLED /* it settles on no stable orbit in the time that it was given */
+} fst_orbit_outcome;
+
 /* A periodic orbit of the turning frame. */
 typedef struct fst_orbit {
+    fst_orbit_outcome outcome; /* other than FST_ORBIT_FOUND: nothing else is filled in */
     fst_run_result
         means; /* over one whole turn of Phi (of a libration: over one period); `period` is that time */
     fst_symmetry symmetry; /* S1 or S2; none for a libration */
@@ -38,8 +47,8 @@ typedef struct fst_orbit {
 } fst_orbit;
 
 /* The stable orbit to which start.* leads: integrated until its returns come close to each other, then refined
- * by Newton's method.  The plate's edge is ignored.  FST_NO_CONVERGENCE: there is no such orbit; the sentence
- * says where the bead went (locked, ejected, irregular).  `progress` may be NULL. */
+ * by Newton's method.  The plate's edge is ignored.  FST_NO_CONVERGENCE: there is no such orbit;
+ * orbit->outcome says where the bead went, the sentence the details.  `progress` may be NULL. */
 FST_API fst_status fst_orbit_find(const fst_params *params, const fst_progress *progress, fst_orbit *orbit,
                                   fst_error *error);
 
@@ -111,14 +120,36 @@ typedef struct fst_special {
     fst_branch_point at;
 } fst_special;
 
+/* Why a branch ends. */
+typedef enum {
+    FST_END_NONE,            /* not told: it was read from a file older than these types */
+    FST_END_RANGE,           /* at the end of the range of a parameter */
+    FST_END_CLOSED,          /* it closes on itself; such a branch has this one end */
+    FST_END_SYMMETRIC_ORBIT, /* S1 orbits meet the branch of symmetric ones */
+    FST_END_EQUILIBRIUM,     /* orbits shrink to an equilibrium, at its Hopf point */
+    FST_END_HIGHER_SYMMETRY, /* equilibria meet a branch of higher symmetry */
+    FST_END_OTHER_BRANCH,    /* equilibria meet another branch */
+    FST_END_PERIOD,          /* the period grows without bound */
+    FST_END_RADIUS,          /* the bead is beyond the magnet's field */
+    FST_END_SPIN,            /* the spin of an equilibrium grows without bound */
+    FST_END_REAL_AXIS,       /* over two parameters: the critical pair meets on the real axis */
+    FST_END_NOT_BEGUN,       /* over two parameters: the point is degenerate, and no curve leaves it */
+    FST_END_COUNT_LIMIT,     /* so many points were followed that it was given up */
+    FST_END_LOST             /* no further point was found */
+} fst_end_type;
+/* "range", "closed", "symmetric-orbit", "equilibrium", "higher-symmetry", "other-branch", "period", "radius",
+ * "spin", "real-axis", "not-begun", "count-limit", "lost"; "none" */
+FST_API const char *fst_end_name(fst_end_type type);
+
 /* An end of a branch, and why it ends there. */
 typedef struct fst_branch_end {
     int branch;
+    fst_end_type type;
     int family; /* the branch from which it was born, or -1 */
     int image;  /* the branch of the images of its states under S2: its own number where it is its own image,
                    another branch, or -1: that branch exists but is not listed */
     double value;
-    char reason[192];
+    char reason[192]; /* the same for people, with numbers */
 } fst_branch_end;
 
 typedef struct fst_branch {

@@ -121,15 +121,17 @@ static const unit_row *find_unit(fst_unit kind, const char *plain)
     return NULL;
 }
 
-static fst_status wrong_unit(const char *text, fst_unit kind, const char *written, const char *plain,
-                             fst_error *error)
+static void wrong_unit(const char *text, fst_unit kind, const char *written, const char *plain,
+                       fst_error *error)
 {
     char quoted_text[FST_QUOTE_SIZE], quoted[FST_QUOTE_SIZE];
     fst_quote(text, quoted_text);
     fst_quote(written, quoted);
-    if (kind == FST_UNIT_NUMBER)
-        return fst_fail(error, FST_BAD_INPUT, "value",
-                        "%s has the unit %s, but this value is a number without a unit", quoted_text, quoted);
+    if (kind == FST_UNIT_NUMBER) {
+        (void)fst_fail(error, FST_BAD_INPUT, "value",
+                       "%s has the unit %s, but this value is a number without a unit", quoted_text, quoted);
+        return;
+    }
     char names[256] = "", nearest[16];
     for (size_t i = 0; i < unit_row_count; ++i)
         if (unit_rows[i].kind == kind) {
@@ -137,21 +139,30 @@ static fst_status wrong_unit(const char *text, fst_unit kind, const char *writte
             (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", unit_rows[i].name);
         }
     fst_nearest_name(plain, names, nearest, sizeof nearest);
-    return fst_fail(error, FST_BAD_INPUT, "value",
-                    "%s has the unknown unit %s; the nearest is %s (units here: %s)", quoted_text, quoted,
-                    nearest, kinds[kind].accepted);
+    (void)fst_fail(error, FST_BAD_INPUT, "value",
+                   "%s has the unknown unit %s; the nearest is %s (units here: %s)", quoted_text, quoted,
+                   nearest, kinds[kind].accepted);
 }
 
-fst_status fst_parse_value(const char *text, fst_unit unit, double *value, fst_error *error)
+static fst_value_fault no_number(const char *text, fst_error *error)
+{
+    char quoted[FST_QUOTE_SIZE];
+    (void)fst_fail(error, FST_BAD_INPUT, "value", "%s is no decimal number", fst_quote(text, quoted));
+    return FST_VALUE_NO_NUMBER;
+}
+
+fst_value_fault fst_value_read(const char *text, fst_unit unit, double *value, fst_error *error)
 {
     char quoted[FST_QUOTE_SIZE];
     size_t length;
     const char *trimmed = fst_trim(text, &length);
-    if (length == 0)
-        return fst_fail(error, FST_BAD_INPUT, "value", "the value is missing");
+    if (length == 0) {
+        (void)fst_fail(error, FST_BAD_INPUT, "value", "the value is missing");
+        return FST_VALUE_MISSING;
+    }
     size_t number = fst_number_length(trimmed);
     if (number == 0)
-        return fst_fail(error, FST_BAD_INPUT, "value", "%s is no decimal number", fst_quote(text, quoted));
+        return no_number(text, error);
 
     size_t gap = number + strspn(trimmed + number, " \t\r\n");
     char written[64] = "", plain[32];
@@ -163,15 +174,24 @@ fst_status fst_parse_value(const char *text, fst_unit unit, double *value, fst_e
     /* "0x10" begins with a number, the zero, so the complaint would be about the unit "x10": say what is really
      * wrong. */
     if (!row && (written[0] == 'x' || written[0] == 'X'))
-        return fst_fail(error, FST_BAD_INPUT, "value", "%s is no decimal number", fst_quote(text, quoted));
-    if (!row)
-        return wrong_unit(text, unit, written, plain, error);
+        return no_number(text, error);
+    if (!row) {
+        wrong_unit(text, unit, written, plain, error);
+        return FST_VALUE_WRONG_UNIT;
+    }
 
     double result = fst_number_read(trimmed, number, row->shift) * row->times / row->over;
-    if (!isfinite(result))
-        return fst_fail(error, FST_BAD_INPUT, "value", "%s is too large for a number", fst_quote(text, quoted));
+    if (!isfinite(result)) {
+        (void)fst_fail(error, FST_BAD_INPUT, "value", "%s is too large for a number", fst_quote(text, quoted));
+        return FST_VALUE_TOO_LARGE;
+    }
     *value = result;
-    return FST_OK;
+    return FST_VALUE_READ;
+}
+
+fst_status fst_parse_value(const char *text, fst_unit unit, double *value, fst_error *error)
+{
+    return fst_value_read(text, unit, value, error) == FST_VALUE_READ ? FST_OK : FST_BAD_INPUT;
 }
 
 int fst_value_write(char *text, size_t size, double value, fst_unit unit)

@@ -9,4 +9,16 @@
  * unit is taken.  Returns the length, as snprintf does. */
 int fst_value_write(char *text, size_t size, double value, fst_unit unit);
 
+/* Why a text is no value. */
+typedef enum {
+    FST_VALUE_READ, /* it is one */
+    FST_VALUE_MISSING,
+    FST_VALUE_NO_NUMBER,
+    FST_VALUE_WRONG_UNIT, /* the sentence names the units that fit */
+    FST_VALUE_TOO_LARGE
+} fst_value_fault;
+
+/* As fst_parse_value(), which tells no more than whether there is a value. */
+fst_value_fault fst_value_read(const char *text, fst_unit unit, double *value, fst_error *error);
+
 #endif

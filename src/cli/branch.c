@@ -21,26 +21,6 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-/* Check that the key can have both values, and that the equations of motion depend on it. */
-static fst_status check_range(const char *name, const char *key, const char *low, const char *high,
-                              fst_error *error)
-{
-    static const char *const apart[] = {"start.", "run.", "plate."};
-    for (size_t i = 0; i < sizeof apart / sizeof *apart; ++i)
-        if (strncmp(key, apart[i], strlen(apart[i])) == 0)
-            return fail(
-                error, FST_BAD_INPUT, name,
-                "no orbit and no locked state depends on %s: expected a parameter of the magnet, the bead "
-                "or the model, as in drive.omega=0.2:3",
-                key);
-    fst_params scratch = fst_default_params();
-    fst_error why;
-    if (fst_params_set(&scratch, key, low, &why) != FST_OK ||
-        fst_params_set(&scratch, key, high, &why) != FST_OK)
-        return fail(error, FST_BAD_INPUT, name, "%s", why.sentence);
-    return FST_OK;
-}
-
 /* Read KEY=LO:HI of an option; the values may carry the key's unit. */
 static fst_status read_range(const char *name, const char *text, char key[64], double *from, double *to,
                              fst_error *error)
@@ -73,7 +53,7 @@ static fst_status read_range(const char *name, const char *text, char key[64], d
         return fail(error, FST_BAD_INPUT, name, "%s", why.sentence);
     if (!(*from < *to))
         return fail(error, FST_BAD_INPUT, name, "the range %s:%s must rise", low, high);
-    return check_range(name, key, low, high, error);
+    return FST_OK;
 }
 
 /* Read the second parameter, and the type of special points that are followed over both. */

@@ -36,23 +36,6 @@ static fst_status apply_set(const char *text, fst_params *params, fst_error *err
     return status;
 }
 
-/* Refuse a strength that the bead's material does not use: it would be ignored silently. */
-static fst_status check_material(const fst_params *params, const char *where, fst_error *error)
-{
-    if (params->bead_material == FST_MATERIAL_HARD && params->bead_a != 0.0)
-        return fail(
-            error, FST_BAD_INPUT, where,
-            "bead.a = %g has no effect on a bead of bead.material hard: choose paramagnetic or mixed, or leave "
-            "bead.a out",
-            params->bead_a);
-    if (params->bead_material != FST_MATERIAL_MIXED && params->bead_b != 0.0)
-        return fail(
-            error, FST_BAD_INPUT, where,
-            "bead.b = %g has an effect on a bead of bead.material mixed only: choose that, or leave bead.b out",
-            params->bead_b);
-    return FST_OK;
-}
-
 fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error)
 {
     *params = fst_default_params();
@@ -69,7 +52,10 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
             return status;
     }
     params->run_discard = fst_run_discard(params); /* what is printed is what is done */
-    return check_material(params, path ? path : "", error);
+    const fst_status status = fst_params_check_effects(params, error);
+    if (status != FST_OK)
+        (void)snprintf(error->where, sizeof error->where, "%s", path ? path : "");
+    return status;
 }
 
 void warn_of_material(const fst_params *params)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/fields.h"
 #include "cli/terminal.h"
 
 static const command *const commands[] = {
@@ -138,7 +139,8 @@ static void print_error(const fst_error *error)
 {
     if (!error->sentence[0])
         return;
-    (void)fprintf(stderr, "festoon: %s%s%s\n", error->where, error->where[0] ? ": " : "", error->sentence);
+    const char *where = option_of_field(error->where);
+    (void)fprintf(stderr, "festoon: %s%s%s\n", where, where[0] ? ": " : "", error->sentence);
 }
 
 /* Standard output is written only if all went well.  Until then it waits in memory or, where there is much of

@@ -180,7 +180,7 @@ static fst_status unknown_observable(const char *name, fst_error *error)
         (void)snprintf(names + used, sizeof names - used, "|%s", OBSERVABLES[i].name);
     }
     (void)fst_nearest_name(name, names, nearest, sizeof nearest);
-    return fst_fail(error, FST_BAD_INPUT, "--observable",
+    return fst_fail(error, FST_BAD_INPUT, "fst_figure_branch.observable",
                     "unknown observable \"%.60s\"; the nearest is %s (%s)", name, nearest, names);
 }
 

@@ -61,7 +61,7 @@ static fst_status check_zoom(const fst_view *view, const path_columns *columns, 
         greatest[i] *= view->millimetres;
         beside = beside || zoom[2 * i] > greatest[i] || zoom[2 * i + 1] < least[i];
     }
-    return beside ? fst_fail(error, FST_BAD_INPUT, "figure",
+    return beside ? fst_fail(error, FST_BAD_INPUT, "fst_figure_options.zoom",
                              "the zoom lies outside of the path, which is within %.4g,%.4g,%.4g,%.4g (mm)",
                              least[0], greatest[0], least[1], greatest[1])
                   : FST_OK;
@@ -74,7 +74,8 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
     const double *zoom = options->zoom;
     if (!isnan(zoom[0]) && !isnan(zoom[1]) && !isnan(zoom[2]) && !isnan(zoom[3])) {
         if (!(zoom[0] < zoom[1] && zoom[2] < zoom[3]))
-            return fst_fail(error, FST_BAD_INPUT, "figure", "an empty zoom: it is x0 x1 y0 y1 in mm");
+            return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.zoom",
+                            "an empty zoom: it is x0 x1 y0 y1 in mm");
         memcpy(box, zoom, 4 * sizeof *box);
         return check_zoom(view, columns, zoom, error);
     }

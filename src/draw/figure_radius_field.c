@@ -63,7 +63,7 @@ fst_status fst_figure_radius_field(const fst_table *table, const char *out, cons
                                    fst_error *error)
 {
     if (options->colour)
-        return fst_fail(error, FST_BAD_INPUT, "figure",
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.colour",
                         "the figure of r and |B| has two curves and no colour scale");
     fst_view view;
     const double *phi, *r, *b;

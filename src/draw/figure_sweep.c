@@ -37,9 +37,10 @@ fst_status fst_figure_sweep(const char *path, const char *const *keys, int count
         return status;
     status = axes_of(grid, path, units, axes, &varied, error);
     if (status == FST_OK && varied == 2 && count > 1)
-        status = fst_fail(error, FST_BAD_INPUT, "--key", "a map shows one key, not %d", count);
+        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a map shows one key, not %d", count);
     if (status == FST_OK && count > MOST_KEYS)
-        status = fst_fail(error, FST_BAD_INPUT, "--key", "a figure shows at most %d keys", MOST_KEYS);
+        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a figure shows at most %d keys",
+                          MOST_KEYS);
     const char *const *shown = count > 0 ? keys : varied == 1 ? curves : map;
     const int shown_count = count > 0 ? count : varied == 1 ? 4 : 1;
     for (int i = 0; i < shown_count && status == FST_OK; ++i)

@@ -26,7 +26,7 @@ static fst_status units_of(const fst_grid *grid, const char *what, double *lengt
         const char *key = fst_grid_key(grid, i);
         if (fst_grid_axis_points(grid, i) > 1 && ((length && strcmp(key, "magnet.half_length") == 0) ||
                                                   (time && strcmp(key, "friction.gamma") == 0)))
-            return fst_fail(error, FST_BAD_INPUT, "--units",
+            return fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.units",
                             "the sweep varies %s, a unit itself, so %s is shown in the units it was made with",
                             key, what);
     }

@@ -22,7 +22,7 @@ static fst_status no_such_column(const char *name, fst_error *error)
     char nearest[64] = "";
     (void)fst_nearest_name(name, names, nearest, sizeof nearest);
     free(names);
-    return fst_fail(error, FST_BAD_INPUT, "figure",
+    return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.colour",
                     "a trajectory has no column \"%.60s\"; the nearest name is \"%s\"", name, nearest);
 }
 
@@ -98,7 +98,7 @@ static fst_status choose_rows(fst_view *view, const fst_figure_options *options,
     }
     if (last - first < 2)
         return fst_fail(
-            error, FST_BAD_INPUT, "figure",
+            error, FST_BAD_INPUT, "fst_figure_options.from",
             "fewer than two samples from drive period %g on: the trajectory has %zu samples and ends at "
             "period %g",
             from, rows, rows > 0 ? drive[rows - 1] : 0.0);

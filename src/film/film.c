@@ -90,13 +90,14 @@ static fst_status check(const fst_film_options *options, fst_error *error)
                         "the options were not made by fst_default_film_options()");
     if (options->width < LEAST_SIZE || options->height < LEAST_SIZE || options->width > GREATEST_SIZE ||
         options->height > GREATEST_SIZE || options->width % 2 || options->height % 2)
-        return fst_fail(error, FST_BAD_INPUT, "film",
+        return fst_fail(error, FST_BAD_INPUT, "fst_film_options.width",
                         "a size of %d x %d: width and height are even numbers from %d to %d", options->width,
                         options->height, LEAST_SIZE, GREATEST_SIZE);
     if (!(options->fps >= 1.0 && options->fps <= 120.0))
-        return fst_fail(error, FST_BAD_INPUT, "film", "%g frames a second: take 1 to 120", options->fps);
+        return fst_fail(error, FST_BAD_INPUT, "fst_film_options.fps", "%g frames a second: take 1 to 120",
+                        options->fps);
     if (!(options->seconds_per_turn > 0.0 && options->seconds_per_turn <= 60.0))
-        return fst_fail(error, FST_BAD_INPUT, "film",
+        return fst_fail(error, FST_BAD_INPUT, "fst_film_options.seconds_per_turn",
                         "%g s for a turn of the magnet: take more than 0, at most 60",
                         options->seconds_per_turn);
     return FST_OK;

@@ -28,7 +28,8 @@ static fst_status find_colour(fst_film_motion *motion, const char *colour, fst_e
         (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name);
     }
     fst_nearest_name(colour, names, nearest, sizeof nearest);
-    return fst_fail(error, FST_BAD_INPUT, "film", "no column \"%.60s\"; the nearest is %s", colour, nearest);
+    return fst_fail(error, FST_BAD_INPUT, "fst_film_options.colour", "no column \"%.60s\"; the nearest is %s",
+                    colour, nearest);
 }
 
 /* The same ranges as in figures: from -1 to 1 for n_z, symmetric for both signs, and from 0 where the least
@@ -129,7 +130,7 @@ fst_status fst_film_motion_begin(fst_film_motion *motion, const fst_table *table
     while (end > first && !isnan(to) && motion->drive_turns[end - 1] > to + slack)
         --end;
     if (end < first + 2)
-        return fst_fail(error, FST_BAD_INPUT, "film",
+        return fst_fail(error, FST_BAD_INPUT, "fst_film_options.from",
                         "the trajectory has no samples there: it covers the drive periods %.6g to %.6g",
                         table->rows ? motion->drive_turns[0] : 0.0,
                         table->rows ? motion->drive_turns[table->rows - 1] : 0.0);

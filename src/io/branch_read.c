@@ -118,6 +118,11 @@ static const char *special_name(int index)
     return fst_special_name((fst_special_type)index);
 }
 
+static const char *end_name(int index)
+{
+    return fst_end_name((fst_end_type)index);
+}
+
 static const char *kind_name(int index)
 {
     return fst_branch_kind_name((fst_branch_kind)index);
@@ -257,6 +262,8 @@ static void read_end(reader *r, const json_t *object, fst_branch_end *end, int o
     end->branch = read_integer(r, object, "branch", 0, r->branches - 1);
     end->family = read_branch_or_none(r, object, "born_on");
     read_number(r, object, "value", &end->value);
+    if (json_object_get(object, "type")) /* older files do not have it */
+        end->type = (fst_end_type)read_name(r, object, "type", end_name, FST_END_LOST + 1);
     read_text(r, object, "reason", end->reason, sizeof end->reason);
     if (over_two || (which && strcmp(which, "not listed") == 0))
         end->image = -1;
@@ -367,8 +374,7 @@ static json_t *load(reader *r)
                              fst_quote(why.text, quoted));
     } else if (!json_is_object(document) || !json_object_get(document, "points") ||
                !json_object_get(document, "parameter")) {
-        r->status = fst_fail(r->error, FST_BAD_INPUT, r->path,
-                             "this is no branch: make one with festoon branch -o FILE.json");
+        r->status = fst_fail(r->error, FST_BAD_INPUT, r->path, "this is no branch: festoon branch makes one");
     }
     return document;
 }

@@ -166,6 +166,8 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
         json_object_set_new(end, "branch", json_integer(e->branch));
         json_object_set_new(end, "born_on", e->family >= 0 ? json_integer(e->family) : json_null());
         json_object_set_new(end, "value", fst_json_number(e->value));
+        if (e->type != FST_END_NONE)
+            json_object_set_new(end, "type", json_string(fst_end_name(e->type)));
         json_object_set_new(end, "reason", json_string(e->reason));
         if (!branch->second_key[0])
             json_object_set_new(end, "image_under_s2",
@@ -285,7 +287,7 @@ fst_status fst_run_dots_read(const char *path, const char *key, const char *obse
     free(text);
     if (status == FST_OK && *count == 0)
         status = fst_fail(error, FST_BAD_INPUT, path,
-                          "it contains no document of festoon run --json that has %s and %s", key, observable);
+                          "it contains no document of festoon run that has %s and %s", key, observable);
     if (status != FST_OK) {
         free(*dots);
         *dots = NULL;

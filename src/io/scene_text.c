@@ -64,9 +64,9 @@ static void write_scene(FILE *out, const fst_params *params, int commented)
 {
     char group[32] = "", value[64];
     if (commented)
-        (void)fprintf(
-            out, "# A festoon scene.  A line that is missing keeps its default; --set KEY=VALUE overrides.\n"
-                 "# festoon schema lists all keys, festoon check reads a scene without running it.\n");
+        (void)fprintf(out,
+                      "# A festoon scene.  A line that is missing keeps its default.\n"
+                      "# festoon schema lists all keys, festoon check reads a scene without running it.\n");
     for (int i = 0; i < fst_param_count(); ++i) {
         const fst_param_info *info = fst_param_at(i);
         size_t group_length = strcspn(info->key, ".");

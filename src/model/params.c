@@ -202,9 +202,10 @@ static fst_status set_number(fst_params *params, const fst_param_info *row, cons
 {
     double value;
     fst_error why = {FST_OK, "", ""};
-    if (fst_parse_value(text, row->unit, &value, &why) != FST_OK) {
+    const fst_value_fault fault = fst_value_read(text, row->unit, &value, &why);
+    if (fault != FST_VALUE_READ) {
         const char *accepted = fst_unit_accepted(row->unit);
-        if (accepted[0] && !strstr(why.sentence, "units here"))
+        if (accepted[0] && fault != FST_VALUE_WRONG_UNIT)
             return fst_fail(error, FST_BAD_INPUT, row->key, "%s: %s (units here: %s)", row->key, why.sentence,
                             accepted);
         return fst_fail(error, FST_BAD_INPUT, row->key, "%s: %s", row->key, why.sentence);

@@ -1,5 +1,5 @@
 /* festoons.c - the patterns that close in the laboratory after a whole number of festoons. */
-#include "orbit/curve.h"
+#include "orbit/node.h"
 #include "orbit/search.h"
 
 #include <stdio.h>

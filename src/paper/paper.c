@@ -123,7 +123,7 @@ static fst_status no_such_statement(const char *id, fst_error *error)
         used +=
             (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? "|" : "", fst_statement_at(i)->id);
     (void)fst_nearest_name(id, names, nearest, sizeof nearest);
-    return fst_fail(error, FST_BAD_INPUT, "paper",
+    return fst_fail(error, FST_BAD_INPUT, "fst_paper_options.only",
                     "there is no statement \"%.60s\"; the nearest name is \"%s\", paper.json has all", id,
                     nearest);
 }

@@ -290,7 +290,8 @@ static fst_status fill_hdf5(export_job *job, const fst_hdf5_module_table *module
 static fst_status export_hdf5(export_job *job, const char *out, fst_error *error)
 {
     if (!out)
-        return fst_fail(error, FST_BAD_INPUT, "--hdf5", "HDF5 goes into a file: -o FILE.h5");
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep_export.out",
+                        "HDF5 goes into a file, whose name is missing");
     const fst_hdf5_module_table *module;
     fst_status status = fst_load_hdf5_module(&module, out, error);
     if (status != FST_OK)

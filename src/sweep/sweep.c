@@ -350,14 +350,15 @@ static fst_status work(job *j, fst_error *error)
 static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid, fst_error *error)
 {
     if (o->lanes != 0 && o->lanes != 1 && o->lanes != 4 && o->lanes != 8)
-        return fst_fail(error, FST_BAD_INPUT, "--lanes", "the number of lanes is 1, 4 or 8, not %d", o->lanes);
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep_options.lanes",
+                        "the number of lanes is 1, 4 or 8, not %d", o->lanes);
     if (!(o->checkpoint_seconds > 0))
-        return fst_fail(error, FST_BAD_INPUT, "fst_sweep", "checkpoint_seconds = %g must be positive",
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep_options.checkpoint_seconds", "%g s must be positive",
                         o->checkpoint_seconds);
     const char *key = fst_grid_key(grid, 0);
     if (o->carry != FST_CARRY_NO &&
         (strcmp(key, "friction.gamma") == 0 || strcmp(key, "magnet.half_length") == 0))
-        return fst_fail(error, FST_BAD_INPUT, "--carry",
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep_options.carry",
                         "%s changes the units, so a state cannot be carried along it", key);
     return FST_OK;
 }

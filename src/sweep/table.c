@@ -27,7 +27,8 @@ static fst_status check_key(const char *key, fst_error *error)
     }
     if (fst_nearest_name(key, names, nearest, sizeof nearest) == 0)
         return FST_OK;
-    return fst_fail(error, FST_BAD_INPUT, "--key", "unknown key \"%.60s\"; the nearest is %s", key, nearest);
+    return fst_fail(error, FST_BAD_INPUT, "fst_sweep_read.keys", "unknown key \"%.60s\"; the nearest is %s",
+                    key, nearest);
 }
 
 /* A value as a number; regimes and symmetries by their index. */
