@@ -110,8 +110,9 @@ static void images_under_s2(void **state)
     fst_branch_free(&b);
 }
 
-static fst_status stop_at_once(void *user, double fraction, fst_error *error)
+static fst_status stop_at_once(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     (void)user;
     (void)fraction;
     if (error)
@@ -126,7 +127,8 @@ static void refusals_and_interruption(void **state)
     fst_branch_options o = over_omega(FST_BRANCH_COUNTER, 0.268, 0.272);
     fst_branch b;
     fst_error error;
-    o.progress = stop_at_once;
+    const fst_progress progress = {NULL, stop_at_once};
+    o.progress = &progress;
     assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_INTERRUPTED);
     fst_branch_free(&b);
     o = over_omega(FST_BRANCH_COUNTER, 0.3, 0.3);
@@ -135,6 +137,17 @@ static void refusals_and_interruption(void **state)
     o.key = "drive.omga";
     assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
     CHECK_CONTAINS(error.sentence, "drive.omga");
+    o.key = "start.r"; /* errors name the field at fault */
+    assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
+    assert_string_equal(error.where, "fst_branch_options.key");
+    CHECK_CONTAINS(error.sentence, "no orbit and no locked state depends on start.r");
+    o = over_omega(FST_BRANCH_COUNTER, 0.0, 0.3);
+    assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "drive.omega = 0 is out of range");
+    o = over_omega(FST_BRANCH_COUNTER, 0.2, 0.3);
+    o.longest_step = 0.0;
+    assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
+    assert_string_equal(error.where, "fst_branch_options.longest_step");
     o = over_omega(FST_BRANCH_COUNTER, 0.04, 0.06);
     assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_NO_CONVERGENCE);
     CHECK_CONTAINS(error.sentence, "locks to the magnet");

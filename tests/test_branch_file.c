@@ -47,7 +47,7 @@ static fst_branch_point point_of(int i, int eigenvalues)
 /* Every type, kind and symmetry, and every value that a member can have besides numbers. */
 static fst_branch made_up(int over_two)
 {
-    enum { POINTS = 7, TYPES = FST_SPECIAL_TRANSCRITICAL + 1, ENDS = 4 };
+    enum { POINTS = 7, TYPES = FST_SPECIAL_TRANSCRITICAL + 1, ENDS = FST_END_LOST + 1 };
     fst_branch b;
     memset(&b, 0, sizeof b);
     b.kind = over_two ? FST_BRANCH_LOCKED : FST_BRANCH_ALL;
@@ -80,9 +80,10 @@ static fst_branch made_up(int over_two)
     }
     for (int i = 0; i < ENDS; ++i) {
         fst_branch_end *end = &b.ends[b.end_count++];
-        end->branch = i;
-        end->family = i - 1;
-        end->image = over_two || i == 1 ? -1 : i < 2 ? i : 1;
+        end->branch = i % 5;
+        end->type = (fst_end_type)i;
+        end->family = i % 5 - 1;
+        end->image = over_two || i == 1 ? -1 : i < 2 ? end->branch : 1;
         end->value = 1.0 / (291.0 + i);
         (void)snprintf(end->reason, sizeof end->reason, "the reason \"%d\", <r> = 8 \xc3\xa9", i);
     }
@@ -148,8 +149,9 @@ static void every_member_comes_back(void **state)
     }
 }
 
-static fst_status refuse(void *user, double fraction, fst_error *error)
+static fst_status refuse(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     (void)fraction;
     if (--*(int *)user > 0)
         return FST_OK;
@@ -168,8 +170,8 @@ static void real_branches_come_back(void **state)
     check_round_trip(&b);
     fst_branch_free(&b);
     int calls = 300;
-    o.user = &calls;
-    o.progress = refuse;
+    const fst_progress progress = {&calls, refuse};
+    o.progress = &progress;
     assert_int_equal(fst_branch_follow(&params, &o, &b, NULL), FST_INTERRUPTED);
     assert_true(b.point_count > 0 && !b.complete);
     check_round_trip(&b);
@@ -233,6 +235,8 @@ static void other_members_are_refused(void **state)
          "specials[0].born is missing: it must be an integer from 0 to 4"},
         {"\"ends\"", "\"image_under_s2\": \"itself\"", "\"image_under_s2\": \"me\"", "ends[0].image_under_s2"},
         {"\"ends\"", "\"born_on\": null", "\"born_on\": \"null\"", "ends[0].born_on"},
+        {"\"ends\"", "\"type\": \"closed\"", "\"type\": \"close\"",
+         "ends[2].type must be one of none|range|closed|"},
         {"\"ends\"", "the reason", "the\\u001b[31m reason", "ends[0].reason must be a short text"},
         {"\"points\"", "\"symmetry\": \"S1\"", "\"symmetry\": \"S3\"", "points[1].symmetry"},
         {"\"points\"", "\"stable\": false", "\"stable\": null", "points[0].stable"},

@@ -200,8 +200,9 @@ static void festoons_up_to_the_ends_of_the_branch(void **state)
     fst_branch_free(&branch);
 }
 
-static fst_status never(void *user, double fraction, fst_error *error)
+static fst_status never(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     (void)user, (void)fraction, (void)error;
     fail_msg("the branch is followed");
     return FST_INTERRUPTED;
@@ -241,10 +242,32 @@ static void a_locked_bead_has_no_orbit(void **state)
         assert_int_equal(fst_params_set(&params, locked[i].key, locked[i].value, &error), FST_OK);
         if (fst_orbit_find(&params, NULL, &orbit, &error) != FST_NO_CONVERGENCE)
             fail_msg("%s = %s: an orbit of period %g", locked[i].key, locked[i].value, orbit.means.period);
+        assert_int_equal(orbit.outcome, FST_ORBIT_LOCKED);
         CHECK_CONTAINS(error.sentence, "locks to the magnet");
         assert_int_equal(fst_locked_find(&params, NULL, &list, &error), FST_OK);
         assert_true(list.states[0].stable);
         fst_locked_free(&list);
+    }
+}
+
+/* Where a start leads is told by a number too: to an orbit, away, or to neither in the time given. */
+static void a_start_that_leads_elsewhere(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *omega, *key, *value;
+        fst_orbit_outcome outcome;
+    } cases[] = {{"0.3", "start.r", "0.95", FST_ORBIT_FOUND},
+                 {"5", "start.r", "3", FST_ORBIT_EJECTED},
+                 {"4", "start.r", "0.95", FST_ORBIT_UNSETTLED}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        fst_params params = scene(cases[i].omega, "rigid");
+        fst_orbit orbit;
+        fst_error error;
+        assert_int_equal(fst_params_set(&params, cases[i].key, cases[i].value, &error), FST_OK);
+        const fst_status status = fst_orbit_find(&params, NULL, &orbit, &error);
+        assert_int_equal(orbit.outcome, cases[i].outcome);
+        assert_int_equal(status, cases[i].outcome == FST_ORBIT_FOUND ? FST_OK : FST_NO_CONVERGENCE);
     }
 }
 
@@ -368,6 +391,7 @@ int main(void)
         cmocka_unit_test(festoons_up_to_the_ends_of_the_branch),
         cmocka_unit_test(numbers_without_meaning_cost_no_work),
         cmocka_unit_test(a_locked_bead_has_no_orbit),
+        cmocka_unit_test(a_start_that_leads_elsewhere),
         cmocka_unit_test(a_libration_is_an_orbit_without_turns),
         cmocka_unit_test(a_libration_that_catches_a_turning_bead),
         cmocka_unit_test(locked_states),

@@ -138,7 +138,7 @@ static void branches_end_at_their_borders(void **unused)
     assert_true(least == from);
     assert_true(greatest == to);
     for (size_t i = 0; i < branch.end_count; ++i)
-        CHECK_CONTAINS(branch.ends[i].reason, "the end of the range");
+        assert_int_equal(branch.ends[i].type, FST_END_RANGE);
     fst_branch_free(&branch);
 }
 
@@ -232,6 +232,34 @@ static void the_pitchfork_on_the_axis(void **unused)
     fst_branch_free(&branch);
 }
 
+/* Over the height of the bead both states on the axis have a pitchfork.  Newton's matrix is singular there, and
+ * its method fails close by: the place is found all the same, at any step, and what comes from off the axis
+ * ends on the axis and does not turn at a fold. */
+static void pitchforks_on_the_axis_over_the_height(void **unused)
+{
+    (void)unused;
+    static const double steps[] = {0.5, 0.02}, places[] = {0.905835876962, 0.68605196508};
+    const fst_params params = fst_default_params();
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i)
+        for (size_t k = 0; k < sizeof places / sizeof *places; ++k) {
+            fst_branch_options options = fst_default_branch_options();
+            options.kind = FST_BRANCH_LOCKED;
+            options.key = "model.h";
+            options.from = places[k] - 0.03;
+            options.to = places[k] + 0.03;
+            options.longest_step = steps[i];
+            fst_branch branch = followed(&params, &options);
+            const fst_special *s = special_near(&branch, FST_SPECIAL_PITCHFORK, places[k]);
+            CHECK_CLOSE(s->value, places[k], 2e-10);
+            assert_true(s->born >= 0 && s->criticality == 1);
+            for (size_t m = 0; m < branch.special_count; ++m)
+                if (branch.specials[m].type == FST_SPECIAL_FOLD &&
+                    fabs(branch.specials[m].value - places[k]) < 1e-6)
+                    fail_msg("steps of %g: a fold at the pitchfork at %.9g", steps[i], places[k]);
+            fst_branch_free(&branch);
+        }
+}
+
 /* Two crossings in one long step do not hide each other: with steps ten times as long as usual the same Hopf
  * point is found, beside which its pair meets on the real axis. */
 static void crossings_in_a_long_step(void **unused)
@@ -252,8 +280,9 @@ static void crossings_in_a_long_step(void **unused)
 }
 
 /* Progress that has patience for so many points. */
-static fst_status lose_patience(void *user, double fraction, fst_error *error)
+static fst_status lose_patience(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     int *left = user;
     (void)fraction, (void)error;
     *left -= 1;
@@ -271,11 +300,16 @@ static void a_closed_branch_is_followed_once(void **unused)
     options.from = 0.51;
     options.to = 0.56;
     int left = 20000, closed = 0; /* questions, one every 4000 evaluations */
-    options.user = &left;
-    options.progress = lose_patience;
+    const fst_progress progress = {&left, lose_patience};
+    options.progress = &progress;
     fst_branch branch = followed(&params, &options);
-    for (size_t i = 0; i < branch.end_count; ++i)
-        closed += strstr(branch.ends[i].reason, "closes on itself") != NULL;
+    for (size_t i = 0; i < branch.end_count; ++i) {
+        if (branch.ends[i].type != FST_END_CLOSED)
+            continue;
+        closed += 1;
+        for (size_t k = 0; k < branch.end_count; ++k)
+            assert_true(k == i || branch.ends[k].branch != branch.ends[i].branch); /* it has one end */
+    }
     assert_true(closed > 0);
     assert_true(branch.point_count < 400);
     fst_branch_free(&branch);
@@ -284,10 +318,15 @@ static void a_closed_branch_is_followed_once(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(derivatives_by_parameters),     cmocka_unit_test(swings_are_those_of_the_path),
-        cmocka_unit_test(branches_end_at_their_borders), cmocka_unit_test(the_axis_is_passed),
-        cmocka_unit_test(the_pitchfork_on_the_axis),     cmocka_unit_test(a_pair_leaves_the_circle),
-        cmocka_unit_test(crossings_in_a_long_step),      cmocka_unit_test(a_closed_branch_is_followed_once),
+        cmocka_unit_test(derivatives_by_parameters),
+        cmocka_unit_test(swings_are_those_of_the_path),
+        cmocka_unit_test(branches_end_at_their_borders),
+        cmocka_unit_test(the_axis_is_passed),
+        cmocka_unit_test(the_pitchfork_on_the_axis),
+        cmocka_unit_test(pitchforks_on_the_axis_over_the_height),
+        cmocka_unit_test(a_pair_leaves_the_circle),
+        cmocka_unit_test(crossings_in_a_long_step),
+        cmocka_unit_test(a_closed_branch_is_followed_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

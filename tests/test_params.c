@@ -155,7 +155,7 @@ static void messages_help(void **state)
     expect_message("drive.frequency", "10 hz", "nearest is Hz");
     expect_message("bead.radius", "5 m", "1000 mm");
     expect_message("bead.radius", "-1 mm", "0.0001 mm to 1000 mm");
-    expect_message("model.kappa", "1.5 mm", "without unit");
+    expect_message("model.kappa", "1.5 mm", "without a unit");
     expect_message("model.dynamics", "farago", "farago2020");
     expect_message("model.dynamics", "", "rigid|farago2020");
     expect_message("magnet.lines", "2.5", "integer");
@@ -306,6 +306,70 @@ static void locale_does_not_matter(void **state)
         print_message("no locale with a decimal comma here: only the C locale was tried\n");
 }
 
+/* The names of the dynamics are those of the table of parameters. */
+static void dynamics_have_names(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; ++i) {
+        fst_params params = fst_default_params();
+        char name[32];
+        params.model_dynamics = i;
+        (void)fst_params_get(&params, fst_param_find("model.dynamics"), name, sizeof name);
+        assert_string_equal(fst_dynamics_name((fst_dynamics)i), name);
+    }
+    assert_string_equal(fst_dynamics_name((fst_dynamics)2), "unknown");
+}
+
+/* A strength that the bead's material does not use is refused by whoever asks the library. */
+static void values_without_effect(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *material, *key;
+        int used;
+    } cases[] = {{"hard", "bead.a", 0},         {"hard", "bead.b", 0},  {"paramagnetic", "bead.a", 1},
+                 {"paramagnetic", "bead.b", 0}, {"mixed", "bead.a", 1}, {"mixed", "bead.b", 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        fst_params params = fst_default_params();
+        fst_error error;
+        assert_int_equal(fst_params_set(&params, "bead.material", cases[i].material, &error), FST_OK);
+        assert_int_equal(fst_params_check_effects(&params, &error), FST_OK);
+        assert_int_equal(fst_params_set(&params, cases[i].key, "1e-3", &error), FST_OK);
+        assert_int_equal(fst_params_check_effects(&params, &error), cases[i].used ? FST_OK : FST_BAD_INPUT);
+        if (!cases[i].used) {
+            assert_string_equal(error.where, cases[i].key);
+            CHECK_CONTAINS(error.sentence, "mixed");
+        }
+    }
+}
+
+/* Why a text is no value is a number too; the units are named once, whatever the fault. */
+static void faults_of_values(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *text;
+        fst_unit unit;
+        fst_value_fault fault;
+    } cases[] = {
+        {"2.5 mm", FST_UNIT_LENGTH, FST_VALUE_READ},     {" ", FST_UNIT_LENGTH, FST_VALUE_MISSING},
+        {"two", FST_UNIT_LENGTH, FST_VALUE_NO_NUMBER},   {"0x10", FST_UNIT_LENGTH, FST_VALUE_NO_NUMBER},
+        {"2 Hz", FST_UNIT_LENGTH, FST_VALUE_WRONG_UNIT}, {"2 Hz", FST_UNIT_NUMBER, FST_VALUE_WRONG_UNIT},
+        {"1e999", FST_UNIT_LENGTH, FST_VALUE_TOO_LARGE}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        double value = 0.0;
+        fst_params params = fst_default_params();
+        fst_error error;
+        assert_int_equal(fst_value_read(cases[i].text, cases[i].unit, &value, NULL), cases[i].fault);
+        if (cases[i].unit != FST_UNIT_LENGTH || cases[i].fault == FST_VALUE_READ)
+            continue;
+        assert_int_equal(fst_params_set(&params, "bead.radius", cases[i].text, &error), FST_BAD_INPUT);
+        const char *units = strstr(error.sentence, "units here");
+        assert_non_null(units);
+        assert_null(strstr(units + 1, "units here"));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -317,8 +381,11 @@ int main(void)
         cmocka_unit_test(forms_replace_each_other),
         cmocka_unit_test(kappa_has_two_makers),
         cmocka_unit_test(structs_are_validated),
+        cmocka_unit_test(values_without_effect),
+        cmocka_unit_test(faults_of_values),
         cmocka_unit_test(statuses_have_texts),
         cmocka_unit_test(nearest_names),
+        cmocka_unit_test(dynamics_have_names),
         cmocka_unit_test(locale_does_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

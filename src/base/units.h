@@ -4,9 +4,21 @@
 
 #include <festoon/festoon.h>
 
-/* `value`, in SI, as text in the unit that people use for this kind ("2.5 mm", "10.7 Hz", "3 deg"; a bare
- * number for a pure one).  Reading it back gives the same bits: where the customary unit would not, the SI
+/* Write `value`, which is in SI, in the unit that people use for this kind ("2.5 mm", "10.7 Hz", "3 deg"; a
+ * bare number for a pure one).  Reading it back gives the same bits: where the customary unit would not, the SI
  * unit is taken.  Returns the length, as snprintf does. */
 int fst_value_write(char *text, size_t size, double value, fst_unit unit);
+
+/* Why a text is no value. */
+typedef enum {
+    FST_VALUE_READ, /* it is one */
+    FST_VALUE_MISSING,
+    FST_VALUE_NO_NUMBER,
+    FST_VALUE_WRONG_UNIT, /* the sentence names the units that fit */
+    FST_VALUE_TOO_LARGE
+} fst_value_fault;
+
+/* As fst_parse_value(), which tells no more than whether there is a value. */
+fst_value_fault fst_value_read(const char *text, fst_unit unit, double *value, fst_error *error);
 
 #endif

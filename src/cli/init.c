@@ -1,5 +1,6 @@
 /* init.c - festoon init: a commented scene to begin with. */
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/command.h"
 
@@ -20,10 +21,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return status;
     if (strcmp(path, "-") == 0)
         return print_and_free(fst_scene_text(&params, 1), out, error);
-    int force = option_value(given, "force") != NULL;
-    status = fst_scene_write(path, &params, 1, force, error);
-    if (status == FST_BAD_INPUT && !force && strstr(error->sentence, "already"))
+    const int force = option_value(given, "force") != NULL;
+    if (!force && access(path, F_OK) == 0)
         return fail(error, FST_BAD_INPUT, path, "this file is there already; --force overwrites it");
+    status = fst_scene_write(path, &params, 1, force, error);
     char text[SHOWN_SIZE], remark[SHOWN_SIZE + 40];
     (void)snprintf(remark, sizeof remark, "; run it with: festoon run %s", shown(path, text));
     if (status == FST_OK)

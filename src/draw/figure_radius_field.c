@@ -1,15 +1,15 @@
-/* figure_radius_field.c - r and |B| while the magnet passes under the bead (the paper's Fig. magint). */
+/* figure_radius_field.c - r and |B| while the magnet passes under the bead (the paper's Fig. 13). */
 #include "draw/figure_trajectory.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "draw/chart.h"
 #include "draw/view.h"
 
 #include <stdlib.h>
 
-#define PI 3.14159265358979323846
-
-/* Phi folded into half a revolution of the magnet; a fold gets a NAN row, so that the line breaks there. */
+/* Fold Phi into half a revolution of the magnet.  Each fold gets a row of NAN, so that the line
+ * breaks there. */
 typedef struct folded {
     double *phi, *r, *b;
     size_t count;
@@ -18,15 +18,15 @@ typedef struct folded {
 static void fold(const fst_view *view, const double *phi, const double *r, const double *b, folded *curve)
 {
     double previous = NAN;
-    for (size_t row = view->first; row < view->last; row++) {
-        double half_turn = floor(phi[row] / PI);
+    for (size_t row = view->first; row < view->last; ++row) {
+        double half_turn = floor(phi[row] / FST_PI);
         size_t i = curve->count;
         if (!isnan(previous) && half_turn != previous) {
             curve->phi[i] = curve->r[i] = curve->b[i] = NAN;
-            i++;
+            ++i;
         }
         previous = half_turn;
-        curve->phi[i] = phi[row] - half_turn * PI;
+        curve->phi[i] = phi[row] - half_turn * FST_PI;
         curve->r[i] = r[row];
         curve->b[i] = b[row];
         curve->count = i + 1;
@@ -50,7 +50,7 @@ static fst_status draw(const fst_view *view, const char *out, const folded *curv
     fst_chart chart = {.title = view->title,
                        .x_label = "Φ = α − ωt, the bead's angle against the magnet (0: over its lines' ends)",
                        .x_low = 0.0,
-                       .x_high = PI,
+                       .x_high = FST_PI,
                        .x_tics = "('0' 0, 'π/4' 0.785398163, 'π/2' 1.570796327, '3π/4' 2.35619449, 'π' "
                                  "3.141592654)",
                        .height = 420,
@@ -63,7 +63,7 @@ fst_status fst_figure_radius_field(const fst_table *table, const char *out, cons
                                    fst_error *error)
 {
     if (options->colour)
-        return fst_fail(error, FST_BAD_INPUT, "figure",
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.colour",
                         "the figure of r and |B| has two curves and no colour scale");
     fst_view view;
     const double *phi, *r, *b;

@@ -1,11 +1,11 @@
-/* figure_sweep.c - fst_figure_sweep(): which keys of a sweep are shown, as curves or as a map. */
+/* figure_sweep.c - fst_figure_sweep(): choosing which keys of a sweep are shown, as curves or as a map. */
 #include "draw/figure_sweep.h"
 
 #include "base/error.h"
 
 enum { MOST_KEYS = 8 };
 
-/* The axes that are varied, one or two. */
+/* The axes that vary, one or two. */
 static fst_status axes_of(const fst_grid *grid, const char *path, fst_shown_units units,
                           fst_sweep_axis axes[FST_AXIS_LIMIT], int *varied, fst_error *error)
 {
@@ -18,7 +18,7 @@ static fst_status axes_of(const fst_grid *grid, const char *path, fst_shown_unit
         }
     if (*varied < 1 || *varied > 2)
         return fst_fail(error, FST_BAD_INPUT, path,
-                        "a figure shows a sweep over one or two axes; this one has %d: festoon export it",
+                        "a figure shows a sweep over one or two axes; this one has %d: use festoon export",
                         *varied);
     return FST_OK;
 }
@@ -37,9 +37,10 @@ fst_status fst_figure_sweep(const char *path, const char *const *keys, int count
         return status;
     status = axes_of(grid, path, units, axes, &varied, error);
     if (status == FST_OK && varied == 2 && count > 1)
-        status = fst_fail(error, FST_BAD_INPUT, "--key", "a map shows one key, not %d", count);
+        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a map shows one key, not %d", count);
     if (status == FST_OK && count > MOST_KEYS)
-        status = fst_fail(error, FST_BAD_INPUT, "--key", "a figure shows at most %d keys", MOST_KEYS);
+        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a figure shows at most %d keys",
+                          MOST_KEYS);
     const char *const *shown = count > 0 ? keys : varied == 1 ? curves : map;
     const int shown_count = count > 0 ? count : varied == 1 ? 4 : 1;
     for (int i = 0; i < shown_count && status == FST_OK; ++i)

@@ -1,5 +1,7 @@
+/* figure_sweep_axes.c - axes and keys of a sweep, converted into the units that the figure shows. */
 #include "draw/figure_sweep_axes.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 
 #include <stdio.h>
@@ -16,7 +18,7 @@ static void words_of(const char *key, char *words, size_t size)
             *c = ' ';
 }
 
-/* Length in metres and time in seconds of the scaled units, which must be the same at all points. */
+/* The scaled units' length in metres and time in seconds, which must be the same at all points. */
 static fst_status units_of(const fst_grid *grid, const char *what, double *length, double *time,
                            fst_error *error)
 {
@@ -24,7 +26,7 @@ static fst_status units_of(const fst_grid *grid, const char *what, double *lengt
         const char *key = fst_grid_key(grid, i);
         if (fst_grid_axis_points(grid, i) > 1 && ((length && strcmp(key, "magnet.half_length") == 0) ||
                                                   (time && strcmp(key, "friction.gamma") == 0)))
-            return fst_fail(error, FST_BAD_INPUT, "--units",
+            return fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.units",
                             "the sweep varies %s, a unit itself, so %s is shown in the units it was made with",
                             key, what);
     }
@@ -36,9 +38,7 @@ static fst_status units_of(const fst_grid *grid, const char *what, double *lengt
     return FST_OK;
 }
 
-static const double TWO_PI = 6.283185307179586;
-
-/* The drive by its frequency in Hz or by its scaled angular velocity. */
+/* The drive, by its frequency in Hz or by its scaled angular velocity. */
 static fst_status drive_axis(const fst_grid *grid, fst_shown_units units, fst_sweep_axis *axis,
                              fst_error *error)
 {
@@ -47,13 +47,13 @@ static fst_status drive_axis(const fst_grid *grid, fst_shown_units units, fst_sw
     const int to_hertz = units == FST_SHOWN_LAB || (units == FST_SHOWN_AS_GIVEN && in_hertz);
     double time = 1.0;
     const fst_status status = in_hertz == to_hertz ? FST_OK : units_of(grid, key, NULL, &time, error);
-    axis->factor = in_hertz == to_hertz ? 1.0 : in_hertz ? TWO_PI * time : 1.0 / (TWO_PI * time);
+    axis->factor = in_hertz == to_hertz ? 1.0 : in_hertz ? FST_TWO_PI * time : 1.0 / (FST_TWO_PI * time);
     (void)snprintf(axis->label, sizeof axis->label, "%s",
                    to_hertz ? "drive frequency (Hz)" : "drive ω (scaled)");
     return status;
 }
 
-/* A length, given in metres or, start.r, in l. */
+/* A length, given in metres or (start.r) in l. */
 static fst_status length_axis(const fst_grid *grid, fst_shown_units units, int in_metres, fst_sweep_axis *axis,
                               fst_error *error)
 {
@@ -112,7 +112,7 @@ void fst_sweep_choice_tics(const fst_param_info *choice, char *tics, size_t size
 fst_status fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units,
                                  fst_sweep_quantity *quantity, fst_error *error)
 {
-    /* Units of results that have a counterpart in the laboratory: powers of l and of gamma in them. */
+    /* Units of results that have a counterpart in the laboratory, as powers of l and of gamma. */
     static const struct {
         const char *scaled, *lab;
         int length, time;

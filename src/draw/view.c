@@ -1,35 +1,35 @@
+/* view.c - finding the part of a trajectory that a figure shows, and its columns. */
 #include "draw/view.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define PI 3.14159265358979323846
-
 static fst_status no_such_column(const char *name, fst_error *error)
 {
     size_t room = 1;
-    for (int i = 0; i < fst_column_count(); i++)
+    for (int i = 0; i < fst_column_count(); ++i)
         room += strlen(fst_column_at(i)->name) + 1;
     char *names = malloc(room);
     if (!names)
         return fst_fail(error, FST_NO_MEMORY, name, "no memory for a list of names");
     size_t used = 0;
-    for (int i = 0; i < fst_column_count(); i++)
+    for (int i = 0; i < fst_column_count(); ++i)
         used += (size_t)snprintf(names + used, room - used, "%s%s", i ? "|" : "", fst_column_at(i)->name);
     char nearest[64] = "";
     (void)fst_nearest_name(name, names, nearest, sizeof nearest);
     free(names);
-    return fst_fail(error, FST_BAD_INPUT, "figure",
+    return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.colour",
                     "a trajectory has no column \"%.60s\"; the nearest name is \"%s\"", name, nearest);
 }
 
 fst_status fst_view_column(const fst_view *view, const char *name, const double **column,
                            const fst_column_info **info, fst_error *error)
 {
-    for (int i = 0; i < fst_column_count(); i++) {
+    for (int i = 0; i < fst_column_count(); ++i) {
         if (strcmp(fst_column_at(i)->name, name) != 0)
             continue;
         *column = view->table->columns[i];
@@ -55,7 +55,7 @@ void fst_view_range(const fst_view *view, const double *column, double *least, d
 {
     *least = INFINITY;
     *greatest = -INFINITY;
-    for (size_t row = view->first; row < view->last; row++) {
+    for (size_t row = view->first; row < view->last; ++row) {
         if (!isfinite(column[row]))
             continue;
         *least = fmin(*least, column[row]);
@@ -72,7 +72,8 @@ double fst_view_between(double x0, double v0, double x1, double v1, double h, do
            part * part * ((1.0 + 2.0 * rest) * x1 - rest * h * v1);
 }
 
-/* Find the rows; `turns` of the bead or `periods` of the drive end an open view. */
+/* Find the rows that are shown; where the options leave the end open, `turns` of the bead or `periods` of the
+ * drive end the view. */
 static fst_status choose_rows(fst_view *view, const fst_figure_options *options, double turns, double periods,
                               fst_error *error)
 {
@@ -86,18 +87,18 @@ static fst_status choose_rows(fst_view *view, const fst_figure_options *options,
         from =
             rows > 0 && drive[rows - 1] > view->table->params.run_discard ? view->table->params.run_discard : 0;
     while (first < rows && drive[first] < from - 1e-9)
-        first++;
+        ++first;
     size_t last = first;
     while (last < rows) {
-        if (!isnan(options->to)
-                ? drive[last] > options->to + 1e-9
-                : drive[last] - drive[first] > periods || fabs(alpha[last] - alpha[first]) > 2.0 * PI * turns)
+        if (!isnan(options->to) ? drive[last] > options->to + 1e-9
+                                : drive[last] - drive[first] > periods ||
+                                      fabs(alpha[last] - alpha[first]) > 2.0 * FST_PI * turns)
             break;
-        last++;
+        ++last;
     }
     if (last - first < 2)
         return fst_fail(
-            error, FST_BAD_INPUT, "figure",
+            error, FST_BAD_INPUT, "fst_figure_options.from",
             "fewer than two samples from drive period %g on: the trajectory has %zu samples and ends at "
             "period %g",
             from, rows, rows > 0 ? drive[rows - 1] : 0.0);
@@ -113,7 +114,7 @@ static void make_title(fst_view *view, const char *title)
         return;
     }
     (void)snprintf(view->title, sizeof view->title, "ω = %.4g (%.4g Hz), dynamics %s", view->omega,
-                   view->omega * view->gamma / (2.0 * PI), view->dynamics);
+                   view->omega * view->gamma / (2.0 * FST_PI), view->dynamics);
 }
 
 fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options, double turns,
@@ -122,7 +123,7 @@ fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_
     *view = (fst_view){.table = table,
                        .gamma = table->params.friction_gamma,
                        .millimetres = 1e3 * table->params.magnet_half_length,
-                       .dynamics = table->params.model_dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020"};
+                       .dynamics = fst_dynamics_name((fst_dynamics)table->params.model_dynamics)};
     fst_status status = choose_rows(view, options, turns, periods, error);
     const double *omega;
     if (status == FST_OK)

@@ -414,8 +414,8 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     close |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
     if (observed) {
         REAL u0, w0, u, w;
-        FN(small_phi_point)(y, &u0, &w0);
-        FN(small_phi_point)(end, &u, &w);
+        FN(moment_angle_point)(y, &u0, &w0);
+        FN(moment_angle_point)(end, &u, &w);
         close |= wind(&b->turns[1], u0, w0, u, w) & observed;
         b->turns[1] = fst_wide_select(fst_wide_mask_of(observed), b->turns[1], b->turns_before[1]);
     }

@@ -1,7 +1,9 @@
-/* material.c - whether a bead of these parameters can be made of anything. */
-#include <festoon/festoon.h>
-
+/* material.c - whether a bead of these parameters can be made of anything, and which strengths it uses. */
 #include <stdio.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "model/params.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -46,4 +48,31 @@ int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size
             "model.kappa (or bead.moment and magnet.b0) as well",
             params->bead_radius, usual.bead_radius, density, density_of(&usual));
     return 0;
+}
+
+/* ------------------------------------------------------------------ strengths without effect */
+
+const char *fst_param_missing_choice(const fst_params *params, const char *key)
+{
+    if (strcmp(key, "bead.a") == 0 && params->bead_material == FST_MATERIAL_HARD)
+        return "paramagnetic or mixed";
+    if (strcmp(key, "bead.b") == 0 && params->bead_material != FST_MATERIAL_MIXED)
+        return "mixed";
+    return NULL;
+}
+
+fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
+{
+    if (params->bead_a != 0.0 && fst_param_missing_choice(params, "bead.a"))
+        return fst_fail(error, FST_BAD_INPUT, "bead.a",
+                        "bead.a = %g has no effect on a bead of bead.material hard: choose paramagnetic or "
+                        "mixed, or leave bead.a out",
+                        params->bead_a);
+    if (params->bead_b != 0.0 && fst_param_missing_choice(params, "bead.b"))
+        return fst_fail(
+            error, FST_BAD_INPUT, "bead.b",
+            "bead.b = %g has an effect on a bead of bead.material mixed only: choose that, or leave "
+            "bead.b out",
+            params->bead_b);
+    return FST_OK;
 }

@@ -202,9 +202,10 @@ static fst_status set_number(fst_params *params, const fst_param_info *row, cons
 {
     double value;
     fst_error why = {FST_OK, "", ""};
-    if (fst_parse_value(text, row->unit, &value, &why) != FST_OK) {
+    const fst_value_fault fault = fst_value_read(text, row->unit, &value, &why);
+    if (fault != FST_VALUE_READ) {
         const char *accepted = fst_unit_accepted(row->unit);
-        if (accepted[0] && !strstr(why.sentence, "units here"))
+        if (accepted[0] && fault != FST_VALUE_WRONG_UNIT)
             return fst_fail(error, FST_BAD_INPUT, row->key, "%s: %s (units here: %s)", row->key, why.sentence,
                             accepted);
         return fst_fail(error, FST_BAD_INPUT, row->key, "%s: %s", row->key, why.sentence);
@@ -333,4 +334,11 @@ fst_status fst_params_validate(const fst_params *params, fst_error *error)
                         "run.discard smaller",
                         params->run_discard, params->run_periods);
     return FST_OK;
+}
+
+const char *fst_dynamics_name(fst_dynamics dynamics)
+{
+    static const char *const names[] = {
+        [FST_DYNAMICS_RIGID] = "rigid", [FST_DYNAMICS_FARAGO2020] = "farago2020"};
+    return (unsigned)dynamics < sizeof names / sizeof *names ? names[dynamics] : "unknown";
 }

@@ -20,9 +20,8 @@
 
 #include <math.h>
 
+#include "base/constants.h"
 #include "observe/peaks.inl"
-
-#define DEGREES 57.29577951308232087680
 
 void fst_extremes_begin(fst_extreme extremes[FST_TRACK_COUNT])
 {
@@ -144,7 +143,7 @@ void fst_extremes_fill(const fst_extreme extremes[FST_TRACK_COUNT], double gravi
     result->max_r = e[FST_TRACK_R].greatest;
     result->min_b = e[FST_TRACK_B].least;
     result->max_b = e[FST_TRACK_B].greatest;
-    result->max_angle_deg = DEGREES * fst_angle_of_gap(e[FST_TRACK_GAP].greatest);
+    result->max_angle_deg = FST_DEGREES * fst_angle_of_gap(e[FST_TRACK_GAP].greatest);
     result->max_slip = sqrt(e[FST_TRACK_SLIP].greatest);
     if (gravity > 0) {
         result->min_load_weights = e[FST_TRACK_LOAD].least / gravity;

@@ -70,7 +70,7 @@ static inline void FN(integrate_step)(FN(integrals) * q, const FN(bead_step) * s
 
 /* The plane in which phi = atan2(n_alpha, -n_z) turns: both times r, so that no direction is needed on the
  * axis. */
-static inline void FN(small_phi_point)(const REAL *y, REAL *u, REAL *w)
+static inline void FN(moment_angle_point)(const REAL *y, REAL *u, REAL *w)
 {
     *u = -y[FST_NZ] * REAL_SQRT(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y]);
     *w = y[FST_X] * y[FST_NY] - y[FST_Y] * y[FST_NX];

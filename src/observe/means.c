@@ -18,8 +18,7 @@
 
 #include <math.h>
 
-#define TWO_PI 6.283185307179586476925287
-#define DEGREES 57.29577951308232087680
+#include "base/constants.h"
 
 /* Mean of one integrand between two marks. */
 static double mean(const fst_mark *first, const fst_mark *last, int which)
@@ -38,12 +37,12 @@ void fst_means_between(const fst_window *w, const fst_mark *first, const fst_mar
 {
     const double time = fst_twofold_difference(last->t, first->t);
     means->omega = 0.5 * (first->omega + last->omega); /* on a ramp the mean drive is the one in the middle */
-    means->frequency_hz = means->omega / (TWO_PI * w->groups.time_unit);
+    means->frequency_hz = means->omega / (FST_TWO_PI * w->groups.time_unit);
     means->mean_r = mean(first, last, FST_Q_R);
     means->std_r = deviation(mean(first, last, FST_Q_R2), means->mean_r - w->quadrature.sums.r_reference);
     means->mean_alpha_dot =
-        means->omega + (last->big_phi - first->big_phi) / time; /* alpha = Phi + drive phase */
-    means->mean_phi_dot = (last->small_phi - first->small_phi) / time;
+        means->omega + (last->bead_angle - first->bead_angle) / time; /* alpha = Phi + drive phase */
+    means->mean_phi_dot = (last->moment_angle - first->moment_angle) / time;
     means->mean_nz = mean(first, last, FST_Q_N_Z);
 }
 
@@ -162,7 +161,7 @@ static double tilt(const fst_mark *first, const fst_mark *last)
         return NAN; /* n stands still: no plane */
     least_eigenvector(covariance, normal);
     const double sine = fabs(normal[2]);
-    return DEGREES * asin(sine < 1 ? sine : 1.0);
+    return FST_DEGREES * asin(sine < 1 ? sine : 1.0);
 }
 
 void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fst_params *params,

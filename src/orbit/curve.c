@@ -1,7 +1,24 @@
-/* curve.c - pseudo-arclength continuation. */
+/* curve.c - following a curve of equilibria or orbits over a parameter ("pseudo-arclength continuation").
+ *
+ * The solutions over a parameter p form curves.  Stepping in p would fail at a fold, where the curve turns
+ * back.  So a step goes a length h along the curve's tangent, in the space of states, period and p together,
+ * and Newton's method brings the guess back to the curve across that direction:
+ *
+ *       state |        guess
+ *             |  here *--h--->.               a fold is passed      .--*--.
+ *             |     .'        | Newton        like any other place:        \
+ *             |   .'          * next                                        * p falls again
+ *             | .'            |                                            /
+ *             +------------------- p                                  *---'
+ *
+ * The guess is bent by as much as the tangent turned in the step before.  Families may lie close together, and
+ * a step must not jump from one to another: it is taken only if Newton's method ended near the guess and the
+ * tangent turned by little; otherwise h is halved.  Easy steps make h grow, hard ones make it shrink.  A step
+ * that leaves the range of p is cut where it crosses the border, and the last point lies on the border exactly.
+ * After each step special.c looks at what happened on the way.
+ */
 #include "orbit/curve.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
@@ -11,64 +28,6 @@
 #define LARGEST_SPIN 60.0
 #define LARGEST_RADIUS 8.0 /* the field is a ten-thousandth of that under the bead there */
 enum { MOST_NODES = 4000 };
-
-/* ------------------------------------------------------------------ what a solution looks like */
-
-static void see_equilibrium(const fst_setup *setup, const fst_solution *s, fst_branch_point *p)
-{
-    const fst_observation o = fst_observe(&setup->model, s->y[0]);
-    p->mean_r = p->min_r = o.r;
-    p->mean_alpha_dot = p->omega;
-    p->mean_nz = s->y[0][FST_NZ];
-    p->slip = o.slip_norm;
-    p->phi_deg = o.r > 1e-9 ? atan2(o.sin_phi, o.cos_phi) * 57.29577951308232087680 : NAN;
-}
-
-fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_node *node, fst_error *error)
-{
-    fst_setup setup;
-    memset(node, 0, sizeof *node);
-    node->s = *s;
-    node->closest = NAN;
-    fst_status status = fst_solution_spectrum(family, &node->s, error);
-    if (status == FST_OK)
-        status = fst_family_setup(family, s->value, &setup, error);
-    if (status != FST_OK)
-        return status;
-    fst_branch_point *p = &node->seen;
-    p->value = s->value;
-    p->omega = setup.model.groups.omega;
-    p->mean_r = p->mean_alpha_dot = p->mean_nz = p->festoons = p->period = p->min_r = p->phi_deg = p->slip =
-        p->second = NAN;
-    p->swing_ratio = NAN;
-    p->relaxation_time = fst_solution_relaxation(&node->s);
-    p->stable = fst_solution_is_stable(&node->s);
-    p->multipliers = node->s.multipliers;
-    memcpy(p->multiplier_re, node->s.re, (size_t)p->multipliers * sizeof *p->multiplier_re);
-    memcpy(p->multiplier_im, node->s.im, (size_t)p->multipliers * sizeof *p->multiplier_im);
-    memcpy(p->state, s->y[0], sizeof p->state);
-    if (s->segments == 0) {
-        see_equilibrium(&setup, s, p);
-        return FST_OK;
-    }
-    fst_description d;
-    status = fst_describe_orbit(family, s, 0, &d, error);
-    if (status != FST_OK)
-        return status;
-    node->closest = d.closest;
-    p->mean_r = d.means.mean_r;
-    p->min_r = fabs(d.closest);
-    p->mean_alpha_dot = d.means.mean_alpha_dot;
-    p->mean_nz = d.means.mean_nz;
-    p->festoons = d.means.festoons;
-    p->period = d.means.period;
-    p->swing_ratio = d.swing_ratio;
-    p->symmetry = d.means.symmetry;
-    p->turns = d.turns;
-    if (d.has_section)
-        memcpy(p->state, d.section, sizeof p->state);
-    return FST_OK;
-}
 
 /* ------------------------------------------------------------------ steps along the curve */
 
@@ -139,11 +98,16 @@ static fst_status land_on(const fst_curve *curve, const fst_node *here, double b
             inside = x;
     }
     s.value = border;
+    const fst_solution guess = s;
     memset(&keep, 0, sizeof keep);
     keep.value = curve->family->scale;
     fst_status status = fst_solution_correct(curve->family, &s, &keep, error);
     if (status != FST_OK)
         return status;
+    fst_direction_between(&guess, &s, &way);
+    if (length_of(curve->family, &s, &way) > 0.25 * past.length)
+        return fst_fail(error, FST_NO_CONVERGENCE, "continuation", "a step to the border was too long at %.10g",
+                        here->s.value);
     fst_direction_between(&here->s, &s, &way);
     if (fst_direction_product(curve->family, &s, &s.tangent, &way) < 0.0)
         combine(&s.tangent, -1.0, &s.tangent, 0.0, &way);
@@ -161,42 +125,48 @@ static int is_closed(const fst_curve *curve, const fst_node *start, const fst_no
            fabs(fst_direction_product(curve->family, &here->s, &here->s.tangent, &start->s.tangent)) > 0.9;
 }
 
-/* Whether the curve is at its end; the reason then says why. */
+/* Whether the curve is at its end; curve->end then says why. */
 static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *here, int nodes, double h)
 {
     if (here->s.segments > 0 && here->s.period > LONGEST_PERIOD)
-        (void)snprintf(curve->reason, sizeof curve->reason,
-                       "the period grows without bound (%.4g): the orbit runs into an equilibrium",
-                       here->s.period);
+        fst_curve_end_set(&curve->end, FST_END_PERIOD,
+                          "the period grows without bound (%.4g): the orbit runs into an equilibrium",
+                          here->s.period);
     else if (here->seen.mean_r > LARGEST_RADIUS)
-        (void)snprintf(curve->reason, sizeof curve->reason, "it has left the magnet's field: <r> = %.4g",
-                       here->seen.mean_r);
+        fst_curve_end_set(&curve->end, FST_END_RADIUS, "it has left the magnet's field: <r> = %.4g",
+                          here->seen.mean_r);
     else if (here->s.segments == 0 && fabs(here->s.y[0][FST_WZ] - here->seen.omega) > LARGEST_SPIN)
-        (void)snprintf(curve->reason, sizeof curve->reason,
-                       "its spin grows without bound (W_z = %.4g) while n turns upright", here->s.y[0][FST_WZ]);
+        fst_curve_end_set(&curve->end, FST_END_SPIN,
+                          "its spin grows without bound (W_z = %.4g) while n turns upright",
+                          here->s.y[0][FST_WZ]);
     else if (nodes >= MOST_NODES)
-        (void)snprintf(curve->reason, sizeof curve->reason, "%d points were followed", nodes);
+        fst_curve_end_set(&curve->end, FST_END_COUNT_LIMIT, "%d points were followed", nodes);
     else if (nodes > 8 && is_closed(curve, start, here, h))
-        (void)snprintf(curve->reason, sizeof curve->reason, "the branch closes on itself");
+        fst_curve_end_set(&curve->end, FST_END_CLOSED, "the branch closes on itself");
     else
         return 0;
     return 1;
 }
 
-/* The next node, the step halved until it is found; 0 where none is. */
-static int next_node(fst_curve *curve, const fst_node *last, const fst_node *here, double *h, fst_node *next)
+/* The next node, on the border if the step left the range (*left); the step is halved until it is found.  0
+ * where none is. */
+static int next_node(fst_curve *curve, const fst_node *last, const fst_node *here, double *h, fst_node *next,
+                     int *left)
 {
     fst_error why;
     for (;;) {
-        const fst_status status = try_step(curve, last, here, *h, next, &why);
+        fst_status status = try_step(curve, last, here, *h, next, &why);
+        *left = status == FST_OK && (next->s.value > curve->to || next->s.value < curve->from);
+        if (*left)
+            status = land_on(curve, here, next->s.value > curve->to ? curve->to : curve->from, next, &why);
         if (status == FST_OK)
             return 1;
         *h *= 0.5;
         if (*h < SHORTEST_STEP)
             break;
     }
-    (void)snprintf(curve->reason, sizeof curve->reason, "it could not be followed beyond %.10g: %.110s",
-                   here->s.value, why.sentence);
+    fst_curve_end_set(&curve->end, FST_END_LOST, "it could not be followed beyond %.10g: %.110s", here->s.value,
+                      why.sentence);
     return 0;
 }
 
@@ -206,24 +176,22 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
     /* Points of equilibria cost next to nothing, and their pairs cross the axis one soon after another. */
     const double density = start->s.segments > 0 ? 1.0 : 0.04;
     double longest = density * curve->longest_step, h = 0.1 * longest;
-    int nodes = 0, ends = 0;
+    int nodes = 0;
     combine(&here.s.tangent, sign, &start->s.tangent, 0.0, &start->s.tangent);
     here.length = 0.0;
-    while (!ends) {
-        if (!next_node(curve, nodes > 0 ? &last : NULL, &here, &h, &next))
-            return nodes > 0 && here.s.segments > 0 ? fst_look_for_hopf_end(curve, &last, &here, error)
-                                                    : FST_OK;
-        const double border = next.s.value > curve->to ? curve->to : curve->from;
-        const int left = next.s.value > curve->to || next.s.value < curve->from;
-        fst_status status = left ? land_on(curve, &here, border, &next, error) : FST_OK;
-        if (status == FST_OK)
-            status = fst_specials_between(curve, &here, &next, &ends, error);
-        if (status == FST_OK && !ends)
+    for (;;) {
+        int left;
+        if (!next_node(curve, nodes > 0 ? &last : NULL, &here, &h, &next, &left))
+            return nodes > 0 && here.s.segments > 0
+                       ? fst_look_for_hopf_end(curve->family, &curve->sink, &last, &here, &curve->end, error)
+                       : FST_OK;
+        fst_status status = fst_specials_between(curve->family, &curve->sink, &here, &next, &curve->end, error);
+        if (status == FST_OK && curve->end.type == FST_END_NONE)
             status = curve->sink.node(curve->sink.user, &next, error);
-        if (status != FST_OK)
+        if (status != FST_OK || curve->end.type != FST_END_NONE)
             return status;
         if (left) {
-            (void)snprintf(curve->reason, sizeof curve->reason, "the end of the range");
+            fst_curve_end_set(&curve->end, FST_END_RANGE, "the end of the range");
             return FST_OK;
         }
         const int iterations = next.s.iterations;
@@ -237,12 +205,12 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
         h *= iterations <= 3 ? 1.6 : iterations > 5 ? 0.6 : 1.0;
         h = h > longest ? longest : h;
     }
-    return FST_OK;
 }
 
-/* A curve that the caller stopped looks as if it could not be followed: its reason is none. */
+/* A curve that the caller stopped looks as if it could not be followed: its end is none. */
 fst_status fst_curve_follow(fst_curve *curve, const fst_node *start, int sign, fst_error *error)
 {
+    curve->end = (fst_curve_end){.type = FST_END_NONE};
     const fst_status status = follow(curve, start, sign, error);
     return status == FST_OK ? fst_watch_ask(curve->family->watch, error) : status;
 }

@@ -5,11 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "observe/means.h"
 #include "study/conclude.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 double fst_radial_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
@@ -105,7 +104,7 @@ static fst_status go_round(round_trip *trip, const fst_family *family, double pe
     const fst_twofold end = {period, 0.0};
     const fst_span span = {.from = 0.0, .until = period};
     fst_status status = FST_OK;
-    fst_window_begin(window, &span, TWO_PI / trip->model->groups.omega, trip->flow);
+    fst_window_begin(window, &span, FST_TWO_PI / trip->model->groups.omega, trip->flow);
     fst_marks_begin(&trip->ends);
     mark_end(trip);
     while (status == FST_OK && fst_twofold_difference(end, trip->flow->t) > 0) {
@@ -127,14 +126,14 @@ static void conclude(const round_trip *trip, const fst_solution *s, fst_descript
 {
     const fst_mark *first = &trip->ends.kept[0], *last = &trip->ends.latest;
     const fst_groups *groups = &trip->model->groups;
-    const double turned = (last->big_phi - first->big_phi) / TWO_PI, omega = groups->omega;
+    const double turned = (last->bead_angle - first->bead_angle) / FST_TWO_PI, omega = groups->omega;
     out->turns = (int)floor(turned + 0.5);
     fst_run_result *means = &out->means;
     fst_means_fill(&trip->window, &trip->ends, &trip->params, means);
     means->omega = omega;
-    means->frequency_hz = omega / (TWO_PI * groups->time_unit);
+    means->frequency_hz = omega / (FST_TWO_PI * groups->time_unit);
     means->period = fst_whole_period(s);
-    means->mean_alpha_dot = omega + TWO_PI * out->turns / means->period;
+    means->mean_alpha_dot = omega + FST_TWO_PI * out->turns / means->period;
     if (s->symmetric)
         means->mean_nz = 0.0; /* exactly: the two halves cancel */
     means->symmetry = s->symmetric ? FST_SYMMETRY_S2 : out->turns ? FST_SYMMETRY_S1 : FST_SYMMETRY_NONE;

@@ -1,4 +1,23 @@
-/* family.c - setups along one parameter, and tangent vectors carried by the flow. */
+/* family.c - setups that differ in one parameter, and tangent vectors carried along by the flow.
+ *
+ * Whatever is followed over a parameter p is a family: the same scene, with another value in one field.  A
+ * setup is one member: a model, and, unless p is the drive's omega, whose derivative is known exactly, the
+ * coefficients of two neighbours, from which the derivative of the equations by p is taken as a difference.
+ *
+ * Newton's method and multipliers need to know how the end y(T) of a motion changes with its start and with p.
+ * A bundle carries that along with the state: ten tangent vectors ("columns") that obey the equations
+ * linearised about the moving state,
+ *
+ *       y' = f(y, p)                        start                          end
+ *       t' = J(y) t            t            y  *------------------------->* y(T)
+ *       s' = J(y) s + f_p      s           t_i | |                          \ \  t_i: how the end moves when
+ *                                                                                the start moves along t_i
+ *
+ * Nine columns t begin as a basis of the directions in which a state can move (|n| = 1 leaves nine of ten); the
+ * tenth, s, begins as zero and gathers what a change of p does on the way.  State and columns are one system of
+ * 110 numbers, stepped by the same method as a run, with step sizes that keep the state exact first and the
+ * columns less.
+ */
 #include "orbit/family.h"
 
 #include <stdio.h>
@@ -10,8 +29,8 @@
 
 /* ------------------------------------------------------------------ the state with its tangents */
 
-/* What a try of a step costs, in evaluations of the equations alone: twelve stages, each with the changes of all
- * columns. */
+/* What a try of a step costs, in evaluations of the equations alone: twelve stages, each with the changes of
+ * all columns. */
 enum { TRY_WORK = 50 };
 static const double FIRST_SIZE = 0.1; /* of a step; the controller mends it within a few */
 
@@ -186,6 +205,12 @@ void fst_family_tighten(fst_family *family, double tolerance)
     family->tolerance = tolerance;
     family->residual = fmin(1e-12, fmax(10.0 * tolerance, 1e-13));
     family->location = fmin(1e-13, 0.1 * tolerance);
+}
+
+double fst_family_scale(const char *key, double from, double to)
+{
+    /* the states themselves vary by several times omega */
+    return strcmp(key, "drive.omega") == 0 ? 1.0 : fmax(fabs(from), fabs(to));
 }
 
 fst_params fst_family_params(const fst_family *family, double value)

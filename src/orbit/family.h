@@ -45,6 +45,9 @@ fst_status fst_family_begin(fst_family *family, const fst_params *params, const 
  * leaves.) */
 void fst_family_tighten(fst_family *family, double tolerance);
 
+/* The scale of a parameter for the length of arcs, on a range of it. */
+double fst_family_scale(const char *key, double from, double to);
+
 /* The parameters and the setup at a value of the free parameter. */
 fst_params fst_family_params(const fst_family *family, double value);
 fst_status fst_family_setup(const fst_family *family, double value, fst_setup *setup, fst_error *error);

@@ -1,10 +1,11 @@
 /* locked.c - every equilibrium: the bead goes round with the magnet. */
-#include "orbit/branch.h"
+#include "orbit/locked.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/error.h"
+#include "orbit/branch_list.h"
 
 enum { STARTS = 3000, MOST = 256, LARGEST_RADIUS = 8 };
 
@@ -225,7 +226,8 @@ fst_status fst_follow_locked(fst_tracer *t, fst_error *error)
             fst_solution s = f.found[i].s;
             fst_error ignored;
             if (fst_solution_correct(&t->family, &s, NULL, &ignored) != FST_OK ||
-                fst_node_make(&t->family, &s, &node, &ignored) != FST_OK || fst_tracer_knows(t, &node.seen)) {
+                fst_node_make(&t->family, &s, &node, &ignored) != FST_OK ||
+                fst_branch_of_state(t->out, node.seen.value, node.seen.state) >= 0) {
                 status = fst_watch_ask(&t->watch, error);
                 continue;
             }

@@ -1,4 +1,36 @@
-/* newton.c - Newton's method for equilibria and for periodic orbits by multiple shooting. */
+/* newton.c - Newton's method for equilibria, and for periodic orbits by multiple shooting.
+ *
+ * An equilibrium is a state y at which the equations of motion y' = f(y, p) stand still: f(y, p) = 0, p being
+ * the free parameter.  A periodic orbit is a state that the flow brings back to itself after a time T, which is
+ * as unknown as the state.  Over a whole turn the flow may stretch a small difference ten thousandfold, and
+ * Newton's method would have to guess the start to as many digits.  So the orbit is cut into segments that take
+ * equal times, and the state at the beginning of each is an unknown of its own ("multiple shooting").  With two
+ * segments:
+ *
+ *        y0 *-----> gap 1          integrate from y0 for T/2, and from y1 for T/2;
+ *           ^       |              the ends miss y1 and y0 by gaps;
+ *         gap 0 <---* y1           Newton's method closes all gaps at once.
+ *
+ * An orbit with the symmetry S2 needs half of that: the image under S2 of where half a turn ends is the start,
+ * and T is the time of half a turn.
+ *
+ * Each iteration integrates every segment together with tangent vectors (family.c), which tell how its end
+ * moves when its start or p does.  Its linear system for the corrections dy0, dy1, dT, dp:
+ *
+ *       | D0      -1      f/2   d0  |  dy0       gap 1      D: derivative of a segment's end by its start
+ *       | -1      D1      f/2   d1  |  dy1  =  - gap 0      f: the equations at the end: what more time changes
+ *       | phase    0       0    0   |  dT          0        d: derivative of the end by p
+ *       |  <------ across ------->  |  dp          0
+ *
+ * The row `phase` is needed because a state may slide along its own orbit: the first one may only move across
+ * the flow, or stays on the section X = 0.  The last row keeps p as it is, or, when a curve of orbits is
+ * followed (curve.c), keeps the correction perpendicular to the direction `across`.
+ *
+ * The bead's moment n has length 1, so a state has ten numbers but only nine directions.  Corrections are
+ * written in a basis of these nine at each state (fst_tangent_basis), and n is put back onto the sphere after
+ * each step: |n| = 1 needs no equation and leaves no multiplier.  The product of the D is the derivative of the
+ * whole return, whose eigenvalues are the multipliers (spectrum.c).
+ */
 #include "orbit/newton.h"
 
 #include <stdio.h>

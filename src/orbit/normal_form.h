@@ -2,7 +2,7 @@
 #ifndef FST_ORBIT_NORMAL_FORM_H
 #define FST_ORBIT_NORMAL_FORM_H
 
-#include "orbit/curve.h"
+#include "orbit/solution.h"
 
 enum { FST_NORMAL_FORM_MOST = FST_TANGENT_SIZE };
 

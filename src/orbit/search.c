@@ -42,6 +42,7 @@ typedef struct search {
     int leaves;  /* ... at one that does not: the bead is leaving it, or will */
     int tried_departure;
     double rest[FST_STATE_SIZE]; /* that equilibrium */
+    fst_orbit_outcome outcome;
 } search;
 
 static double distance(const double *a, const double *b)
@@ -259,21 +260,32 @@ static int is_locked(const search *s)
     return speed_of(s) < REST && attracts(s, s->flow->step.end, &rest);
 }
 
-static fst_status went_elsewhere(const search *s, const char *how, fst_error *error)
+/* What to try where there is no orbit to be found. */
+static const char *advice(fst_orbit_outcome outcome)
 {
-    const double *y = s->flow->step.end;
-    return fst_fail(
-        error, FST_NO_CONVERGENCE, "orbit",
-        "from this start the bead %s at omega = %.10g (after %.4g drive periods, at r = %.6g, "
-        "Phi = %.6g degrees): there is no orbit to polish. Try another start.r, start.phi or omega; "
-        "festoon locked lists the states in which the bead follows the magnet",
-        how, s->model->groups.omega, s->flow->t.high / s->drive_period, hypot(y[FST_X], y[FST_Y]),
-        atan2(y[FST_Y], y[FST_X]) * 360.0 / TWO_PI);
+    return outcome == FST_ORBIT_UNSETTLED
+               ? "Try a longer run.periods or another start; festoon lyapunov tells whether the motion is "
+                 "chaotic"
+               : "Try another start.r, start.phi or omega; festoon locked lists the states in which the bead "
+                 "follows the magnet";
 }
 
-static fst_status never_settled(const search *s, double t_end, fst_error *error)
+static fst_status went_elsewhere(search *s, fst_orbit_outcome outcome, fst_error *error)
+{
+    const double *y = s->flow->step.end;
+    s->outcome = outcome;
+    return fst_fail(error, FST_NO_CONVERGENCE, "orbit",
+                    "from this start the bead %s at omega = %.10g (after %.4g drive periods, at r = %.6g, "
+                    "Phi = %.6g degrees): there is no orbit to polish",
+                    outcome == FST_ORBIT_EJECTED ? "flies away" : "locks to the magnet", s->model->groups.omega,
+                    s->flow->t.high / s->drive_period, hypot(y[FST_X], y[FST_Y]),
+                    atan2(y[FST_Y], y[FST_X]) * 360.0 / TWO_PI);
+}
+
+static fst_status never_settled(search *s, double t_end, fst_error *error)
 {
     char motion[120];
+    s->outcome = FST_ORBIT_UNSETTLED;
     if (isfinite(s->full_distance))
         (void)snprintf(motion, sizeof motion, "its last returns differ by %.3g (half turns: %.3g)",
                        s->full_distance, s->half_distance);
@@ -283,8 +295,7 @@ static fst_status never_settled(const search *s, double t_end, fst_error *error)
     return fst_fail(
         error, FST_NO_CONVERGENCE, "orbit",
         "the bead settled on no stable orbit within %.6g drive periods at omega = %.10g: %s, and Newton's "
-        "method was tried %d times. Try a longer run.periods or another start; festoon lyapunov tells whether "
-        "the motion is chaotic",
+        "method was tried %d times",
         t_end / s->drive_period, s->model->groups.omega, motion, s->attempts);
 }
 
@@ -300,7 +311,7 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
             return status;
         const double r = hypot(s->flow->step.end[FST_X], s->flow->step.end[FST_Y]);
         if (r > 50.0)
-            return went_elsewhere(s, "flies away", error);
+            return went_elsewhere(s, FST_ORBIT_EJECTED, error);
         fst_error ignored;
         if (note_passage(s)) {
             turns += 1;
@@ -316,22 +327,24 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
             if (peaks >= next_peak) {
                 next_peak = peaks + (peaks < 64 ? 16 : peaks / 4);
                 if (is_locked(s))
-                    return went_elsewhere(s, "locks to the magnet", error);
+                    return went_elsewhere(s, FST_ORBIT_LOCKED, error);
                 if (try_librating(s, out, &ignored) || try_departure(s, out, &ignored))
                     return FST_OK;
                 if (s->at_rest)
-                    return went_elsewhere(s, "locks to the magnet", error);
+                    return went_elsewhere(s, FST_ORBIT_LOCKED, error);
             }
         }
         if (s->flow->accepted % 64 == 0 && is_locked(s))
-            return went_elsewhere(s, "locks to the magnet", error);
+            return went_elsewhere(s, FST_ORBIT_LOCKED, error);
     }
     const fst_status status = fst_watch_ask(s->family->watch, error);
     return status == FST_OK ? never_settled(s, t_end, error) : status;
 }
 
-fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_error *error)
+fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_orbit_outcome *outcome,
+                            fst_error *error)
 {
+    *outcome = FST_ORBIT_FOUND;
     search *s = calloc(1, sizeof *s);
     if (!s)
         return fst_fail(error, FST_NO_MEMORY, "orbit", "out of memory");
@@ -348,6 +361,7 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_err
         s->drive_period = TWO_PI / model->groups.omega;
         status = follow(s, family->params.run_periods * s->drive_period, out, error);
     }
+    *outcome = s->outcome;
     fst_flow_free(s->flow);
     fst_model_free(s->model);
     fst_model_free(model);
@@ -361,14 +375,18 @@ fst_status fst_orbit_find(const fst_params *params, const fst_progress *progress
     fst_family family;
     fst_solution solution;
     fst_watch watch;
+    fst_orbit_outcome outcome = FST_ORBIT_FOUND;
     memset(orbit, 0, sizeof *orbit);
     fst_result_clear(&orbit->means);
     fst_watch_begin(&watch, progress);
     fst_status status = fst_family_begin(&family, params, NULL, error);
     family.watch = &watch;
     if (status == FST_OK)
-        status = fst_search_orbit(&family, &solution, error);
+        status = fst_search_orbit(&family, &solution, &outcome, error);
+    if (status == FST_NO_CONVERGENCE && outcome != FST_ORBIT_FOUND && error)
+        (void)fst_fail(error, status, error->where, "%s. %s", error->sentence, advice(outcome));
     if (status == FST_OK)
         status = fst_orbit_from_solution(&family, &solution, orbit, error);
+    orbit->outcome = status == FST_NO_CONVERGENCE && outcome == FST_ORBIT_FOUND ? FST_ORBIT_UNSETTLED : outcome;
     return status;
 }

@@ -1,235 +1,52 @@
-/* special.c - finding what happens between two nodes of a curve. */
-#include "orbit/curve.h"
+/* special.c - what happens between two neighbouring points of a curve.
+ *
+ * At a special point the number of unstable directions changes, or the curve turns, or another one leaves it:
+ *
+ *        fold            pitchfork         transcritical       Hopf
+ *                             ___
+ *          .---            .-'               \    .-            an equilibrium loses its stability, and
+ *         (           -----+ - - -            \ .'              small orbits about it are born, of the
+ *          '- - -          '-___               X                frequency of the pair of eigenvalues
+ *                                           .-' \               that crosses the imaginary axis
+ *                                         .'     \
+ *
+ * (full lines attract, broken ones do not).  Orbits have the same with multipliers instead of eigenvalues: +1
+ * is a fold, -1 a pitchfork of a symmetric orbit (its half map) or a period doubling of another, a pair on the
+ * unit circle a Neimark-Sacker point.  Where an orbit passes through the axis r = 0 nothing happens to it but
+ * that it ceases to turn round the axis; that is told too (origin-crossing).
+ *
+ * Each of these is the zero of one test (special_test.c): where a test has different signs at the two points,
+ * the zero between is located, named, and the first point of the branch that is born there is sought
+ * (switching.c).  Two zeros of one test in one step would go unseen, so the step is halved where more
+ * directions became unstable than the tests account for.
+ *
+ * Some curves end.  Orbits without the symmetry meet the branch of symmetric ones, orbits shrink to an
+ * equilibrium at its Hopf point, equilibria meet a branch of higher symmetry: beyond, the curve would only come
+ * back as its own mirror image, so each turn of the parameter is looked at for that before it is called a fold.
+ */
+#include "orbit/special.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/bracket.h"
 #include "base/error.h"
 #include "orbit/normal_form.h"
+#include "orbit/special_test.h"
+#include "orbit/switching.h"
 
-/* ------------------------------------------------------------------ between two nodes */
+/* Between which two nodes one looks, and who is told. */
+typedef struct interval {
+    const fst_family *family;
+    const fst_curve_sink *sink;
+    const fst_node *a, *b;
+    fst_curve_end *end;
+} interval;
 
-static double hermite(double a, double ta, double b, double tb, double h, double x)
+static fst_status tell(const interval *i, fst_special_type type, const fst_node *at, int criticality,
+                       const fst_node *born, fst_error *error)
 {
-    const double d = b - a, rest = 1.0 - x;
-    return a + x * d + x * rest * (rest * (h * ta - d) - x * (h * tb - d));
-}
-
-void fst_solution_between(const fst_node *a, const fst_node *b, double x, fst_solution *s)
-{
-    const fst_direction *ta = &a->s.tangent, *tb = &b->s.tangent;
-    const double h = b->length;
-    fst_direction step;
-    memset(&step, 0, sizeof step);
-    *s = a->s;
-    for (int i = 0; i < fst_states_of(s); ++i)
-        for (int k = 0; k < FST_STATE_SIZE; ++k)
-            step.y[i][k] = hermite(a->s.y[i][k], ta->y[i][k], b->s.y[i][k], tb->y[i][k], h, x) - a->s.y[i][k];
-    step.period = hermite(a->s.period, ta->period, b->s.period, tb->period, h, x) - a->s.period;
-    step.value = hermite(a->s.value, ta->value, b->s.value, tb->value, h, x) - a->s.value;
-    s->on_section = 0;
-    fst_solution_move(s, &step, 1.0);
-}
-
-fst_status fst_node_between(const fst_family *family, const fst_node *a, const fst_node *b, double x,
-                            fst_node *out, fst_error *error)
-{
-    fst_solution s;
-    fst_direction way;
-    fst_direction_between(&a->s, &b->s, &way);
-    fst_solution_between(a, b, x, &s);
-    const fst_status status = fst_solution_correct(family, &s, &way, error);
-    return status == FST_OK ? fst_node_make(family, &s, out, error) : status;
-}
-
-/* ------------------------------------------------------------------ tests */
-
-/* A complex pair that may cross.  The equilibria on the axis have one that never does: friction does not brake
- * the swinging of n about the vertical there, and the real part is zero at every omega. */
-static int is_pair(const fst_solution *s, int i)
-{
-    return fabs(s->im[i]) > 1e-9 * (1.0 + fabs(s->re[i])) && (s->segments > 0 || fabs(s->re[i]) > 1e-13);
-}
-
-/* How far the critical complex pair is from the border of stability; NAN without a pair. */
-static double pair_value(const fst_solution *s)
-{
-    double nearest = NAN;
-    for (int i = 0; i < s->multipliers; ++i) {
-        if (!is_pair(s, i))
-            continue;
-        const double value = s->segments > 0 ? s->re[i] * s->re[i] + s->im[i] * s->im[i] - 1.0 : s->re[i];
-        if (!(fabs(value) >= fabs(nearest)))
-            nearest = value;
-    }
-    return nearest;
-}
-
-/* The frequency of the critical pair of an equilibrium. */
-static double pair_frequency(const fst_solution *s)
-{
-    int best = -1;
-    for (int i = 0; i < s->multipliers; ++i)
-        if (is_pair(s, i) && s->im[i] > 0 && (best < 0 || fabs(s->re[i]) < fabs(s->re[best])))
-            best = i;
-    return best < 0 ? NAN : s->im[best];
-}
-
-/* The angle of the pair of multipliers nearest to the unit circle. */
-static double pair_angle(const fst_solution *s)
-{
-    double angle = NAN, least = INFINITY;
-    for (int i = 0; i < s->multipliers; ++i) {
-        const double off = fabs(hypot(s->re[i], s->im[i]) - 1.0);
-        if (s->im[i] > 0 && is_pair(s, i) && off < least) {
-            least = off;
-            angle = atan2(s->im[i], s->re[i]);
-        }
-    }
-    return angle;
-}
-
-/* The product of (sign + multiplier), or of the eigenvalues: it changes sign with a real one only. */
-static double product(const fst_solution *s, double shift)
-{
-    double re = 1.0, im = 0.0;
-    for (int i = 0; i < s->multipliers; ++i) {
-        const double a = shift + s->re[i], b = s->im[i], t = re * a - im * b;
-        im = re * b + im * a;
-        re = t;
-    }
-    return re;
-}
-
-double fst_test_value(const fst_node *node, int test)
-{
-    const fst_solution *s = &node->s;
-    switch (test) {
-    case FST_TEST_FOLD:
-        return s->tangent.value;
-    case FST_TEST_MINUS:
-        return s->segments > 0 ? product(s, 1.0) : NAN;
-    case FST_TEST_PLUS:
-        return product(s, s->segments > 0 ? -1.0 : 0.0);
-    case FST_TEST_PAIR:
-        return pair_value(s);
-    default:
-        return node->closest;
-    }
-}
-
-/* How many multipliers lie outside, pairs alone. */
-static int unstable_pairs(const fst_solution *s)
-{
-    int count = 0;
-    for (int i = 0; i < s->multipliers; ++i)
-        if (is_pair(s, i) && (s->segments > 0 ? hypot(s->re[i], s->im[i]) > 1.0 : s->re[i] > 0.0))
-            count += 1;
-    return count / 2;
-}
-
-static int unstable(const fst_solution *s)
-{
-    int count = 0;
-    for (int i = 0; i < s->multipliers; ++i)
-        count += s->segments > 0 ? hypot(s->re[i], s->im[i]) > 1.0 : s->re[i] > 1e-13;
-    return count;
-}
-
-static int changes_sign(const fst_node *a, const fst_node *b, int test)
-{
-    const double fa = fst_test_value(a, test), fb = fst_test_value(b, test);
-    if (!isfinite(fa) || !isfinite(fb))
-        return 0;
-    if (test == FST_TEST_PAIR)
-        return unstable_pairs(&a->s) != unstable_pairs(&b->s) && unstable(&a->s) != unstable(&b->s);
-    if (test == FST_TEST_ORIGIN && a->seen.turns == b->seen.turns)
-        return 0;
-    return (fa < 0) != (fb < 0);
-}
-
-/* Halve the way until the same pair, the one nearest to the border at both ends, changes sides. */
-static int narrow_to_one_pair(const fst_family *family, const fst_node *a, const fst_node *b, double *lo,
-                              double *hi, double *f_lo, double *f_hi)
-{
-    const int count_lo = unstable_pairs(&a->s), before = unstable(&a->s);
-    fst_error ignored;
-    for (int i = 0; i < 5; ++i) {
-        fst_node node;
-        const double x = 0.5 * (*lo + *hi);
-        if (fst_node_between(family, a, b, x, &node, &ignored) != FST_OK)
-            return 0;
-        if (unstable_pairs(&node.s) != count_lo && unstable(&node.s) != before)
-            *hi = x, *f_hi = pair_value(&node.s);
-        else
-            *lo = x, *f_lo = pair_value(&node.s);
-    }
-    return (*f_lo < 0) != (*f_hi < 0);
-}
-
-fst_status fst_locate_special(const fst_family *family, const fst_node *a, const fst_node *b, int test,
-                              fst_node *out, fst_error *error)
-{
-    fst_bracket z = {0.0, 1.0, fst_test_value(a, test), fst_test_value(b, test), 0};
-    const double least =
-        family->location * (test == FST_TEST_PAIR ? 10.0 : fmin(1.0, fmax(fabs(z.f_lo), fabs(z.f_hi))));
-    *out = fabs(z.f_lo) < fabs(z.f_hi) ? *a : *b;
-    if (test == FST_TEST_PAIR && !narrow_to_one_pair(family, a, b, &z.lo, &z.hi, &z.f_lo, &z.f_hi))
-        return fst_fail(error, FST_NO_CONVERGENCE, "special point", "no single pair crosses at %.10g",
-                        a->s.value);
-    for (int i = 0; i < 60 && (z.hi - z.lo) * b->length > 1e-13; ++i) {
-        const double x = i % 6 == 5 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z);
-        fst_node node;
-        const fst_status status = fst_node_between(family, a, b, x, &node, error);
-        if (status != FST_OK)
-            return status;
-        const double f = fst_test_value(&node, test);
-        const double moved = fabs(node.s.value - out->s.value);
-        *out = node;
-        if (!isfinite(f))
-            return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test is undefined at %.10g",
-                            node.s.value);
-        if (fabs(f) <= least || (i > 1 && fabs(f) < 100.0 * least && moved < family->location * family->scale))
-            break;
-        fst_bracket_take(&z, x, f);
-    }
-    if (!(fabs(fst_test_value(out, test)) < 1e-8))
-        return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test jumps at %.10g", out->s.value);
-    return FST_OK;
-}
-
-/* At a pitchfork of equilibria Newton's matrix is singular, and solutions near it are known poorly.  A little
- * away they are not: the parameter as a function of the test, by Lagrange's formula through six points around
- * the first estimate `at`, and its value at zero. */
-static double interpolate_pitchfork(const fst_family *family, const fst_node *a, const fst_node *b,
-                                    const fst_node *at)
-{
-    enum { POINTS = 6 };
-    double value[POINTS], f[POINTS], sum = 0.0;
-    fst_error ignored;
-    fst_direction way, part;
-    fst_direction_between(&a->s, &b->s, &way);
-    fst_direction_between(&a->s, &at->s, &part);
-    const double middle =
-        fst_direction_product(family, &a->s, &way, &part) / fst_direction_product(family, &a->s, &way, &way);
-    for (int i = 0; i < POINTS; ++i) {
-        fst_node node;
-        const double away = 0.05 * (i < POINTS / 2 ? i - POINTS / 2 : i - POINTS / 2 + 1);
-        if (fst_node_between(family, a, b, middle + away, &node, &ignored) != FST_OK)
-            return at->s.value;
-        value[i] = node.s.value;
-        f[i] = fst_test_value(&node, FST_TEST_PLUS);
-    }
-    for (int i = 0; i < POINTS; ++i) {
-        double term = value[i] - at->s.value;
-        for (int j = 0; j < POINTS; ++j)
-            if (j != i)
-                term *= f[j] / (f[j] - f[i]);
-        sum += term;
-    }
-    return fabs(sum) < 1e-5 * family->scale ? at->s.value + sum : at->s.value;
+    return i->sink->special(i->sink->user, type, at, criticality, born, error);
 }
 
 /* ------------------------------------------------------------------ naming and switching */
@@ -251,7 +68,7 @@ static double greatest_difference(const double *a, const double *b)
     return greatest;
 }
 
-/* How an orbit differs from its image under S2. */
+/* How a solution differs from its image under S2. */
 static void asymmetry(const fst_solution *s, double difference[FST_STATE_SIZE])
 {
     double half[FST_STATE_SIZE];
@@ -261,13 +78,10 @@ static void asymmetry(const fst_solution *s, double difference[FST_STATE_SIZE])
         difference[k] -= s->y[0][k];
 }
 
-/* Whether a curve of orbits without the symmetry passes through one that has it: then it goes on as its own
- * image. */
-static int meets_symmetric(const fst_node *a, const fst_node *b)
+/* Whether a curve passes through a solution that is its own image: then it goes on as its own image. */
+static int becomes_its_image(const fst_node *a, const fst_node *b)
 {
     double at_a[FST_STATE_SIZE], at_b[FST_STATE_SIZE], product_ab = 0.0, size = 0.0;
-    if (a->s.segments < 2 || a->s.symmetric || a->seen.turns == 0)
-        return 0;
     asymmetry(&a->s, at_a);
     asymmetry(&b->s, at_b);
     for (int k = 0; k < FST_STATE_SIZE; ++k) {
@@ -275,6 +89,12 @@ static int meets_symmetric(const fst_node *a, const fst_node *b)
         size += at_a[k] * at_a[k] + at_b[k] * at_b[k];
     }
     return product_ab < -0.01 * size;
+}
+
+/* Whether a curve of orbits without the symmetry passes through one that has it. */
+static int meets_symmetric(const fst_node *a, const fst_node *b)
+{
+    return a->s.segments >= 2 && !a->s.symmetric && a->seen.turns != 0 && becomes_its_image(a, b);
 }
 
 /* Whether it is an equilibrium that S2 maps onto itself, on the axis: there the symmetry can break.  Elsewhere
@@ -299,7 +119,7 @@ static double extent(const fst_solution *s)
 static int criticality_of(const fst_node *a, const fst_node *b, const fst_node *at, const fst_node *born)
 {
     const double moved = born->s.value - at->s.value;
-    const int more = unstable(&b->s) - unstable(&a->s);
+    const int more = fst_count_unstable(&b->s) - fst_count_unstable(&a->s);
     if (fabs(moved) < 1e-11 * fabs(at->s.value) || more == 0)
         return 0;
     return (moved > 0) == ((b->s.value > a->s.value) == (more > 0)) ? 1 : -1;
@@ -362,31 +182,31 @@ static int find_hopf(const fst_family *family, const fst_node *a, const fst_node
 }
 
 /* A curve of orbits ends at the equilibrium `at`, having come from `a`. */
-static fst_status report_hopf_end(fst_curve *curve, const fst_node *a, const fst_node *at, double frequency,
-                                  fst_error *error)
+static fst_status report_hopf_end(const interval *i, const fst_node *at, double frequency, fst_error *error)
 {
+    const fst_family *family = i->family;
     fst_node beside;
     fst_error ignored;
     int criticality = 0;
-    (void)snprintf(curve->reason, sizeof curve->reason, "it shrinks to an equilibrium at %.12g", at->s.value);
+    fst_curve_end_set(i->end, FST_END_EQUILIBRIUM, "it shrinks to an equilibrium at %.12g", at->s.value);
     /* Unstable pairs of the equilibrium lie on one side; the orbits on that of a small one, or of the one seen
      * last. */
     fst_node small;
-    const int found = fst_switch_at_hopf(curve->family, at, frequency, &small, &ignored) == FST_OK;
-    const double step =
-        copysign(1e-4 * curve->family->scale, (found ? small.s.value : a->s.value) - at->s.value);
-    criticality = fst_pair_criticality(curve->family, &at->s, frequency);
-    if (!criticality && middle_of(curve->family, &at->s, at->s.value + step, &beside, &ignored) == FST_OK)
+    const int found = fst_switch_at_hopf(family, at, frequency, &small, &ignored) == FST_OK;
+    const double step = copysign(1e-4 * family->scale, (found ? small.s.value : i->a->s.value) - at->s.value);
+    criticality = fst_pair_criticality(family, &at->s, frequency);
+    if (!criticality && middle_of(family, &at->s, at->s.value + step, &beside, &ignored) == FST_OK)
         criticality = growth_at(&beside.s, frequency) > 0 ? 1 : -1;
-    return curve->sink.special(curve->sink.user, FST_SPECIAL_HOPF, at, criticality, NULL, error);
+    return tell(i, FST_SPECIAL_HOPF, at, criticality, NULL, error);
 }
 
-fst_status fst_look_for_hopf_end(fst_curve *curve, const fst_node *a, const fst_node *b, fst_error *error)
+fst_status fst_look_for_hopf_end(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
+                                 const fst_node *b, fst_curve_end *end, fst_error *error)
 {
     fst_node at;
+    const interval i = {family, sink, a, b, end};
     const double frequency = 6.283185307179586476925287 / fst_whole_period(&b->s);
-    return find_hopf(curve->family, a, b, frequency, &at) ? report_hopf_end(curve, a, &at, frequency, error)
-                                                          : FST_OK;
+    return find_hopf(family, a, b, frequency, &at) ? report_hopf_end(&i, &at, frequency, error) : FST_OK;
 }
 
 /* Whether a curve of equilibria that turns here does so because it meets another: at a fold the equations'
@@ -428,57 +248,52 @@ static int is_branch_point(const fst_family *family, const fst_solution *s)
 
 /* A curve of orbits went through the equilibrium on which they shrink, from a to b, and comes back on itself:
  * what happens on the way down belongs to it, up to an orbit a twentieth as large as that at a. */
-static fst_status look_before_hopf_end(fst_curve *curve, const fst_node *a, const fst_node *b, fst_error *error)
+static fst_status look_before_hopf_end(const interval *i, fst_error *error)
 {
+    const fst_node *a = i->a, *b = i->b;
     const double x = 0.95 * extent(&a->s) / (extent(&a->s) + extent(&b->s));
     fst_node last;
     fst_error ignored;
-    int ends = 0;
-    if (fst_node_between(curve->family, a, b, x, &last, &ignored) != FST_OK)
+    fst_curve_end before = {.type = FST_END_NONE};
+    if (fst_node_between(i->family, a, b, x, &last, &ignored) != FST_OK)
         return FST_OK;
     last.length = x * b->length;
-    const fst_status status = fst_specials_between(curve, a, &last, &ends, error);
-    return status == FST_OK && !ends ? curve->sink.node(curve->sink.user, &last, error) : status;
+    const fst_status status = fst_specials_between(i->family, i->sink, a, &last, &before, error);
+    return status == FST_OK && before.type == FST_END_NONE ? i->sink->node(i->sink->user, &last, error)
+                                                           : status;
 }
 
 /* A turn of the parameter between a and b.  The curve of S1 orbits also turns where it meets the symmetric one,
  * and that of librations where they shrink to nothing: there it would only come back on itself. */
-static fst_status report_turn(fst_curve *curve, const fst_node *a, const fst_node *b, int *ends,
-                              fst_error *error)
+static fst_status report_turn(const interval *i, fst_error *error)
 {
+    const fst_node *a = i->a, *b = i->b;
     fst_node at;
     fst_error why;
     const double frequency = 6.283185307179586476925287 / fst_whole_period(&b->s);
     if (meets_symmetric(a, b)) {
-        (void)snprintf(curve->reason, sizeof curve->reason, "it ends on the symmetric branch near %.6g",
-                       b->s.value);
-        *ends = 1;
+        fst_curve_end_set(i->end, FST_END_SYMMETRIC_ORBIT, "it ends on the symmetric branch near %.6g",
+                          b->s.value);
         return FST_OK;
     }
-    if (find_hopf(curve->family, a, b, frequency, &at)) {
-        const fst_status status = look_before_hopf_end(curve, a, b, error);
-        *ends = 1;
-        return status == FST_OK ? report_hopf_end(curve, a, &at, frequency, error) : status;
+    if (find_hopf(i->family, a, b, frequency, &at)) {
+        const fst_status status = look_before_hopf_end(i, error);
+        return status == FST_OK ? report_hopf_end(i, &at, frequency, error) : status;
     }
-    if (fst_locate_special(curve->family, a, b, FST_TEST_FOLD, &at, &why) != FST_OK) {
-        if (a->s.segments == 0) { /* Newton's matrix is singular where two curves meet */
-            (void)snprintf(curve->reason, sizeof curve->reason, "it ends on another branch near %.6g",
-                           b->s.value);
-            *ends = 1;
-        }
+    if (fst_locate_special(i->family, a, b, FST_TEST_FOLD, &at, &why) != FST_OK) {
+        if (a->s.segments == 0) /* Newton's matrix is singular where two curves meet */
+            fst_curve_end_set(i->end, FST_END_OTHER_BRANCH, "it ends on another branch near %.6g", b->s.value);
         return FST_OK;
     }
-    if (at.s.segments == 0 && is_branch_point(curve->family, &at.s)) {
-        (void)snprintf(curve->reason, sizeof curve->reason, "it ends on a branch of higher symmetry at %.12g",
-                       at.s.value);
-        *ends = 1;
+    if (at.s.segments == 0 && (becomes_its_image(a, b) || is_branch_point(i->family, &at.s))) {
+        fst_curve_end_set(i->end, FST_END_HIGHER_SYMMETRY, "it ends on a branch of higher symmetry at %.12g",
+                          at.s.value);
         return FST_OK;
     }
-    return curve->sink.special(curve->sink.user, FST_SPECIAL_FOLD, &at, 0, NULL, error);
+    return tell(i, FST_SPECIAL_FOLD, &at, 0, NULL, error);
 }
 
-static fst_status report_other(fst_curve *curve, const fst_node *a, const fst_node *b, int test,
-                               const fst_node *at, fst_error *error)
+static fst_status report_other(const interval *i, int test, const fst_node *at, fst_error *error)
 {
     fst_node born;
     fst_error ignored;
@@ -488,63 +303,67 @@ static fst_status report_other(fst_curve *curve, const fst_node *a, const fst_no
     int criticality = 0;
     if (test == FST_TEST_MINUS) {
         type = at->s.symmetric ? FST_SPECIAL_PITCHFORK : FST_SPECIAL_PERIOD_DOUBLING;
-        switched = fst_switch_at_minus_one(curve->family, at, &born, &ignored);
+        switched = fst_switch_at_minus_one(i->family, at, &born, &ignored);
     } else if (test == FST_TEST_PAIR) {
-        const double frequency = orbit ? pair_angle(&at->s) : pair_frequency(&b->s);
+        const double frequency = orbit ? fst_pair_angle(&at->s) : fst_pair_frequency(&i->b->s);
         type = orbit ? FST_SPECIAL_NEIMARK_SACKER : FST_SPECIAL_HOPF;
-        criticality = fst_pair_criticality(curve->family, &at->s, frequency);
+        criticality = fst_pair_criticality(i->family, &at->s, frequency);
         if (!orbit)
-            switched = fst_switch_at_hopf(curve->family, at, frequency, &born, &ignored);
+            switched = fst_switch_at_hopf(i->family, at, frequency, &born, &ignored);
     } else if (test == FST_TEST_PLUS) {
-        type = is_own_image(&at->s) ? FST_SPECIAL_PITCHFORK : FST_SPECIAL_TRANSCRITICAL;
+        /* The place itself is known poorly across the curve, for Newton's matrix is singular there. */
+        type = is_own_image(&i->a->s) && is_own_image(&i->b->s) ? FST_SPECIAL_PITCHFORK
+                                                                : FST_SPECIAL_TRANSCRITICAL;
         if (!orbit)
-            switched = fst_switch_at_pitchfork(curve->family, at, &born, &ignored);
+            switched = fst_switch_at_pitchfork(i->family, at, &born, &ignored);
     }
     const int found = switched == FST_OK;
     if (found && !criticality && type != FST_SPECIAL_TRANSCRITICAL)
-        criticality = criticality_of(a, b, at, &born);
-    return curve->sink.special(curve->sink.user, type, at, criticality, found && curve->follow ? &born : NULL,
-                               error);
+        criticality = criticality_of(i->a, i->b, at, &born);
+    return tell(i, type, at, criticality, found && i->sink->follow ? &born : NULL, error);
 }
 
 /* Whether more became unstable, or stable, between two nodes than the tests that change sign account for: as
  * where a pair crosses the border and meets on the real axis right after. */
 static int hides_something(const fst_node *a, const fst_node *b)
 {
-    const int change = abs(unstable(&a->s) - unstable(&b->s));
-    const int pairs = abs(unstable_pairs(&a->s) - unstable_pairs(&b->s));
+    const int change = abs(fst_count_unstable(&a->s) - fst_count_unstable(&b->s));
+    const int pairs = abs(fst_count_unstable_pairs(&a->s) - fst_count_unstable_pairs(&b->s));
     return change > 2 ||
-           change > 2 * pairs + changes_sign(a, b, FST_TEST_MINUS) + changes_sign(a, b, FST_TEST_PLUS);
+           change > 2 * pairs + fst_test_changes(a, b, FST_TEST_MINUS) + fst_test_changes(a, b, FST_TEST_PLUS);
 }
 
-fst_status fst_specials_between(fst_curve *curve, const fst_node *a, const fst_node *b, int *ends,
-                                fst_error *error)
+fst_status fst_specials_between(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
+                                const fst_node *b, fst_curve_end *end, fst_error *error)
 {
+    const interval i = {family, sink, a, b, end};
     fst_node at;
     fst_error why;
     /* Several crossings in one step may hide each other: look at its halves. */
-    if (hides_something(a, b) && b->length > 1e-4 &&
-        fst_node_between(curve->family, a, b, 0.5, &at, &why) == FST_OK) {
+    if (hides_something(a, b) && b->length > 1e-4 && fst_node_between(family, a, b, 0.5, &at, &why) == FST_OK) {
         fst_node last = *b;
         at.length = last.length = 0.5 * b->length;
-        const fst_status first = fst_specials_between(curve, a, &at, ends, error);
-        return first != FST_OK || *ends ? first : fst_specials_between(curve, &at, &last, ends, error);
+        const fst_status first = fst_specials_between(family, sink, a, &at, end, error);
+        return first != FST_OK || end->type != FST_END_NONE
+                   ? first
+                   : fst_specials_between(family, sink, &at, &last, end, error);
     }
-    const int turn = changes_sign(a, b, FST_TEST_FOLD);
-    fst_status status = turn ? report_turn(curve, a, b, ends, error) : FST_OK;
-    for (int test = FST_TEST_FOLD + 1; test < FST_TEST_COUNT && !*ends && status == FST_OK; ++test) {
-        if (!changes_sign(a, b, test) || (test == FST_TEST_PLUS && turn))
+    const int turn = fst_test_changes(a, b, FST_TEST_FOLD);
+    fst_status status = turn ? report_turn(&i, error) : FST_OK;
+    for (int test = FST_TEST_FOLD + 1; test < FST_TEST_COUNT && end->type == FST_END_NONE && status == FST_OK;
+         ++test) {
+        if (!fst_test_changes(a, b, test) || (test == FST_TEST_PLUS && turn))
             continue;
-        if (fst_locate_special(curve->family, a, b, test, &at, &why) != FST_OK)
+        if (fst_locate_special(family, a, b, test, &at, &why) != FST_OK)
             continue;
         if (test == FST_TEST_PLUS && at.s.segments == 0) {
             fst_setup setup;
-            at.s.value = at.seen.value = interpolate_pitchfork(curve->family, a, b, &at);
-            if (fst_family_setup(curve->family, at.s.value, &setup, &why) == FST_OK)
+            at.s.value = at.seen.value = fst_pitchfork_value(family, a, b, &at);
+            if (fst_family_setup(family, at.s.value, &setup, &why) == FST_OK)
                 at.seen.omega = setup.model.groups.omega;
         }
         if (status == FST_OK)
-            status = report_other(curve, a, b, test, &at, error);
+            status = report_other(&i, test, &at, error);
     }
     return status;
 }

@@ -5,11 +5,12 @@
  * the zero by secants across the way there, Newton's method bringing every try back to the surface.  So the
  * curve is parametrised by its own length, and goes through its turns in either parameter, and round cusps.
  */
-#include <stdio.h>
 #include <string.h>
 
 #include "base/error.h"
-#include "orbit/branch.h"
+#include "orbit/branch_list.h"
+#include "orbit/special_curve.h"
+#include "orbit/special_test.h"
 #include "orbit/surface.h"
 
 #define LONGEST_PERIOD 400.0
@@ -29,7 +30,7 @@ typedef struct walk {
     int known;               /* of them */
     double slope;            /* of the test across the curve, at the latest place; 0: not known */
     fst_heading way;         /* along the curve at the first place */
-    char reason[192];
+    fst_curve_end end;
 } walk;
 
 /* ------------------------------------------------------------------ tests */
@@ -248,17 +249,17 @@ static double pair_gradient(walk *w, double gradient[2])
 }
 
 /* The place of a special point, and the way along its curve: across the gradient of the test. */
-static fst_status begin(walk *w, const fst_special_start *start, fst_error *error)
+static fst_status begin(walk *w, const fst_node *start, fst_error *error)
 {
     fst_place *first = &w->past[0];
     fst_heading across[2];
     double gradient[2];
     memset(across, 0, sizeof across);
     memset(first, 0, sizeof *first);
-    first->s = start->at.s;
+    first->s = start->s;
     first->s.on_section = 0;
     first->second = fst_family_value(&w->surface.second);
-    across[0].d = start->at.s.tangent;
+    across[0].d = start->s.tangent;
     across[1].second = w->surface.second.scale;
     const fst_status status = fst_place_correct(&w->surface, first, across, error);
     if (status != FST_OK)
@@ -329,7 +330,7 @@ static int land(walk *w, double h, fst_place *next)
     fst_error ignored;
     double length[2] = {0.0, h}, off[2] = {excess(w, &w->past[0], &key), excess(w, next, &key)};
     int tries;
-    (void)snprintf(w->reason, sizeof w->reason, "the end of the range of %s", key);
+    fst_curve_end_set(&w->end, FST_END_RANGE, "the end of the range of %s", key);
     for (int i = 0; i < 12 && fabs(off[1]) > 1e-10; ++i) {
         const double shorter = length[1] - off[1] * (length[1] - length[0]) / (off[1] - off[0]);
         length[0] = length[1];
@@ -349,16 +350,16 @@ static int has_ended(walk *w, const fst_place *start, int places, double h)
     fst_heading way;
     fst_heading_between(start, here, &way);
     if (here->s.segments > 0 && here->s.period > LONGEST_PERIOD)
-        (void)snprintf(w->reason, sizeof w->reason, "the period grows without bound (%.4g)", here->s.period);
+        fst_curve_end_set(&w->end, FST_END_PERIOD, "the period grows without bound (%.4g)", here->s.period);
     else if (hypot(here->s.y[0][FST_X], here->s.y[0][FST_Y]) > LARGEST_RADIUS)
-        (void)snprintf(w->reason, sizeof w->reason, "it has left the magnet's field");
+        fst_curve_end_set(&w->end, FST_END_RADIUS, "it has left the magnet's field");
     else if (pair &&
              (w->angle < LEAST_FREQUENCY || (here->s.segments > 0 && w->angle > 3.14159 - LEAST_FREQUENCY)))
-        (void)snprintf(w->reason, sizeof w->reason, "the critical pair meets on the real axis");
+        fst_curve_end_set(&w->end, FST_END_REAL_AXIS, "the critical pair meets on the real axis");
     else if (places >= MOST_PLACES)
-        (void)snprintf(w->reason, sizeof w->reason, "%d points were followed", places);
+        fst_curve_end_set(&w->end, FST_END_COUNT_LIMIT, "%d points were followed", places);
     else if (places > 8 && sqrt(fst_heading_product(&w->surface, &here->s, &way, &way)) < h)
-        (void)snprintf(w->reason, sizeof w->reason, "the curve closes on itself");
+        fst_curve_end_set(&w->end, FST_END_CLOSED, "the curve closes on itself");
     else
         return 0;
     return 1;
@@ -377,14 +378,19 @@ static fst_status walk_on(walk *w, int branch, fst_branch *out, fst_error *error
         int tries = 0;
         while (take_step(w, h, &next, &tries, &why) != FST_OK)
             if ((h *= 0.5) < SHORTEST_STEP) {
-                (void)snprintf(w->reason, sizeof w->reason,
-                               "it could not be followed beyond %.10g, %.10g: %.90s", w->past[0].s.value,
-                               w->past[0].second, why.sentence);
+                fst_curve_end_set(&w->end, FST_END_LOST, "it could not be followed beyond %.10g, %.10g: %.90s",
+                                  w->past[0].s.value, w->past[0].second, why.sentence);
                 return fst_watch_ask(w->watch, error);
             }
         const int left = excess(w, &next, &key) > 0;
-        if (left && !land(w, h, &next))
+        if (left && !land(w, h, &next)) { /* the border is nearer to a smaller step */
+            if ((h *= 0.5) >= SHORTEST_STEP)
+                continue;
+            fst_curve_end_set(&w->end, FST_END_LOST,
+                              "the border of the range could not be reached from %.10g, %.10g",
+                              w->past[0].s.value, w->past[0].second);
             return fst_watch_ask(w->watch, error);
+        }
         remember(w, &next);
         fst_status status = report(w, &next, branch, out, error);
         fst_watch_reach(w->watch, places / (places + 20.0));
@@ -409,8 +415,8 @@ static fst_status begin_surface(walk *w, const fst_params *params, fst_error *er
         return fst_fail(error, FST_BAD_INPUT, o->second_key, "%s has no value in this scene: give it one",
                         o->second_key);
     w->surface.first.params = w->surface.second.params; /* the other forms of both are cleared */
-    w->surface.first.scale = fst_branch_scale(o->key, o->from, o->to);
-    w->surface.second.scale = fst_branch_scale(o->second_key, o->second_from, o->second_to);
+    w->surface.first.scale = fst_family_scale(o->key, o->from, o->to);
+    w->surface.second.scale = fst_family_scale(o->second_key, o->second_from, o->second_to);
     w->surface.first.watch = w->surface.second.watch = w->watch;
     fst_family_tighten(&w->surface.first, o->tolerance);
     fst_family_tighten(&w->surface.second, o->tolerance);
@@ -418,14 +424,14 @@ static fst_status begin_surface(walk *w, const fst_params *params, fst_error *er
 }
 
 fst_status fst_special_curve_follow(const fst_branch_options *options, const fst_params *params,
-                                    const fst_special_start *start, int branch, fst_watch *watch,
-                                    fst_branch *out, fst_error *error)
+                                    const fst_node *start, int branch, fst_watch *watch, fst_branch *out,
+                                    fst_error *error)
 {
     walk w;
     memset(&w, 0, sizeof w);
     w.watch = watch;
     w.options = options;
-    w.type = start->type;
+    w.type = options->special;
     fst_status status = begin_surface(&w, params, error);
     if (status != FST_OK)
         return status;
@@ -433,9 +439,11 @@ fst_status fst_special_curve_follow(const fst_branch_options *options, const fst
     status = fst_watch_ask(watch, error);
     if (status != FST_OK)
         return status;
-    if (begun != FST_OK)
-        return fst_branch_add_end(out, branch, -1, start->at.s.value,
-                                  "its curve could not be begun: the test is not regular here", error);
+    if (begun != FST_OK) {
+        fst_curve_end_set(&w.end, FST_END_NOT_BEGUN,
+                          "its curve could not be begun: the test is not regular here");
+        return fst_branch_add_end(out, branch, -1, start->s.value, &w.end, error);
+    }
     const size_t first = out->point_count;
     walk back = w;
     back.known = w.known = 1;
@@ -444,11 +452,11 @@ fst_status fst_special_curve_follow(const fst_branch_options *options, const fst
     status = walk_on(&back, branch, out, error);
     fst_branch_reverse(out, first);
     if (status == FST_OK)
-        status = fst_branch_add_end(out, branch, -1, back.past[0].s.value, back.reason, error);
+        status = fst_branch_add_end(out, branch, -1, back.past[0].s.value, &back.end, error);
     if (status == FST_OK)
         status = report(&w, &w.past[0], branch, out, error);
-    if (status != FST_OK || strstr(back.reason, "closes on itself"))
+    if (status != FST_OK || back.end.type == FST_END_CLOSED)
         return status;
     status = walk_on(&w, branch, out, error);
-    return status == FST_OK ? fst_branch_add_end(out, branch, -1, w.past[0].s.value, w.reason, error) : status;
+    return status == FST_OK ? fst_branch_add_end(out, branch, -1, w.past[0].s.value, &w.end, error) : status;
 }

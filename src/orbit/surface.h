@@ -2,7 +2,7 @@
 #ifndef FST_ORBIT_SURFACE_H
 #define FST_ORBIT_SURFACE_H
 
-#include "orbit/curve.h"
+#include "orbit/solution.h"
 
 /* The same setups over the first parameter (with the second as it stands in first.params) and over the second.
  */
@@ -42,19 +42,5 @@ void fst_place_move(fst_place *place, const fst_heading *heading, double length)
 
 /* The setup's families with the second parameter at a place. */
 fst_family fst_surface_first(const fst_surface *surface, double second);
-
-/* ---- special_curve.c */
-
-/* A special point over one parameter, from which a curve over two is followed. */
-typedef struct fst_special_start {
-    fst_special_type type;
-    fst_node at;
-} fst_special_start;
-
-/* Follow it both ways through the ranges of the options; points go into `out` as branch number `branch`.  The
- * present part of the watch is this curve. */
-fst_status fst_special_curve_follow(const fst_branch_options *options, const fst_params *params,
-                                    const fst_special_start *start, int branch, fst_watch *watch,
-                                    fst_branch *out, fst_error *error);
 
 #endif

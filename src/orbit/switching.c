@@ -1,5 +1,5 @@
 /* switching.c - the first point of the branch that is born at a special point. */
-#include "orbit/curve.h"
+#include "orbit/switching.h"
 
 #include <string.h>
 

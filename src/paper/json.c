@@ -1,5 +1,8 @@
 /* json.c - paper.json: the comparison for programs. */
-#include "paper/paper.h"
+#include "paper/figures.h"
+#include "paper/report.h"
+#include "paper/runs.h"
+#include "paper/work.h"
 
 #include "base/error.h"
 #include "host/whole_file.h"
@@ -7,9 +10,6 @@
 
 #include <jansson.h>
 #include <stdlib.h>
-
-static const char *const dynamics_names[FST_PAPER_DYNAMICS] = {
-    [FST_DYNAMICS_RIGID] = "rigid", [FST_DYNAMICS_FARAGO2020] = "farago2020"};
 
 static json_t *symmetry(double a)
 {
@@ -22,17 +22,17 @@ static json_t *closed_symmetry(const fst_paper_pattern *pattern)
     return name ? json_string(name) : json_null();
 }
 
-/* What the branch of periodic orbits says, and where it is missing, why. */
+/* What the branch of periodic orbits tells or, where it is missing, why it is. */
 static json_t *orbits_object(const fst_paper_state *paper)
 {
     json_t *object = json_object();
-    for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; d--) {
+    for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; --d) {
         const fst_paper_exact *exact = &paper->exact[d];
         json_t *one = json_object();
         json_object_set_new(one, "period_halving", fst_json_number(exact->halving));
         json_object_set_new(one, "end_of_counter_rotation", fst_json_number(exact->fold));
         json_object_set_new(one, "missing", exact->missing[0] ? json_string(exact->missing) : json_null());
-        json_object_set_new(object, dynamics_names[d], one);
+        json_object_set_new(object, fst_dynamics_name((fst_dynamics)d), one);
     }
     return object;
 }
@@ -40,16 +40,17 @@ static json_t *orbits_object(const fst_paper_state *paper)
 static json_t *table1_array(const fst_paper_state *paper)
 {
     json_t *rows = json_array();
-    int known = fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE);
-    for (int row = 0; row < FST_TABLE1_ROWS && known; row++) {
+    int known = fst_paper_has(paper, FST_PAPER_STEP_RUNS, FST_SCAN_TABLE);
+    for (int row = 0; row < FST_TABLE1_ROWS && known; ++row) {
         json_t *object = json_object();
         json_object_set_new(object, "omega", json_real(fst_table1[row].omega));
         json_object_set_new(object, "published", json_real(fst_table1[row].published));
         json_object_set_new(object, "count", json_integer(fst_table1[row].count));
         json_object_set_new(object, "published_symmetry", symmetry(fst_table1[row].published_a));
-        for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; d--) {
+        for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; --d) {
             const fst_run_result *result = &paper->scans[FST_SCAN_TABLE][d][row].result;
-            const char *name = fst_symmetry_name(result->symmetry), *dynamics = dynamics_names[d];
+            const char *name = fst_symmetry_name(result->symmetry),
+                       *dynamics = fst_dynamics_name((fst_dynamics)d);
             char key[48], command[320];
             fst_paper_table1_command(paper, row, (fst_dynamics)d, command, sizeof command);
             (void)snprintf(key, sizeof key, "%s_command", dynamics);
@@ -84,7 +85,7 @@ static json_t *figure_verdict(const fst_paper_state *paper, const fst_paper_figu
 static json_t *figures_array(const fst_paper_state *paper)
 {
     json_t *array = json_array();
-    for (int i = 0; i < fst_paper_figure_count(); i++) {
+    for (int i = 0; i < fst_paper_figure_count(); ++i) {
         fst_paper_figure figure = fst_paper_figure_at(i);
         if (!paper->drawn[i])
             continue;
@@ -99,7 +100,7 @@ static json_t *figures_array(const fst_paper_state *paper)
         fst_paper_figure_command(paper, &figure, command, sizeof command);
         json_object_set_new(object, "command", json_string(command));
         json_object_set_new(object, "dynamics",
-                            figure.each ? json_string(dynamics_names[figure.dynamics]) : json_null());
+                            figure.each ? json_string(fst_dynamics_name(figure.dynamics)) : json_null());
         json_object_set_new(object, "verdict", figure_verdict(paper, &figure, figure.dynamics));
         if (!figure.each)
             json_object_set_new(object, "rigid_verdict", figure_verdict(paper, &figure, FST_DYNAMICS_RIGID));
@@ -113,11 +114,12 @@ static json_t *statement_value(const fst_statement *statement, double value)
     return statement->rule == FST_RULE_SYMMETRY ? symmetry(value) : fst_json_number(value);
 }
 
-/* What was published are the printed equations: their verdict, command and the rest have the bare names. */
+/* The printed equations are what was published.  So their verdict, command and so on have the plain names, and
+ * those of the exact equations begin with "rigid_". */
 static void add_dynamics(json_t *object, const fst_statement *statement, const fst_paper_state *paper,
                          const fst_finding *finding, fst_dynamics dynamics)
 {
-    const char *name = dynamics_names[dynamics], *prefix = dynamics == FST_DYNAMICS_RIGID ? "rigid_" : "";
+    const char *name = fst_dynamics_name(dynamics), *prefix = dynamics == FST_DYNAMICS_RIGID ? "rigid_" : "";
     char key[48], command[320];
     json_object_set_new(object, name, statement_value(statement, finding->value[dynamics]));
     (void)snprintf(key, sizeof key, "%s_verdict", name);
@@ -157,7 +159,7 @@ static json_t *statement_object(const fst_statement *statement, const fst_paper_
 static json_t *statements_array(const fst_paper_state *paper)
 {
     json_t *array = json_array();
-    for (int i = 0; i < fst_statement_count(); i++)
+    for (int i = 0; i < fst_statement_count(); ++i)
         if (fst_statement_known(fst_statement_at(i), paper))
             json_array_append_new(array, statement_object(fst_statement_at(i), paper));
     return array;
@@ -194,7 +196,7 @@ static json_t *provenance_object(const fst_paper_state *paper)
     json_object_set_new(object, "seconds", json_real(paper->seconds));
     json_object_set_new(object, "processor_seconds", json_real(paper->processor_seconds));
     json_t *parts = json_object();
-    for (int i = 0; i < paper->part_count; i++)
+    for (int i = 0; i < paper->part_count; ++i)
         json_object_set_new(parts, paper->parts[i].what, json_real(paper->parts[i].seconds));
     json_object_set_new(object, "parts", parts);
     char machine[512];
@@ -216,7 +218,7 @@ fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error)
     json_object_set_new(document, "statements", statements_array(paper));
     json_object_set_new(document, "figures", figures_array(paper));
     json_t *films = json_array();
-    for (int i = 0; i < paper->films; i++)
+    for (int i = 0; i < paper->films; ++i)
         json_array_append_new(films, json_sprintf("%s.mp4", fst_film_names[i]));
     json_object_set_new(document, "films", films);
     json_object_set_new(document, "provenance", provenance_object(paper));

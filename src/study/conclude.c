@@ -5,10 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "study/regime.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 static const fst_result_info RESULTS[] = {
 #define FST_RESULT(name, unit, doc) {#name, unit, doc, offsetof(fst_run_result, name)},
@@ -64,7 +63,7 @@ static void fill_end(const fst_watched_run *run, int steady, fst_run_result *res
     result->omega = fst_flow_omega(flow, t);
     const int as_given = steady && isnan(run->params->drive_omega);
     result->frequency_hz =
-        as_given ? run->params->drive_frequency : result->omega / (TWO_PI * run->model->groups.time_unit);
+        as_given ? run->params->drive_frequency : result->omega / (FST_TWO_PI * run->model->groups.time_unit);
     result->norm_drift = flow->norm_drift;
     result->accepted = flow->accepted;
     result->rejected = flow->rejected;
@@ -91,7 +90,7 @@ static void fill_turning(fst_run_result *result)
         return;
     const double a = result->symmetry == FST_SYMMETRY_S2 ? 2.0 : 1.0;
     result->festoons = a * (1.0 + result->omega / fabs(result->mean_alpha_dot));
-    result->period = TWO_PI / fabs(result->omega - result->mean_alpha_dot);
+    result->period = FST_TWO_PI / fabs(result->omega - result->mean_alpha_dot);
 }
 
 void fst_conclude_ramp(const fst_watched_run *run, const fst_ramp *ramp, fst_run_result *result)

@@ -18,16 +18,16 @@
  * line by up to 6 sqrt(2)/(pi k) standard deviations.  The changes of sign of what is left of the line count
  * the cycles.
  *
- * What is kept of a run is at most FST_MARKS blocks however long it is, so this costs nothing while it runs.
+ * At most FST_MARKS blocks are kept of a run, however long it is: nothing has to be done for this while it
+ * runs.
  */
 #include "study/drift.h"
 
 #include <math.h>
 #include <stddef.h>
 
+#include "base/constants.h"
 #include "observe/means.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 /* docs/regimes.md says why these, and how often they err. */
 static const double STANDS_OUT = 5.0; /* change over its standard error: below, the scatter explains it */
@@ -98,7 +98,7 @@ static line line_through(const double *values, int count)
     }
     found.change = slope * count;
     found.noise = count * sqrt(scatter / (count - 2) / spread);
-    found.hidden = 12.0 * sqrt(2.0) / (0.5 * TWO_PI) * sqrt(scatter / count) / (turns + 1);
+    found.hidden = 12.0 * sqrt(2.0) / FST_PI * sqrt(scatter / count) / (turns + 1);
     return found;
 }
 

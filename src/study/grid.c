@@ -12,6 +12,7 @@
 
 #include "base/error.h"
 #include "base/number.h"
+#include "model/params.h"
 
 typedef struct axis {
     const fst_param_info *info;
@@ -32,6 +33,9 @@ struct fst_grid {
     int64_t points;
 };
 
+/* Where errors say that the fault is. */
+#define AXES "fst_grid.axes"
+
 static const int64_t MOST_POINTS = 1000000000;
 
 /* ------------------------------------------------------------------ reading an axis */
@@ -41,7 +45,7 @@ enum { PART_SIZE = 64, MOST_PARTS = 4 };
 static fst_status wrong_form(const axis *a, fst_error *error)
 {
     return fst_fail(
-        error, FST_BAD_INPUT, "--over",
+        error, FST_BAD_INPUT, AXES,
         "\"%.100s\" must be KEY=LO:HI:COUNT, KEY=LO:HI:COUNT:log, KEY=A,B,C or KEY=LO:HI:random:COUNT",
         a->text);
 }
@@ -54,7 +58,7 @@ static fst_status read_value(const fst_params *base, const axis *a, const char *
     const fst_status status = fst_params_set(&trial, a->info->key, text, error);
     if (status != FST_OK) {
         if (error)
-            (void)snprintf(error->where, sizeof error->where, "--over");
+            (void)snprintf(error->where, sizeof error->where, AXES);
         return status;
     }
     if (a->info->kind == FST_KIND_REAL) {
@@ -72,7 +76,7 @@ static fst_status read_count(axis *a, const char *text, fst_error *error)
     char *end;
     const long long count = strtoll(text, &end, 10);
     if (end == text || *end || count < 1 || count > MOST_POINTS)
-        return fst_fail(error, FST_BAD_INPUT, "--over",
+        return fst_fail(error, FST_BAD_INPUT, AXES,
                         "the number of points \"%.40s\" in \"%.100s\" must be an "
                         "integer from 1 to %lld",
                         text, a->text, (long long)MOST_POINTS);
@@ -105,7 +109,7 @@ static fst_status read_list(const fst_params *base, axis *a, const char *text, f
         a->count += *c == ',';
     a->list = calloc((size_t)a->count, sizeof *a->list);
     if (!a->list)
-        return fst_fail(error, FST_NO_MEMORY, "--over", "out of memory");
+        return fst_fail(error, FST_NO_MEMORY, AXES, "out of memory");
     for (int64_t i = 0; i < a->count; ++i) {
         char part[PART_SIZE];
         const size_t length = strcspn(text, ",");
@@ -124,15 +128,15 @@ static fst_status read_list(const fst_params *base, axis *a, const char *text, f
 static fst_status check_range(const axis *a, fst_error *error)
 {
     if (a->info->kind == FST_KIND_CHOICE)
-        return fst_fail(error, FST_BAD_INPUT, "--over", "%s is a choice: list its values, as in %s=A,B",
+        return fst_fail(error, FST_BAD_INPUT, AXES, "%s is a choice: list its values, as in %s=A,B",
                         a->info->key, a->info->key);
     if (a->spaced == FST_SPACING_LOG && !(a->least > 0 && a->greatest > 0))
-        return fst_fail(error, FST_BAD_INPUT, "--over", "a logarithmic axis needs positive ends: \"%.100s\"",
+        return fst_fail(error, FST_BAD_INPUT, AXES, "a logarithmic axis needs positive ends: \"%.100s\"",
                         a->text);
     if (a->info->kind == FST_KIND_INT && a->count > 1) {
         const double step = (a->greatest - a->least) / (double)(a->count - 1);
         if (a->spaced != FST_SPACING_LINEAR || step != floor(step))
-            return fst_fail(error, FST_BAD_INPUT, "--over",
+            return fst_fail(error, FST_BAD_INPUT, AXES,
                             "%s is an integer, and \"%.100s\" has values between the integers: list the values",
                             a->info->key, a->text);
     }
@@ -155,7 +159,7 @@ static fst_status read_spaced(const fst_params *base, axis *a, const char *text,
     else if (strcmp(word, "random") == 0)
         a->spaced = FST_SPACING_RANDOM;
     else if (word[0] && strcmp(word, "linear") != 0)
-        return fst_fail(error, FST_BAD_INPUT, "--over",
+        return fst_fail(error, FST_BAD_INPUT, AXES,
                         "unknown spacing \"%.40s\" in \"%.100s\": linear, log or random", word, a->text);
     fst_status status = read_count(a, number, error);
     if (status == FST_OK)
@@ -170,7 +174,7 @@ static fst_status read_axis(fst_grid *grid, const char *text, fst_error *error)
     axis *a = &grid->axes[grid->axis_count++];
     a->text = strdup(text);
     if (!a->text)
-        return fst_fail(error, FST_NO_MEMORY, "--over", "out of memory");
+        return fst_fail(error, FST_NO_MEMORY, AXES, "out of memory");
     const size_t length = strcspn(text, "=");
     if (text[length] != '=')
         return wrong_form(a, error);
@@ -181,14 +185,14 @@ static fst_status read_axis(fst_grid *grid, const char *text, fst_error *error)
         fst_params trial = grid->base;
         (void)fst_params_set(&trial, key, "0", error); /* its sentence names the nearest key */
         if (error)
-            (void)snprintf(error->where, sizeof error->where, "--over");
+            (void)snprintf(error->where, sizeof error->where, AXES);
         return FST_BAD_INPUT;
     }
     a->info = fst_param_at(a->param);
     for (int i = 0; i + 1 < grid->axis_count; ++i) {
         const char *other = fst_param_other_form(grid->axes[i].info->key);
         if (grid->axes[i].param == a->param || (other && strcmp(other, key) == 0))
-            return fst_fail(error, FST_BAD_INPUT, "--over", "%s is varied twice%s", key,
+            return fst_fail(error, FST_BAD_INPUT, AXES, "%s is varied twice%s", key,
                             grid->axes[i].param == a->param ? "" : ", in both its forms");
     }
     const char *values = text + length + 1;
@@ -207,18 +211,15 @@ static const axis *axis_over(const fst_grid *grid, const char *key)
 /* Axes along which all rows would be alike are mistakes. */
 static fst_status check_effects(const fst_grid *grid, fst_error *error)
 {
-    const fst_material material = (fst_material)grid->base.bead_material;
-    const char *wanted = axis_over(grid, "bead.material")                              ? NULL
-                         : axis_over(grid, "bead.b") && material != FST_MATERIAL_MIXED ? "bead.b"
-                         : axis_over(grid, "bead.a") && material == FST_MATERIAL_HARD  ? "bead.a"
-                                                                                       : NULL;
     if (axis_over(grid, "run.samples"))
-        return fst_fail(error, FST_BAD_INPUT, "--over",
+        return fst_fail(error, FST_BAD_INPUT, AXES,
                         "run.samples concerns written trajectories only and changes nothing in a row");
-    if (wanted)
-        return fst_fail(error, FST_BAD_INPUT, "--over",
-                        "%s has no effect on a bead of this bead.material: choose %smixed", wanted,
-                        strcmp(wanted, "bead.a") == 0 ? "paramagnetic or " : "");
+    for (int i = 0; i < grid->axis_count && !axis_over(grid, "bead.material"); ++i) {
+        const char *key = grid->axes[i].info->key, *choice = fst_param_missing_choice(&grid->base, key);
+        if (choice)
+            return fst_fail(error, FST_BAD_INPUT, AXES,
+                            "%s has no effect on a bead of this bead.material: choose %s", key, choice);
+    }
     return FST_OK;
 }
 
@@ -234,7 +235,7 @@ static fst_status lay_out(fst_grid *grid, fst_error *error)
         if (a->spaced == FST_SPACING_RANDOM && drawn) {
             if (a->count != drawn->count)
                 return fst_fail(
-                    error, FST_BAD_INPUT, "--over",
+                    error, FST_BAD_INPUT, AXES,
                     "random axes are drawn together and need the same count: \"%.100s\" and \"%.100s\"",
                     a->text, drawn->text);
             a->stride = drawn->stride;
@@ -244,7 +245,7 @@ static fst_status lay_out(fst_grid *grid, fst_error *error)
             drawn = a;
         a->stride = grid->points;
         if (a->count > MOST_POINTS / grid->points)
-            return fst_fail(error, FST_BAD_INPUT, "--over", "the axes make more than %lld points",
+            return fst_fail(error, FST_BAD_INPUT, AXES, "the axes make more than %lld points",
                             (long long)MOST_POINTS);
         grid->points *= a->count;
     }
@@ -256,13 +257,13 @@ fst_status fst_grid_new(const fst_params *base, const char *const *axes, int cou
 {
     *grid = NULL;
     if (count < 1 || count > FST_AXIS_LIMIT)
-        return fst_fail(error, FST_BAD_INPUT, "--over",
+        return fst_fail(error, FST_BAD_INPUT, AXES,
                         "a sweep needs 1 to %d axes, as in "
-                        "--over drive.frequency=5Hz:20Hz:31; there are %d",
+                        "drive.frequency=5Hz:20Hz:31; there are %d",
                         FST_AXIS_LIMIT, count);
     fst_grid *made = calloc(1, sizeof *made);
     if (!made)
-        return fst_fail(error, FST_NO_MEMORY, "--over", "out of memory");
+        return fst_fail(error, FST_NO_MEMORY, AXES, "out of memory");
     made->base = *base;
     made->seed = seed;
     fst_status status = FST_OK;

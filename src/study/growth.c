@@ -1,9 +1,9 @@
-/* growth.c - weighted means of growth, and what their differences say of the error. */
+/* growth.c - weighted means of growth, and what the differences between them say about the error. */
 #include "study/growth.h"
 
 #include <math.h>
 
-#define TWO_PI 6.283185307179586476925287
+#include "base/constants.h"
 
 /* Windows of the time, in the order in which growth->rate has them: `count` windows of the length 1/parts, each
  * begun `hop` after the one before. */
@@ -21,7 +21,7 @@ static double weight_before(double s)
 {
     if (s <= 0.0)
         return 0.0;
-    return s >= 1.0 ? 1.0 : s - sin(TWO_PI * s) / TWO_PI;
+    return s >= 1.0 ? 1.0 : s - sin(FST_TWO_PI * s) / FST_TWO_PI;
 }
 
 void fst_growth_pass(fst_growth_clock *clock, double piece)
@@ -58,8 +58,8 @@ static double scatter(const fst_growth *growth, int group)
 }
 
 /* Half of what the halves differ by, which is the standard error of the whole from two values.  Where the
- * thirds drift one way and the halves differ by more than twice as much as chance makes them (two errors of the
- * whole, `chance`), the mean has not arrived: then all of it. */
+ * thirds drift one way, and the halves differ by more than twice as much as by chance (two errors of the whole,
+ * `chance`), the mean has not settled yet, and the whole difference is taken. */
 static double drift(const fst_growth *growth, double chance)
 {
     const double *halves = growth->rate + GROUPS[HALVES].first, *thirds = growth->rate + GROUPS[THIRDS].first;

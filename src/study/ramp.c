@@ -19,7 +19,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define TWO_PI 6.283185307179586476925287
+#include "base/constants.h"
 
 void fst_ramp_begin(fst_ramp *ramp, const fst_run_options *options, double discard, double periods,
                     fst_window *window)
@@ -31,7 +31,7 @@ void fst_ramp_begin(fst_ramp *ramp, const fst_run_options *options, double disca
         return;
     /* The discard runs at the first frequency; the rest of the periods are counted at the ramp's mean. */
     const double turns = periods - discard;
-    const double duration = turns * TWO_PI / (0.5 * (options->ramp_from + options->ramp_to));
+    const double duration = turns * FST_TWO_PI / (0.5 * (options->ramp_from + options->ramp_to));
     ramp->rate = (options->ramp_to - options->ramp_from) / duration;
     ramp->from = window->span.from;
     ramp->until = window->span.until = window->span.from + duration;

@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TWO_PI 6.283185307179586476925287
+#include "base/constants.h"
 
 static const double DIED_OUT = 1e-2; /* asymmetry over the disturbance: below, the orbit is symmetric */
 static const double GROWN = 1e2;     /* the same: above, the orbit is not, if it changes no more */
@@ -80,7 +80,7 @@ static fst_status wait_and_measure(fst_simulation *s, fst_ramp_point *point, fst
     fst_mark from, to;
     fst_flow *flow = s->run.flow;
     fst_ramp_wait *w = &s->ramp.wait;
-    const double period = TWO_PI / fst_flow_omega(flow, flow->t), begun = flow->t.high;
+    const double period = FST_TWO_PI / fst_flow_omega(flow, flow->t), begun = flow->t.high;
     const double longest = begun + s->options->ramp_wait * period;
     fst_window_mark(&s->run.window, flow, 1.0, &from);
     fst_flow_begin_ramp(flow, 0.0);

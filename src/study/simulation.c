@@ -4,7 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-#define TWO_PI 6.283185307179586476925287
+#include "base/constants.h"
+#include "base/watch.h"
 
 /* ------------------------------------------------------------------ samples */
 
@@ -22,8 +23,8 @@ static void fill_sample(fst_flow *flow, double x, fst_twofold t, fst_sample *sam
     sample->drive_turns = whole + rest;
     sample->omega = fst_flow_omega(flow, t);
     sample->phi = fst_winding_angle(&phi);
-    sample->alpha = sample->phi + TWO_PI * (whole + rest);
-    const double c = cos(TWO_PI * rest), s = sin(TWO_PI * rest), *y = sample->state;
+    sample->alpha = sample->phi + FST_TWO_PI * (whole + rest);
+    const double c = cos(FST_TWO_PI * rest), s = sin(FST_TWO_PI * rest), *y = sample->state;
     sample->x = c * y[FST_X] - s * y[FST_Y];
     sample->y = s * y[FST_X] + c * y[FST_Y];
     sample->v_lab[0] = c * y[FST_VX] - s * y[FST_VY];
@@ -75,13 +76,13 @@ fst_status fst_simulation_begin_samples(fst_simulation *s, fst_error *error)
 
 static fst_status report_progress(fst_simulation *s, fst_error *error)
 {
-    const fst_run_sink *sink = &s->options->sink;
+    const fst_progress *progress = s->options->progress;
     const fst_flow *flow = s->run.flow;
-    if (!sink->progress || flow->accepted % 64 != 0)
+    if (!progress || flow->accepted % 64 != 0)
         return FST_OK;
     const double done = s->ramp.waits ? fst_ramp_progress(&s->ramp) : flow->t.high / s->run.window.span.until;
     const double share = s->ramp.rate != 0.0 ? 1.0 : FST_RUN_SHARE; /* a ramp needs no exponent */
-    return sink->progress(sink->user, share * done, error);
+    return fst_tell(progress, share * done, NULL, error);
 }
 
 fst_status fst_simulation_step(fst_simulation *s, double t_limit, fst_error *error)

@@ -12,9 +12,8 @@
 
 #include <string.h>
 
+#include "base/constants.h"
 #include "model/params.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 fst_status fst_watched_run_begin(fst_watched_run *run, const fst_params *params, const double *start,
                                  fst_error *error)
@@ -38,7 +37,7 @@ fst_status fst_watched_run_begin(fst_watched_run *run, const fst_params *params,
     status = fst_flow_new(run->model, &o, state, &run->flow, error);
     if (status != FST_OK)
         return status;
-    const double period = TWO_PI / run->model->groups.omega;
+    const double period = FST_TWO_PI / run->model->groups.omega;
     const fst_span span = {.from = fst_run_discard(params) * period, .until = params->run_periods * period};
     fst_window_begin(&run->window, &span, period, run->flow);
     return FST_OK;

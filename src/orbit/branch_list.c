@@ -1,0 +1,151 @@
+/* branch_list.c - the growing lists of a branch, and which of its branches passes through a state. */
+#include "orbit/branch_list.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+
+/* ------------------------------------------------------------------ growing lists */
+
+static fst_status out_of_memory(fst_error *error)
+{
+    return fst_fail(error, FST_NO_MEMORY, "branch", "out of memory");
+}
+
+/* Room for one more element at the end of a list whose length is a power of two when full. */
+static int grow(void **list, size_t count, size_t size)
+{
+    if (count & (count - 1) || (count == 0 && *list))
+        return 1;
+    void *larger = realloc(*list, (count ? 2 * count : 1) * size);
+    if (!larger)
+        return 0;
+    *list = larger;
+    return 1;
+}
+
+fst_status fst_branch_add_point(fst_branch *out, const fst_branch_point *seen, int branch, fst_error *error)
+{
+    if (!grow((void **)&out->points, out->point_count, sizeof *out->points))
+        return out_of_memory(error);
+    out->points[out->point_count] = *seen;
+    out->points[out->point_count++].branch = branch;
+    return FST_OK;
+}
+
+fst_status fst_branch_add_special(fst_branch *out, const fst_special *special, fst_error *error)
+{
+    if (!grow((void **)&out->specials, out->special_count, sizeof *out->specials))
+        return out_of_memory(error);
+    out->specials[out->special_count++] = *special;
+    return FST_OK;
+}
+
+fst_status fst_branch_add_end(fst_branch *out, int branch, int family, double value, const fst_curve_end *why,
+                              fst_error *error)
+{
+    if (!grow((void **)&out->ends, out->end_count, sizeof *out->ends))
+        return out_of_memory(error);
+    fst_branch_end *end = &out->ends[out->end_count++];
+    memset(end, 0, sizeof *end);
+    end->branch = branch;
+    end->family = family;
+    end->value = value;
+    end->type = why->type;
+    (void)snprintf(end->reason, sizeof end->reason, "%s", why->reason);
+    return FST_OK;
+}
+
+void fst_branch_reverse(fst_branch *out, size_t first)
+{
+    fst_branch_point *points = out->points + first;
+    const size_t count = out->point_count - first;
+    for (size_t i = 0; i + 1 < count - i; ++i) {
+        const fst_branch_point kept = points[i];
+        points[i] = points[count - 1 - i];
+        points[count - 1 - i] = kept;
+    }
+}
+
+/* ------------------------------------------------------------------ looking things up */
+
+int fst_branch_has_special(const fst_branch *out, const fst_special *special, double scale)
+{
+    for (size_t i = 0; i < out->special_count; ++i)
+        if (out->specials[i].type == special->type &&
+            fabs(out->specials[i].value - special->value) < 1e-8 * scale &&
+            fabs(out->specials[i].at.mean_r - special->at.mean_r) < 1e-6)
+            return 1;
+    return 0;
+}
+
+/* Whether a quantity may have this value between two neighbours a and b, x of the way from a: within `least` of
+ * the straight line, and what a curve, steep as a square root beside a pitchfork, may differ from that. */
+static int lies_between(double a, double b, double x, double value, double least)
+{
+    return fabs(a + x * (b - a) - value) < least + 0.25 * fabs(b - a);
+}
+
+int fst_branch_of_orbit(const fst_branch *out, const fst_branch_point *seen)
+{
+    for (size_t i = 0; i + 1 < out->point_count; ++i) {
+        const fst_branch_point *a = &out->points[i], *b = a + 1;
+        if (a->branch != b->branch || a->multipliers != seen->multipliers || a->symmetry != seen->symmetry ||
+            (a->value > seen->value) == (b->value > seen->value))
+            continue;
+        const double x = (seen->value - a->value) / (b->value - a->value);
+        if (lies_between(a->mean_r, b->mean_r, x, seen->mean_r, 2e-3) &&
+            lies_between(a->min_r, b->min_r, x, seen->min_r, 2e-2) &&
+            lies_between(a->period, b->period, x, seen->period, 2e-3 * seen->period) &&
+            lies_between(fabs(a->mean_nz), fabs(b->mean_nz), x, fabs(seen->mean_nz), 5e-3))
+            return a->branch;
+    }
+    return -1;
+}
+
+int fst_branch_of_state(const fst_branch *out, double value, const double *state)
+{
+    int best = -1;
+    double least = 1.0;
+    for (size_t i = 0; i + 1 < out->point_count; ++i) {
+        const fst_branch_point *a = &out->points[i], *b = a + 1;
+        if (a->branch != b->branch || (a->value > value) == (b->value > value))
+            continue;
+        const double x = (value - a->value) / (b->value - a->value);
+        double greatest = 0.0;
+        for (int k = 0; k < FST_STATE_SIZE; ++k) {
+            const double there = a->state[k] + x * (b->state[k] - a->state[k]);
+            const double bent = 0.02 + 0.3 * fabs(b->state[k] - a->state[k]);
+            greatest = fmax(greatest, fabs(there - state[k]) / bent);
+        }
+        if (greatest < least) {
+            least = greatest;
+            best = a->branch;
+        }
+    }
+    return best;
+}
+
+/* Where the images of each branch are.  Of orbits without the symmetry only one of the two is followed. */
+void fst_branch_find_images(fst_branch *out)
+{
+    for (size_t e = 0; e < out->end_count; ++e) {
+        fst_branch_end *end = &out->ends[e];
+        size_t first = 0, count = 0;
+        for (size_t i = 0; i < out->point_count; ++i)
+            if (out->points[i].branch == end->branch && count++ == 0)
+                first = i;
+        const fst_branch_point *middle = &out->points[first + count / 2];
+        double image[FST_STATE_SIZE];
+        end->image = -1;
+        if (count == 0 || out->second_key[0])
+            continue;
+        fst_apply_s2(middle->state, image);
+        if (middle->symmetry == FST_SYMMETRY_S2)
+            end->image = end->branch;
+        else if (middle->multipliers == FST_EIGENVALUE_COUNT)
+            end->image = fst_branch_of_state(out, middle->value, image);
+    }
+}

@@ -1,0 +1,27 @@
+/* special.h - what happens between two neighbouring points of a curve. */
+#ifndef FST_ORBIT_SPECIAL_H
+#define FST_ORBIT_SPECIAL_H
+
+#include "orbit/curve_end.h"
+#include "orbit/node.h"
+
+/* Where a curve's points and special points go; `born`: a point of the branch that leaves there, or NULL. */
+typedef struct fst_curve_sink {
+    void *user;
+    int follow; /* tell a point of the branch that is born at each special point */
+    fst_status (*node)(void *user, const fst_node *node, fst_error *error);
+    fst_status (*special)(void *user, fst_special_type type, const fst_node *at, int criticality,
+                          const fst_node *born, fst_error *error);
+} fst_curve_sink;
+
+/* Report every special point between two successive nodes; *end is filled in where the curve runs into a state
+ * of higher symmetry (a symmetric orbit, an equilibrium) and would only come back on itself. */
+fst_status fst_specials_between(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
+                                const fst_node *b, fst_curve_end *end, fst_error *error);
+
+/* Where a curve of orbits could not be followed beyond b: report the Hopf point on which it shrinks, if that is
+ * why. */
+fst_status fst_look_for_hopf_end(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
+                                 const fst_node *b, fst_curve_end *end, fst_error *error);
+
+#endif

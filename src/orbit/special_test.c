@@ -1,0 +1,196 @@
+/* special_test.c - tests for special points, and where they vanish. */
+#include "orbit/special_test.h"
+
+#include "base/bracket.h"
+#include "base/error.h"
+
+/* A complex pair that may cross.  The equilibria on the axis have one that never does: friction does not brake
+ * the swinging of n about the vertical there, and the real part is zero at every omega. */
+static int is_pair(const fst_solution *s, int i)
+{
+    return fabs(s->im[i]) > 1e-9 * (1.0 + fabs(s->re[i])) && (s->segments > 0 || fabs(s->re[i]) > 1e-13);
+}
+
+/* How far the critical complex pair is from the border of stability; NAN without a pair. */
+static double pair_value(const fst_solution *s)
+{
+    double nearest = NAN;
+    for (int i = 0; i < s->multipliers; ++i) {
+        if (!is_pair(s, i))
+            continue;
+        const double value = s->segments > 0 ? s->re[i] * s->re[i] + s->im[i] * s->im[i] - 1.0 : s->re[i];
+        if (!(fabs(value) >= fabs(nearest)))
+            nearest = value;
+    }
+    return nearest;
+}
+
+/* The frequency of the critical pair of an equilibrium. */
+double fst_pair_frequency(const fst_solution *s)
+{
+    int best = -1;
+    for (int i = 0; i < s->multipliers; ++i)
+        if (is_pair(s, i) && s->im[i] > 0 && (best < 0 || fabs(s->re[i]) < fabs(s->re[best])))
+            best = i;
+    return best < 0 ? NAN : s->im[best];
+}
+
+/* The angle of the pair of multipliers nearest to the unit circle. */
+double fst_pair_angle(const fst_solution *s)
+{
+    double angle = NAN, least = INFINITY;
+    for (int i = 0; i < s->multipliers; ++i) {
+        const double off = fabs(hypot(s->re[i], s->im[i]) - 1.0);
+        if (s->im[i] > 0 && is_pair(s, i) && off < least) {
+            least = off;
+            angle = atan2(s->im[i], s->re[i]);
+        }
+    }
+    return angle;
+}
+
+/* The product of (sign + multiplier), or of the eigenvalues: it changes sign with a real one only. */
+static double product(const fst_solution *s, double shift)
+{
+    double re = 1.0, im = 0.0;
+    for (int i = 0; i < s->multipliers; ++i) {
+        const double a = shift + s->re[i], b = s->im[i], t = re * a - im * b;
+        im = re * b + im * a;
+        re = t;
+    }
+    return re;
+}
+
+double fst_test_value(const fst_node *node, int test)
+{
+    const fst_solution *s = &node->s;
+    switch (test) {
+    case FST_TEST_FOLD:
+        return s->tangent.value;
+    case FST_TEST_MINUS:
+        return s->segments > 0 ? product(s, 1.0) : NAN;
+    case FST_TEST_PLUS:
+        return product(s, s->segments > 0 ? -1.0 : 0.0);
+    case FST_TEST_PAIR:
+        return pair_value(s);
+    default:
+        return node->closest;
+    }
+}
+
+/* How many multipliers lie outside, pairs alone. */
+int fst_count_unstable_pairs(const fst_solution *s)
+{
+    int count = 0;
+    for (int i = 0; i < s->multipliers; ++i)
+        if (is_pair(s, i) && (s->segments > 0 ? hypot(s->re[i], s->im[i]) > 1.0 : s->re[i] > 0.0))
+            count += 1;
+    return count / 2;
+}
+
+int fst_count_unstable(const fst_solution *s)
+{
+    int count = 0;
+    for (int i = 0; i < s->multipliers; ++i)
+        count += s->segments > 0 ? hypot(s->re[i], s->im[i]) > 1.0 : s->re[i] > 1e-13;
+    return count;
+}
+
+int fst_test_changes(const fst_node *a, const fst_node *b, int test)
+{
+    const double fa = fst_test_value(a, test), fb = fst_test_value(b, test);
+    if (!isfinite(fa) || !isfinite(fb))
+        return 0;
+    if (test == FST_TEST_PAIR)
+        return fst_count_unstable_pairs(&a->s) != fst_count_unstable_pairs(&b->s) &&
+               fst_count_unstable(&a->s) != fst_count_unstable(&b->s);
+    if (test == FST_TEST_ORIGIN && a->seen.turns == b->seen.turns)
+        return 0;
+    return (fa < 0) != (fb < 0);
+}
+
+/* Halve the way until the same pair, the one nearest to the border at both ends, changes sides. */
+static int narrow_to_one_pair(const fst_family *family, const fst_node *a, const fst_node *b, double *lo,
+                              double *hi, double *f_lo, double *f_hi)
+{
+    const int count_lo = fst_count_unstable_pairs(&a->s), before = fst_count_unstable(&a->s);
+    fst_error ignored;
+    for (int i = 0; i < 5; ++i) {
+        fst_node node;
+        const double x = 0.5 * (*lo + *hi);
+        if (fst_node_between(family, a, b, x, &node, &ignored) != FST_OK)
+            return 0;
+        if (fst_count_unstable_pairs(&node.s) != count_lo && fst_count_unstable(&node.s) != before)
+            *hi = x, *f_hi = pair_value(&node.s);
+        else
+            *lo = x, *f_lo = pair_value(&node.s);
+    }
+    return (*f_lo < 0) != (*f_hi < 0);
+}
+
+fst_status fst_locate_special(const fst_family *family, const fst_node *a, const fst_node *b, int test,
+                              fst_node *out, fst_error *error)
+{
+    fst_bracket z = {0.0, 1.0, fst_test_value(a, test), fst_test_value(b, test), 0};
+    const double greatest = fmax(fabs(z.f_lo), fabs(z.f_hi));
+    const double least = family->location * (test == FST_TEST_PAIR ? 10.0 : fmin(1.0, greatest));
+    const int curves_meet = test == FST_TEST_PLUS && a->s.segments == 0;
+    *out = fabs(z.f_lo) < fabs(z.f_hi) ? *a : *b;
+    if (test == FST_TEST_PAIR && !narrow_to_one_pair(family, a, b, &z.lo, &z.hi, &z.f_lo, &z.f_hi))
+        return fst_fail(error, FST_NO_CONVERGENCE, "special point", "no single pair crosses at %.10g",
+                        a->s.value);
+    for (int i = 0; i < 60 && (z.hi - z.lo) * b->length > 1e-13; ++i) {
+        const double x = i % 6 == 5 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z);
+        fst_node node;
+        const fst_status status = fst_node_between(family, a, b, x, &node, error);
+        /* Where two curves of equilibria meet, Newton's matrix is singular, and its method fails within some
+         * 1e-7 of the place.  What was found so near is a place to interpolate about (fst_pitchfork_value). */
+        if (status == FST_NO_CONVERGENCE && curves_meet && fabs(fst_test_value(out, test)) < 1e-4 * greatest)
+            return FST_OK;
+        if (status != FST_OK)
+            return status;
+        const double f = fst_test_value(&node, test);
+        const double moved = fabs(node.s.value - out->s.value);
+        *out = node;
+        if (!isfinite(f))
+            return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test is undefined at %.10g",
+                            node.s.value);
+        if (fabs(f) <= least || (i > 1 && fabs(f) < 100.0 * least && moved < family->location * family->scale))
+            break;
+        fst_bracket_take(&z, x, f);
+    }
+    if (!(fabs(fst_test_value(out, test)) < 1e-8))
+        return fst_fail(error, FST_NO_CONVERGENCE, "special point", "a test jumps at %.10g", out->s.value);
+    return FST_OK;
+}
+
+/* At a pitchfork of equilibria Newton's matrix is singular, and solutions near it are known poorly.  A little
+ * away they are not: the parameter as a function of the test, by Lagrange's formula through six points around
+ * the first estimate `at`, and its value at zero. */
+double fst_pitchfork_value(const fst_family *family, const fst_node *a, const fst_node *b, const fst_node *at)
+{
+    enum { POINTS = 6 };
+    double value[POINTS], f[POINTS], sum = 0.0;
+    fst_error ignored;
+    fst_direction way, part;
+    fst_direction_between(&a->s, &b->s, &way);
+    fst_direction_between(&a->s, &at->s, &part);
+    const double middle =
+        fst_direction_product(family, &a->s, &way, &part) / fst_direction_product(family, &a->s, &way, &way);
+    for (int i = 0; i < POINTS; ++i) {
+        fst_node node;
+        const double away = 0.05 * (i < POINTS / 2 ? i - POINTS / 2 : i - POINTS / 2 + 1);
+        if (fst_node_between(family, a, b, middle + away, &node, &ignored) != FST_OK)
+            return at->s.value;
+        value[i] = node.s.value;
+        f[i] = fst_test_value(&node, FST_TEST_PLUS);
+    }
+    for (int i = 0; i < POINTS; ++i) {
+        double term = value[i] - at->s.value;
+        for (int j = 0; j < POINTS; ++j)
+            if (j != i)
+                term *= f[j] / (f[j] - f[i]);
+        sum += term;
+    }
+    return fabs(sum) < 1e-5 * family->scale ? at->s.value + sum : at->s.value;
+}
