@@ -16,7 +16,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include "ensemble/final_states.h"
+#include "lanes/final_states.h"
 #include "peak.h"
 #include "reference.h"
 

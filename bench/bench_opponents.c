@@ -18,7 +18,7 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 
-#include "ensemble/final_states.h"
+#include "lanes/final_states.h"
 #include "opponents_job.h"
 #include "opponents_model.h"
 #include "reference.h"

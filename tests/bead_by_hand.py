@@ -32,7 +32,7 @@ def dot(a, b):
 
 
 def rates(state, t, omega, printed):
-    """d/dt of (x, y, vx, vy, n, W); `printed`: Eq. (nseconde) as it is printed, without psi' n x n'."""
+    """d/dt of (x, y, vx, vy, n, W); `printed`: Eq. (7) as it is printed, without psi' n x n'."""
     x, y, vx, vy = state[:4]
     n, w = state[4:7], state[7:10]
     b, g = field(x, y, omega * t)
@@ -112,7 +112,7 @@ class Return:
         slip = (vx - EPS * w[1], vy + EPS * w[0])
         circling = (x * vy - y * vx) / r**2
         n_r, n_alpha = n[0] * e[0] + n[1] * e[1], n[1] * e[0] - n[0] * e[1]
-        flat = math.hypot(n_alpha, n[2])  # Eq. (eq21) as printed leaves n_r out
+        flat = math.hypot(n_alpha, n[2])  # Eq. (12) as printed leaves n_r out
         along = [g[i][0] * e[0] + g[i][1] * e[1] for i in range(3)]  # dB/dr
         printed = (n_alpha * (along[1] * e[0] - along[0] * e[1]) + n[2] * along[2]) / flat
         return {"r": r, "r2": r * r, "b": size, "n_z": n[2], "n_r": n_r,

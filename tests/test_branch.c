@@ -110,8 +110,9 @@ static void images_under_s2(void **state)
     fst_branch_free(&b);
 }
 
-static fst_status stop_at_once(void *user, double fraction, fst_error *error)
+static fst_status stop_at_once(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     (void)user;
     (void)fraction;
     if (error)
@@ -126,7 +127,8 @@ static void refusals_and_interruption(void **state)
     fst_branch_options o = over_omega(FST_BRANCH_COUNTER, 0.268, 0.272);
     fst_branch b;
     fst_error error;
-    o.progress = stop_at_once;
+    const fst_progress progress = {NULL, stop_at_once};
+    o.progress = &progress;
     assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_INTERRUPTED);
     fst_branch_free(&b);
     o = over_omega(FST_BRANCH_COUNTER, 0.3, 0.3);

@@ -104,9 +104,9 @@ class BadInput(unittest.TestCase):
     def test_usage(self):
         counter = ("--kind", "counter")
         for words, part in (
-                (("--over", "drive.omega=0.2:0.3"), "tell which"),
+                (("--over", "drive.omega=0.2:0.3"), "say which"),
                 (("--kind", "countr", "--over", "drive.omega=0.2:0.3"), "the nearest is counter"),
-                (counter, "tell over what"),
+                (counter, "say over which parameter"),
                 ((*counter, "--over", "drive.omega=0.2"), "must be KEY=LO:HI"),
                 ((*counter, "--over", "drive.omgea=0.2:0.3"), "the nearest is drive.omega"),
                 ((*counter, "--over", "model.dynamics=0:1"), "no parameter with real values"),

@@ -148,8 +148,9 @@ static void every_member_comes_back(void **state)
     }
 }
 
-static fst_status refuse(void *user, double fraction, fst_error *error)
+static fst_status refuse(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     (void)fraction;
     if (--*(int *)user > 0)
         return FST_OK;
@@ -168,8 +169,8 @@ static void real_branches_come_back(void **state)
     check_round_trip(&b);
     fst_branch_free(&b);
     int calls = 300;
-    o.user = &calls;
-    o.progress = refuse;
+    const fst_progress progress = {&calls, refuse};
+    o.progress = &progress;
     assert_int_equal(fst_branch_follow(&params, &o, &b, NULL), FST_INTERRUPTED);
     assert_true(b.point_count > 0 && !b.complete);
     check_round_trip(&b);

@@ -92,13 +92,13 @@ static void test_closed_orbits(void **unused)
             CHECK_WITHIN(r.energy_residual, 0, 1e-10);
             const int relaxing = dynamics == FST_DYNAMICS_FARAGO2020 && i == 2;
             CHECK_CLOSE(r.mean_drive_power / r.mean_friction_power, 1, relaxing ? 1e-8 : 1e-10);
-            /* Averaged momentum balances: Eqs. (eq21) and (eq22), exact forms. */
+            /* Averaged momentum balances: Eqs. (12) and (13), exact forms. */
             CHECK_CLOSE(r.eq21_centrifugal + r.eq21_magnetic + r.eq21_friction, 0, relaxing ? 1e-9 : 1e-12);
             CHECK_CLOSE(r.eq22_magnetic + r.eq22_friction, 0, relaxing ? 1e-9 : 1e-12);
         }
 }
 
-/* Other materials; the paramagnet's averaged balances, Eq. (tondu): <V^2> = a omega <dB^2/dalpha> and
+/* Other materials; the paramagnet's averaged balances, Eq. (16): <V^2> = a omega <dB^2/dalpha> and
  * a <dB^2/dalpha> = <r V_alpha>. */
 static void test_other_materials(void **unused)
 {

@@ -177,8 +177,9 @@ typedef struct watcher {
     double last;
 } watcher;
 
-static fst_status watch(void *user, double fraction, fst_error *error)
+static fst_status watch(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     watcher *w = user;
     (void)error;
     assert_true(fraction >= w->last && fraction <= 1.0);
@@ -236,12 +237,13 @@ static void a_run_tells_of_its_exponent(void **state)
     fst_run_options options = fst_default_run_options();
     fst_run_result result;
     watcher all = {0, 0, 0.0};
-    options.sink.user = &all;
-    options.sink.progress = watch;
+    const fst_progress to_all = {&all, watch};
+    options.progress = &to_all;
     assert_int_equal(fst_run(&params, &options, &result, NULL), FST_OK);
     assert_true(isfinite(result.largest_exponent) && all.last > 0.75);
     watcher some = {0, all.told - 1, 0.0};
-    options.sink.user = &some;
+    const fst_progress to_some = {&some, watch};
+    options.progress = &to_some;
     assert_int_equal(fst_run(&params, &options, &result, NULL), FST_INTERRUPTED);
     assert_true(some.last > 0.75);
     CHECK_CONTAINS(result.reason, "interrupted");

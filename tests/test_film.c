@@ -207,8 +207,8 @@ static void test_films_are_whole(void **state)
     check_film(bytes, size, NULL);
     for (size_t cut = 1; cut < 128; cut += 9)
         check_film(bytes, size - cut, "it is cut short");
-    check_film(bytes, size - 128, "the contents of pictures are missing");
-    check_film(bytes, make_mp4(bytes, 12, 119), "the contents of pictures are missing");
+    check_film(bytes, size - 128, "the pictures themselves are missing");
+    check_film(bytes, make_mp4(bytes, 12, 119), "the pictures themselves are missing");
     check_film(bytes, make_mp4(bytes, 11, 120), "pictures are missing");
     check_film(bytes, make_mp4(bytes, 13, 130), "pictures are missing");
     check_film(bytes, 16, "it has no index");

@@ -2,7 +2,7 @@
  * arithmetic, however often and wherever that happens; images that are none are left out. */
 #include <stdlib.h>
 
-#include "ensemble/lanes.h"
+#include "lanes/lanes.h"
 #include "physics.h"
 #include "same_results.h"
 #include "study/run_image.h"

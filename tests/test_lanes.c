@@ -5,7 +5,7 @@
 
 #include <stdlib.h>
 
-#include "ensemble/final_states.h"
+#include "lanes/final_states.h"
 
 enum { JOBS = 24 };
 

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "paper/measures.h"
-#include "paper/paper.h"
+#include "paper/state.h"
 
 enum { ROWS = 20000 };
 

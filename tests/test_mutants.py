@@ -12,9 +12,9 @@ sys.path.insert(0, os.path.join(SOURCE, "tests", "mutants"))
 import entries as listed  # noqa: E402
 
 LEAST = 150
-ROOMS = {"base", "host", "model", "ode", "observe", "ensemble", "study", "orbit", "io", "sweep", "draw", "film", "paper",
+ROOMS = {"base", "host", "model", "ode", "observe", "lanes", "study", "orbit", "io", "sweep", "draw", "film", "paper",
          "cli", "tables"}
-PHYSICS = {"model", "ode", "observe", "ensemble", "study", "orbit"}
+PHYSICS = {"model", "ode", "observe", "lanes", "study", "orbit"}
 OTHER_TESTS = {"includes", "headers", "exports", "installed"}
 
 

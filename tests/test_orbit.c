@@ -200,8 +200,9 @@ static void festoons_up_to_the_ends_of_the_branch(void **state)
     fst_branch_free(&branch);
 }
 
-static fst_status never(void *user, double fraction, fst_error *error)
+static fst_status never(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     (void)user, (void)fraction, (void)error;
     fail_msg("the branch is followed");
     return FST_INTERRUPTED;

@@ -252,8 +252,9 @@ static void crossings_in_a_long_step(void **unused)
 }
 
 /* Progress that has patience for so many points. */
-static fst_status lose_patience(void *user, double fraction, fst_error *error)
+static fst_status lose_patience(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     int *left = user;
     (void)fraction, (void)error;
     *left -= 1;
@@ -271,8 +272,8 @@ static void a_closed_branch_is_followed_once(void **unused)
     options.from = 0.51;
     options.to = 0.56;
     int left = 20000, closed = 0; /* questions, one every 4000 evaluations */
-    options.user = &left;
-    options.progress = lose_patience;
+    const fst_progress progress = {&left, lose_patience};
+    options.progress = &progress;
     fst_branch branch = followed(&params, &options);
     for (size_t i = 0; i < branch.end_count; ++i)
         closed += strstr(branch.ends[i].reason, "closes on itself") != NULL;

@@ -3,7 +3,7 @@
  * them. */
 #include "physics.h"
 
-#include "ensemble/lanes.h"
+#include "lanes/lanes.h"
 #include "orbit/newton.h"
 #include "study/lane_rows.h"
 
@@ -275,6 +275,23 @@ static double left_by_newton(const fst_params *p, const fst_orbit *orbit, double
     return s.residual;
 }
 
+/* Newton's method refuses half turns of a magnet that is not its own image under them. */
+static void check_half_turns(const fst_params *p, const fst_orbit *orbit, int own_image)
+{
+    static fst_newton_system system;
+    fst_family family;
+    fst_solution s;
+    fst_error error = {FST_OK, "", ""};
+    memset(&s, 0, sizeof s);
+    s.symmetric = s.segments = s.on_section = 1;
+    s.period = 0.5 * orbit->means.period;
+    memcpy(s.y[0], orbit->state, sizeof s.y[0]);
+    if (fst_family_begin(&family, p, NULL, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    assert_int_equal(fst_newton_equations(&family, &s, &system, &error),
+                     own_image ? FST_OK : FST_NO_CONVERGENCE);
+}
+
 /* A magnet that is its own image under half a turn, and one that lies off the middle: no orbit over the latter
  * is sought or found by half turns. */
 static void check_orbit(double shift)
@@ -286,6 +303,7 @@ static void check_orbit(double shift)
     assert_true(orbit.stable);
     assert_int_equal(orbit.symmetry, shift == 0.0 ? FST_SYMMETRY_S2 : FST_SYMMETRY_S1);
     CHECK_CLOSE(orbit.means.mean_drive_power / orbit.means.mean_friction_power, 1.0, 1e-9);
+    check_half_turns(&p, &orbit, shift == 0.0);
     fst_model *model = model_of(&p);
     double end[FST_STATE_SIZE];
     return_map(model, &orbit, orbit.state, end);

@@ -27,9 +27,11 @@ static fst_status square(void *user, int index, fst_error *error)
     return FST_OK;
 }
 
-static fst_status watch(void *user, int done, fst_error *error)
+static fst_status watch(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     job *all = user;
+    const int done = (int)lround(fraction * PIECES);
     assert_true(done >= all->told);
     all->told = done;
     return done > all->patience ? fst_fail(error, FST_INTERRUPTED, "watch", "enough") : FST_OK;
@@ -39,7 +41,8 @@ static void all_pieces_are_done_once(void **state)
 {
     (void)state;
     job all = {.fails_from = PIECES, .patience = PIECES};
-    fst_work work = {.user = &all, .count = PIECES, .piece = square, .progress = watch};
+    const fst_progress progress = {&all, watch};
+    fst_work work = {.user = &all, .count = PIECES, .piece = square, .progress = &progress};
     assert_int_equal(fst_parallel(&work, NULL), FST_OK);
     for (int i = 0; i < PIECES; i++)
         assert_int_equal(all.results[i], i * i);
@@ -62,7 +65,8 @@ static void progress_can_end_the_work(void **state)
 {
     (void)state;
     job all = {.fails_from = PIECES, .patience = -1};
-    fst_work work = {.user = &all, .count = PIECES, .piece = square, .progress = watch};
+    const fst_progress progress = {&all, watch};
+    fst_work work = {.user = &all, .count = PIECES, .piece = square, .progress = &progress};
     fst_error error;
     assert_int_equal(fst_parallel(&work, &error), FST_INTERRUPTED);
     assert_string_equal(error.sentence, "enough");

@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "paper/paper.h"
+#include "paper/runs.h"
 
 static fst_params bead(fst_material material, double kappa, double a, double b)
 {

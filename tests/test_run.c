@@ -360,8 +360,9 @@ static void test_no_discard(void **unused)
 }
 
 /* Stop after so many calls. */
-static fst_status stop_soon(void *user, double fraction, fst_error *error)
+static fst_status stop_soon(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     int *left = user;
     assert_true(fraction >= 0 && fraction <= 1);
     (void)error;
@@ -379,8 +380,8 @@ static void test_huge_runs_can_be_stopped(void **unused)
         p.run_samples = 100000;
         fst_run_options options = fst_default_run_options();
         int left = 40;
-        options.sink.user = &left;
-        options.sink.progress = stop_soon;
+        const fst_progress progress = {&left, stop_soon};
+        options.progress = &progress;
         if (i >= 2) {
             options.ramp_from = 0.35;
             options.ramp_to = 0.20;

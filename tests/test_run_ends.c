@@ -82,8 +82,9 @@ typedef struct patience {
     int calls, most;
 } patience;
 
-static fst_status lose_patience(void *user, double fraction, fst_error *error)
+static fst_status lose_patience(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     patience *p = user;
     (void)error;
     CHECK_WITHIN(fraction, 0.0, 1.0);
@@ -100,8 +101,8 @@ static void test_progress_that_says_stop(void **unused)
         fst_run_options options = fst_default_run_options();
         fst_run_result r;
         patience caller = {0, most};
-        options.sink.user = &caller;
-        options.sink.progress = lose_patience;
+        const fst_progress progress = {&caller, lose_patience};
+        options.progress = &progress;
         assert_int_equal(fst_run(&p, &options, &r, NULL), FST_INTERRUPTED);
         assert_int_equal(caller.calls, most + 1);
     }

@@ -215,7 +215,7 @@ static void test_gyroscopic_terms_are_missing(void **unused)
     fst_model_free(model);
 }
 
-/* Eq. (nseconde) with the term psi' n x n' is `rigid`, and without it, as printed, farago2020. */
+/* Eq. (7) with the term psi' n x n' is `rigid`, and without it, as printed, farago2020. */
 static void test_nseconde(void **unused)
 {
     (void)unused;

@@ -94,7 +94,7 @@ class Logs(Journal):
             self.put("a.db" + ending, content)
             for words in (("sweep", *SMALL, "-o", self.path("a.db")), ("export", self.path("a.db"), "--csv"),
                           ("plot", self.path("a.db"), "-o", self.path("f.svg"))):
-                self.assertIn("the log of another one", self.refused(*words))
+                self.assertIn("the log of another database", self.refused(*words))
             os.remove(self.path("a.db" + ending))
 
     def test_its_own_log_is_read(self):
@@ -118,7 +118,7 @@ class Logs(Journal):
             before = content_of(self.path("b.db"))
             for words in (("export", self.path("b.db"), "--csv"), ("plot", self.path("b.db"), "-o", self.path("f.svg")),
                           ("sweep", *SMALL, "-o", self.path("b.db"))) if older else ():
-                self.assertIn("one older than it", self.refused(*words))
+                self.assertIn("an older log of this one", self.refused(*words))
                 self.assertEqual((content_of(self.path("b.db")), content_of(self.path("b.db-wal"))), (before, log))
             if older:
                 os.remove(self.path("b.db-wal"))
@@ -577,7 +577,7 @@ class Power(Journal):
         self.assertFalse(waits, "the last rows of the log were never synced")
 
     def test_a_folder_that_cannot_be_synced(self):
-        """A name that may be lost with the power is no success, and what is there is of use to the next command."""
+        """A name that a loss of power may undo is no success, and the next command can use the file."""
         faults = os.path.join(os.environ["BUILD_DIR"], "tests", "faults.so")
         if not os.path.exists(faults):
             self.skipTest("nothing can be preloaded into a program with sanitizers")
@@ -590,7 +590,7 @@ class Power(Journal):
 
         status, err = fate(2, "run", *SHORT, "-o", self.path("t.csv"))  # the first fsync is that of the file
         self.assertEqual(status, 1, err)
-        self.assertIn("this file is complete, but may be lost with the power: its directory cannot be synced", err)
+        self.assertIn("this file is complete, but a loss of power may undo it: its directory cannot be synced", err)
         self.assertIn("# complete = true", content_of(self.path("t.csv"), "r"))
         expected = self.made("right.db")
         told, number = 0, 0

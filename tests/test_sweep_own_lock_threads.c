@@ -21,14 +21,12 @@ static fst_params short_run(void)
     return p;
 }
 
-static fst_sweep_options options_of(void *user,
-                                    fst_status (*progress)(void *, const fst_sweep_progress *, fst_error *))
+static fst_sweep_options options_of(const fst_progress *progress)
 {
     fst_sweep_options o = fst_default_sweep_options();
     o.axes = axes;
     o.axis_count = 1;
     o.threads = 1;
-    o.user = user;
     o.progress = progress;
     return o;
 }
@@ -61,16 +59,16 @@ static void expect_own(fst_status status, const fst_error *error)
     CHECK_CONTAINS(error->sentence, "this process is itself at work");
 }
 
-static fst_status try_everything(void *user, const fst_sweep_progress *progress, fst_error *unused)
+static fst_status try_everything(void *user, double fraction, const char *what, fst_error *unused)
 {
-    (void)progress;
+    (void)fraction, (void)what;
     (void)unused;
     meeting *m = user;
     if (m->calls++ > 0)
         return FST_OK;
     const fst_params p = short_run();
-    const fst_sweep_options o = options_of(NULL, NULL);
-    fst_sweep_progress result;
+    const fst_sweep_options o = options_of(NULL);
+    fst_sweep_counts result;
     fst_sweep_table table;
     fst_grid *grid;
     fst_error error = {FST_OK, "", ""};
@@ -98,8 +96,9 @@ static void a_second_sweep_is_refused(void **state)
     assert_int_equal(symlink("a.db", other), 0);
     meeting m = {path, other, 0};
     const fst_params p = short_run();
-    const fst_sweep_options o = options_of(&m, try_everything), quiet = options_of(NULL, NULL);
-    fst_sweep_progress result;
+    const fst_progress progress = {&m, try_everything};
+    const fst_sweep_options o = options_of(&progress), quiet = options_of(NULL);
+    fst_sweep_counts result;
     fst_error error = {FST_OK, "", ""};
     if (fst_sweep(&p, path, &o, &result, &error) != FST_OK)
         fail_msg("%s: %s", error.where, error.sentence);
@@ -125,8 +124,8 @@ static void *race(void *user)
 {
     racer *r = user;
     const fst_params p = short_run();
-    const fst_sweep_options o = options_of(NULL, NULL);
-    fst_sweep_progress result;
+    const fst_sweep_options o = options_of(NULL);
+    fst_sweep_counts result;
     (void)pthread_barrier_wait(r->start);
     r->status = fst_sweep(&p, r->path, &o, &result, &r->error);
     return NULL;

@@ -2,7 +2,8 @@
  * rules are those that docs/paper.md prints. */
 #include "numeric.h"
 
-#include "paper/paper.h"
+#include "paper/runs.h"
+#include "paper/statements.h"
 
 /* A value on either side of a border of a rule. */
 typedef struct border {

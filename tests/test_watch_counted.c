@@ -20,8 +20,9 @@ typedef struct spy {
     int fell; /* the fraction did */
 } spy;
 
-static fst_status watch(void *user, double fraction, fst_error *error)
+static fst_status watch(void *user, double fraction, const char *what, fst_error *error)
 {
+    (void)what;
     spy *s = user;
     const long long gap = fst_test_evaluations - s->last;
     s->longest = gap > s->longest ? gap : s->longest;
@@ -91,8 +92,7 @@ static fst_status a_branch(const job *j, const fst_progress *progress, fst_branc
 {
     const fst_params params = scene_for(j);
     fst_branch_options o = over_omega(j->kind, j->from, j->to);
-    o.user = progress->user;
-    o.progress = progress->tell;
+    o.progress = progress;
     return fst_branch_follow(&params, &o, branch, error);
 }
 
@@ -100,8 +100,7 @@ static fst_status over_two(const job *j, const fst_progress *progress, fst_branc
 {
     const fst_params params = scene_for(j);
     fst_branch_options o = over_omega(j->kind, j->from, j->to);
-    o.user = progress->user;
-    o.progress = progress->tell;
+    o.progress = progress;
     o.second_key = "model.kappa";
     o.second_from = 1.45;
     o.second_to = 1.55;

@@ -1,19 +1,19 @@
 /* festoon.h - a magnetic bead on a spinning magnet: model, integration, observables.
  *
- * The library follows Farago, Charitat, Bigot, Schotter and Kulic, "Counter-rotation of magnetic beads
- * in spinning fields", Phys. Rev. E 102, 042201 (arXiv:2003.10782); "the paper" and equation names in
- * these comments refer to it.
+ * The library follows Farago, Charitat, Bigot, Schotter and Kulic, "Counter-rotation of magnetic beads in
+ * spinning fields", Phys.  Rev.  E 102, 042201 (arXiv:2003.10782).  "The paper" in these comments is this one;
+ * figures, equations and sections have its printed numbers.
  *
- * Units.  Unless a name says otherwise, lengths are in l (half length of the magnet's lines), times in
- * 1/gamma (gamma: friction rate), fields in B0, masses in the bead's mass.
+ * Units.  Unless a name says otherwise, lengths are in l (half length of the magnet's lines), times in 1/gamma
+ * (gamma: friction rate), fields in B0, masses in the bead's mass.
  *
- * A state is ten doubles, FST_STATE_SIZE: X Y vX vY nX nY nZ WX WY WZ.  Position, velocity, direction n
- * of the moment and angular velocity W of the bead; vectors measured in the laboratory (inertial), but
- * written in components along the axes that turn with the magnet, X along its lines.
+ * A state is ten doubles, FST_STATE_SIZE: X Y vX vY nX nY nZ WX WY WZ.  These are the bead's position,
+ * velocity, direction n of the moment, and angular velocity W.  All are vectors of the laboratory (inertial),
+ * but written in components along axes that turn with the magnet, X along its lines.
  *
- * The library never prints, exits, or keeps global variables.  A function that can fail returns an
- * fst_status and, if the caller passes an fst_error, fills in a sentence: what, where, what to try.
- * Models are immutable and may be shared by threads; an fst_flow belongs to one thread.
+ * The library never prints, exits, or keeps global variables.  A function that can fail returns an fst_status
+ * and, if the caller passes an fst_error, fills in a sentence: what, where, what to try.  Models are immutable
+ * and may be shared by threads; an fst_flow belongs to one thread.
  */
 #ifndef FESTOON_FESTOON_H
 #define FESTOON_FESTOON_H
@@ -41,14 +41,14 @@ extern "C" {
 #define FST_VERSION_PATCH 0
 #define FST_VERSION_STRING "0.1.0"
 
-/* Changes when the same parameters give other bits than before: a sweep begun by another version is not
- * continued. */
+/* Increased when the same parameters give other bits than before.  A sweep that was begun by another version is
+ * not continued. */
 #define FST_RESULTS_VERSION 6
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
 
-/* What a function came back with.  The texts are fst_status_text(). */
+/* The status that a function returns.  The texts are those of fst_status_text(). */
 #define FST_STATUS_LIST(X)                                                                                     \
     X(FST_OK, "done")                                                                                          \
     X(FST_BAD_INPUT, "bad input")                                                                              \
@@ -68,12 +68,24 @@ typedef enum fst_status {
 /* The text of a status, for people; never NULL. */
 FST_API const char *fst_status_text(fst_status status);
 
-/* An error, owned by the caller; `where` names a function, a file and line, or a time. */
+/* An error, owned by the caller.  `where` names a function, a file and line, or a time. */
 typedef struct fst_error {
     fst_status code;
     char where[256];
     char sentence[768];
 } fst_error;
+
+/* ------------------------------------------------------------------ progress and cancellation */
+
+/* Every call that may last longer than a tenth of a second takes one of these (NULL: the call says nothing and
+ * runs to its end).  The call tells how much of its work is done, `fraction` from 0 to 1, which never falls,
+ * and in `what` which part it is at (NULL where the work has no parts that a person would tell apart).  FST_OK
+ * lets it go on.  Any other status ends the call with that status and with the error that tell() filled in,
+ * which is never NULL; tell() is then not called again.  tell() runs in the thread that made the call. */
+typedef struct fst_progress {
+    void *user;
+    fst_status (*tell)(void *user, double fraction, const char *what, fst_error *error);
+} fst_progress;
 
 /* ------------------------------------------------------------------ parameters */
 
@@ -88,7 +100,7 @@ typedef enum { FST_CONTACTS(FST_CONTACT_ENUM) FST_FRICTION_LAWS } fst_friction_l
 typedef enum { FST_DYNAMICS_RIGID, FST_DYNAMICS_FARAGO2020 } fst_dynamics;
 typedef enum { FST_SPIN_ROLLING, FST_SPIN_REST } fst_start_spin;
 
-/* Kinds of unit that a parameter may carry (params.def). */
+/* The kinds of unit that a parameter may carry (params.def). */
 typedef enum {
     FST_UNIT_NUMBER,       /* pure or scaled number: no unit allowed */
     FST_UNIT_LENGTH,       /* m; um mm cm m */
@@ -101,10 +113,10 @@ typedef enum {
     FST_UNIT_ANGLE         /* deg; deg rad turn */
 } fst_unit;
 
-/* A setup in SI units: what a scene says.  Get one from fst_default_params(), change fields, and make a
- * model of it.  A field that is NAN was not given and follows from others (params.def tells how). */
+/* A setup in SI units: what a scene says.  Get one from fst_default_params(), change fields, and make a model
+ * of it.  A field that is NAN was not given and follows from others; params.def says how. */
 typedef struct fst_params {
-    uint32_t cookie; /* set by fst_default_params(); catches a struct that was never initialised */
+    uint32_t cookie; /* set by fst_default_params(); a struct that was never initialised has another value */
 #define FST_REAL(group, name, unit, initial, least, greatest, doc) double group##_##name;
 #define FST_INT(group, name, initial, least, greatest, doc) int group##_##name;
 #define FST_CHOICE(group, name, names, initial, doc) int group##_##name;
@@ -124,65 +136,65 @@ typedef struct fst_param_info {
     const char *key; /* "bead.radius" */
     fst_param_kind kind;
     fst_unit unit;
-    const char *names; /* of a choice: "rigid|farago2020"; else NULL */
+    const char *names; /* of a choice, "rigid|farago2020"; otherwise NULL */
     double initial;    /* default, in SI; NAN: not given; of a choice: its index */
     double least, greatest;
     const char *doc;
     size_t offset; /* of the field in fst_params */
 } fst_param_info;
 
-/* Number of rows, and the row `index` (NULL beyond the end). */
+/* The number of rows, and the row `index` (NULL beyond the end). */
 FST_API int fst_param_count(void);
 FST_API const fst_param_info *fst_param_at(int index);
 
-/* Row index of a key, or -1. */
+/* The row index of a key, or -1. */
 FST_API int fst_param_find(const char *key);
 
-/* The SI unit's name of a kind of unit ("m", "Hz", "1" for a pure number) and the units accepted for it
+/* The name of the SI unit of a kind ("m", "Hz", "1" for a pure number), and the units that are accepted for it
  * ("um mm cm m"). */
 FST_API const char *fst_unit_name(fst_unit unit);
 FST_API const char *fst_unit_accepted(fst_unit unit);
 
-/* Read a value with an optional unit, "2.5 mm"; FST_BAD_INPUT if it is no number, has a wrong unit, or
- * something behind it. */
+/* Read a value with an optional unit, "2.5 mm".  FST_BAD_INPUT: it is no number, has a wrong unit, or something
+ * follows it. */
 FST_API fst_status fst_parse_value(const char *text, fst_unit unit, double *value, fst_error *error);
 
-/* Set one parameter from text, as `--set KEY=VALUE` does: checks key, unit and range, and clears the
- * other form of the same quantity (drive.omega and drive.frequency, model.eps and bead.radius, model.h and
- * magnet.depth, model.lambda and magnet.width, model.kappa and magnet.b0).
- * FST_BAD_INPUT: the sentence names the nearest valid key, the units, or the range. */
+/* Set one parameter from text: checks key, unit and range, and clears the other form of the same quantity
+ * (drive.omega and drive.frequency, model.eps and bead.radius, model.h and magnet.depth, model.lambda and
+ * magnet.width, model.kappa and magnet.b0).  FST_BAD_INPUT: the sentence names the nearest valid key, the
+ * units, or the range. */
 FST_API fst_status fst_params_set(fst_params *params, const char *key, const char *text, fst_error *error);
 
-/* Drive periods that a run leaves out of the means: run.discard; but with run.discard at its default of 200,
- * and a run that is no longer, the first half. */
+/* The drive periods that a run leaves out of its means: run.discard; but the first half of a run that is no
+ * longer than run.discard, where that has its default of 200. */
 FST_API double fst_run_discard(const fst_params *params);
 
-/* Whether the bead's mass and radius contradict any material: a density outside 1000 to 23000 kg/m^3; or a
- * changed radius with the mass and the magnetic strength (kappa) of the default bead.  Returns 0 where they do
- * not, else a sentence that says so is left in `sentence`.  A run is possible all the same.  A scene with
- * model.eps is scaled: its radius plays no part, and nothing is said. */
+/* Whether the bead's mass and radius contradict any material: the density is outside 1000 to 23000 kg/m^3, or
+ * the radius was changed while mass and magnetic strength (kappa) are those of the default bead.  Returns 0 if
+ * they do not; otherwise a sentence that says so is left in `sentence`.  A run is possible all the same.  In a
+ * scaled scene, with model.eps, the radius plays no part and 0 is returned. */
 FST_API int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size);
 
-/* The other forms of a quantity that fst_params_set() clears: the key that says the same, or NULL. */
+/* The key of the other form of a quantity, which fst_params_set() clears; NULL: there is none. */
 FST_API const char *fst_param_other_form(const char *key);
 
 /* The value of a parameter as text, as a scene would say it in SI ("0.0025", "rigid"); "" where it was not
- * given. Returns the length, as snprintf does. */
+ * given.  Returns the length, as snprintf does. */
 FST_API int fst_params_get(const fst_params *params, int index, char *text, size_t size);
 
-/* The name in a '|'-separated list nearest to `word`, by edit distance, copied to `nearest`; returns the
- * distance, or -1 where the list is empty.  For "did you mean". */
+/* The name in a '|'-separated list that is nearest to `word`, by edit distance, is copied to `nearest`.
+ * Returns the distance, or -1 where the list is empty.  For "did you mean". */
 FST_API int fst_nearest_name(const char *word, const char *names, char *nearest, size_t size);
 
-/* Make a text from outside harmless in its place, for a terminal, a figure or a page: one '?' stands for each
- * control character (also those of U+0080 to U+009F, which terminals obey, line and paragraph separators, and
- * marks that turn the direction of writing) and for each byte that is no UTF-8.  What stays is one line of
- * UTF-8, never longer than before.  Every fst_error has been through it. */
+/* Make a text from outside harmless for a terminal, a figure or a page.  A '?' replaces each control character
+ * (also U+0080 to U+009F, which terminals obey, line and paragraph separators, and marks that turn the
+ * direction of writing) and each byte that is no UTF-8.  The result is one line of UTF-8, never longer than
+ * before.  Every fst_error has been through this function. */
 FST_API void fst_text_tame(char *text);
 
 /* ------------------------------------------------------------------ model */
 
-/* The scaled groups that the motion depends on. */
+/* The scaled groups on which the motion depends. */
 typedef struct fst_groups {
     double eps;     /* R/l */
     double h;       /* height of the bead's centre over the lines */
@@ -200,13 +212,13 @@ typedef struct fst_groups {
     double length_unit; /* l in m */
     double time_unit;   /* 1/gamma in s */
     double mass;        /* kg */
-    double field_unit;  /* B0 in T where it follows from what was given, else NAN */
+    double field_unit;  /* B0 in T where it follows from what was given, otherwise NAN */
 } fst_groups;
 
 typedef struct fst_model fst_model;
 
-/* Checks the parameters and makes a model; free it with fst_model_free().  FST_BAD_INPUT: a value out of its
- * range, a struct that was never initialised, quantities that contradict each other. */
+/* Check the parameters and make a model; free it with fst_model_free().  FST_BAD_INPUT: a value out of its
+ * range, a struct that was never initialised, or quantities that contradict each other. */
 FST_API fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error);
 FST_API void fst_model_free(fst_model *model);
 
@@ -216,25 +228,24 @@ FST_API fst_groups fst_model_groups(const fst_model *model);
 enum { FST_X, FST_Y, FST_VX, FST_VY, FST_NX, FST_NY, FST_NZ, FST_WX, FST_WY, FST_WZ };
 
 /* The start state of start.r, start.phi, start.spin (rolling: the contact at rest, W along e_r; n = B/|B|).
- * FST_BAD_INPUT where it does not exist (rolling at r = eps, on the axis, or in a vanishing field). */
+ * FST_BAD_INPUT: it does not exist (rolling at r = eps, on the axis, or in a vanishing field). */
 FST_API fst_status fst_start_state(const fst_params *params, const fst_model *model,
                                    double state[FST_STATE_SIZE], fst_error *error);
 
-/* The magnet's field at the height of the bead's centre, in the magnet's frame: b[3], grad[i][j] =
- * dB_i/dx_j (symmetric, traceless), scaled.  Paper, section Modelling: lines of dipoles, each two point
- * charges. */
+/* The magnet's field at the height of the bead's centre, in the magnet's frame: b[3], grad[i][j] = dB_i/dx_j
+ * (symmetric, traceless), scaled.  Paper, section IV: lines of dipoles, each two point charges, Eq. (11). */
 FST_API void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
 
 /* d(state)/dt in the turning frame, at the drive omega of the model. */
 FST_API void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE],
                      double derivative[FST_STATE_SIZE]);
 
-/* Its exact Jacobian, jacobian[i][j] = d(derivative_i)/d(state_j), and, if `by_omega` is not NULL, the
+/* The exact Jacobian of that, jacobian[i][j] = d(derivative_i)/d(state_j), and, if `by_omega` is not NULL, the
  * derivative by omega. */
 FST_API void fst_jacobian(const fst_model *model, const double state[FST_STATE_SIZE],
                           double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], double by_omega[FST_STATE_SIZE]);
 
-/* What can be read off a state (paper, section 4 and appendix; vectors in local components r, alpha, z). */
+/* Quantities of a state (paper, section IV and appendix; vectors in local components r, alpha, z). */
 typedef struct fst_observation {
     double r, cos_phi, sin_phi; /* distance; cos and sin of Phi, the bead's angle against the magnet */
     double n[3], b[3];          /* moment and field in (r, alpha, z) */
@@ -268,9 +279,9 @@ FST_API fst_flow_options fst_default_flow_options(void);
 
 typedef struct fst_flow fst_flow;
 
-/* A trajectory from `state` at t = 0 by Dormand and Prince's method of order 8(5,3) with its 7th-order dense
- * output.  The bits of the trajectory depend on the model, the options, the state and the times that
- * it was made to land on (t_end of fst_flow_advance), and on nothing else; events do not disturb it. */
+/* A trajectory from `state` at t = 0, by Dormand and Prince's method of order 8(5,3) with its dense output of
+ * order 7.  Its bits depend on the model, the options, the state, and the times on which it was made to land
+ * (t_end of fst_flow_advance), and on nothing else; events do not disturb it. */
 FST_API fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
                                 const double state[FST_STATE_SIZE], fst_flow **flow, fst_error *error);
 FST_API void fst_flow_free(fst_flow *flow);
@@ -283,9 +294,9 @@ typedef enum {
     FST_STOP_LIFT_OFF /* the normal load reached 0 */
 } fst_stop;
 
-/* Go on until t_end or the first event in `events` (a sum of 1 << FST_STOP_*).  The state is then the one at
- * the event, located on the dense output to rounding; the next call goes on from there.
- * FST_STEP_UNDERFLOW, FST_NOT_FINITE: `error` says at which time and where the bead was. */
+/* Go on until t_end or the first event in `events` (a sum of 1 << FST_STOP_*).  The state is then that at the
+ * event, located on the dense output to rounding, and the next call goes on from there.  FST_STEP_UNDERFLOW,
+ * FST_NOT_FINITE: `error` says at which time this was, and where the bead was. */
 FST_API fst_status fst_flow_advance(fst_flow *flow, double t_end, unsigned events, fst_stop *stop,
                                     fst_error *error);
 
@@ -297,7 +308,7 @@ typedef struct fst_flow_info {
     double phi;         /* Phi, unwrapped */
     double alpha;       /* alpha = Phi + drive phase, unwrapped */
     double drive_turns; /* turns of the magnet since t = 0 */
-    double norm_drift;  /* sum of | |n| - 1 | that renormalisation removed */
+    double norm_drift;  /* the sum of all | |n| - 1 | that renormalisation removed */
     uint64_t rhs_calls, accepted, rejected;
 } fst_flow_info;
 FST_API fst_flow_info fst_flow_get(const fst_flow *flow);
@@ -316,11 +327,11 @@ typedef enum {
 } fst_regime;
 typedef enum { FST_SYMMETRY_NONE, FST_SYMMETRY_S1, FST_SYMMETRY_S2 } fst_symmetry;
 
-/* "counter-rotating", "S2"; fst_symmetry_name gives NULL for none. */
+/* "counter-rotating", "S2"; fst_symmetry_name gives NULL for no symmetry. */
 FST_API const char *fst_regime_name(fst_regime regime);
 FST_API const char *fst_symmetry_name(fst_symmetry symmetry);
 
-/* The result of a run.  Numbers that are undefined are NAN. */
+/* The result of a run.  A number that is undefined is NAN. */
 typedef struct fst_run_result {
 #define FST_RESULT(name, unit, doc) double name;
 #include <festoon/run.def>
@@ -355,34 +366,34 @@ typedef struct fst_sample {
 } fst_sample;
 typedef struct fst_ramp_point {
     double omega, frequency_hz, mean_r, std_r, mean_alpha_dot, mean_phi_dot, mean_nz;
-    int settled; /* the ramp waited here until the orbit closed; 0 where it did not wait, or not to the end */
+    int settled; /* the ramp waited here until the orbit closed; 0: it did not wait, or not until then */
 } fst_ramp_point;
 
-/* Where a run pushes what it finds.  Any callback may be NULL.  A callback that returns other than FST_OK ends
- * the run with that status; it fills in `error` itself. */
+/* Where a run puts its samples and ramp points.  Either callback may be NULL.  A callback that returns a status
+ * other than FST_OK ends the run with that status; it fills in `error` itself. */
 typedef struct fst_run_sink {
     void *user;
     fst_status (*sample)(void *user, const fst_sample *sample, fst_error *error);
     fst_status (*ramp_point)(void *user, const fst_ramp_point *point, fst_error *error);
-    fst_status (*progress)(void *user, double fraction, fst_error *error);
 } fst_run_sink;
 
 typedef struct fst_run_options {
     uint32_t cookie;
     fst_run_sink sink;
-    double ramp_from, ramp_to; /* drive omega at the start and end of a ramp; NAN: no ramp */
-    int ramp_points;           /* pieces of the ramp over which means are taken */
-    double ramp_wait;        /* most turns of the magnet for which each piece waits, half way, until the motion
-                              * has settled; 0: the drive changes steadily */
-    double ramp_disturbance; /* size of the disturbance with which the motion starts there, scaled */
-    double sample_from;      /* drive periods before which no sample is taken */
-    const double *start;     /* FST_STATE_SIZE numbers: the state at the start; NULL: what start.* says */
+    const fst_progress *progress; /* NULL: nobody is told */
+    double ramp_from, ramp_to;    /* drive omega at the start and end of a ramp; NAN: no ramp */
+    int ramp_points;              /* pieces of the ramp, over each of which means are taken */
+    double ramp_wait; /* the most turns of the magnet for which each piece waits, half way through, until the
+                         motion has settled; 0: the drive changes steadily */
+    double ramp_disturbance; /* the size of the disturbance with which the motion starts there, scaled */
+    double sample_from;      /* no sample is taken in the drive periods before this one */
+    const double *start;     /* FST_STATE_SIZE numbers: the state at the start; NULL: that of start.* */
 } fst_run_options;
 FST_API fst_run_options fst_default_run_options(void);
 
-/* Simulate `params` and describe the motion.  How the regime is decided stands in docs/regimes.md.  Ejected,
- * lifted, chaotic and undecided are results; FST_STEP_UNDERFLOW and FST_NOT_FINITE are failures; with
- * FST_INTERRUPTED (from a callback) the result holds what was done until then. */
+/* Simulate `params` and describe the motion.  docs/regimes.md says how the regime is decided.  Ejected, lifted,
+ * chaotic and undecided are results; FST_STEP_UNDERFLOW and FST_NOT_FINITE are failures.  With FST_INTERRUPTED
+ * (from a callback) the result holds what was done until then. */
 FST_API fst_status fst_run(const fst_params *params, const fst_run_options *options, fst_run_result *result,
                            fst_error *error);
 
@@ -391,11 +402,11 @@ FST_API fst_status fst_run(const fst_params *params, const fst_run_options *opti
 #define FST_AXIS_LIMIT 8
 typedef struct fst_grid fst_grid;
 
-/* The points over the parameters `base` along `count` axes, each written KEY=LO:HI:COUNT (evenly, both ends
- * included), KEY=LO:HI:COUNT:log, KEY=A,B,C (a list, also of choices) or KEY=LO:HI:random:COUNT (evenly
- * distributed, drawn from `seed`); values may carry units.  Axes multiply, the last one runs fastest; random
- * axes are drawn together and must have one count.  FST_BAD_INPUT: unknown key, wrong unit, out of range, no
- * such form. */
+/* A grid: the points over the parameters `base` along `count` axes.  An axis is written KEY=LO:HI:COUNT
+ * (evenly, both ends included), KEY=LO:HI:COUNT:log, KEY=A,B,C (a list, also of choices), or
+ * KEY=LO:HI:random:COUNT (evenly distributed, drawn from `seed`); values may carry units.  Axes multiply, and
+ * the last one runs fastest; random axes are drawn together and must have the same count.  FST_BAD_INPUT:
+ * unknown key, wrong unit, out of range, or none of these forms. */
 FST_API fst_status fst_grid_new(const fst_params *base, const char *const *axes, int count, uint64_t seed,
                                 fst_grid **grid, fst_error *error);
 FST_API void fst_grid_free(fst_grid *grid);
@@ -404,14 +415,14 @@ FST_API int64_t fst_grid_points(const fst_grid *grid);
 FST_API int fst_grid_axis_count(const fst_grid *grid);
 FST_API const fst_params *fst_grid_base(const fst_grid *grid);
 
-/* Of an axis: the parameter's key, the text it was made from, its number of values, and how many points lie
- * from one value to the next. */
+/* Of an axis: the parameter's key, the text from which it was made, its number of values, and the distance in
+ * points from one value to the next. */
 FST_API const char *fst_grid_key(const fst_grid *grid, int axis);
 FST_API const char *fst_grid_axis_text(const fst_grid *grid, int axis);
 FST_API int64_t fst_grid_axis_points(const fst_grid *grid, int axis);
 FST_API int64_t fst_grid_axis_stride(const fst_grid *grid, int axis);
 
-/* How the values of an axis lie. */
+/* How the values of an axis are spaced. */
 typedef enum { FST_SPACING_LINEAR, FST_SPACING_LOG, FST_SPACING_LIST, FST_SPACING_RANDOM } fst_spacing;
 FST_API fst_spacing fst_grid_axis_spacing(const fst_grid *grid, int axis);
 
@@ -423,16 +434,16 @@ FST_API fst_status fst_grid_params(const fst_grid *grid, int64_t point, fst_para
 
 /* ------------------------------------------------------------------ rows: many runs at once */
 
-/* The forms of arithmetic: which operations the steps are made of.  Within one form the bits of a result depend
- * on its parameters alone, whatever runs beside it; the portable form (+ - * / sqrt, nothing fused) has the
- * bits of fst_run() on every machine. */
+/* The forms of arithmetic: which operations a step is made of.  Within one form the bits of a result depend on
+ * its parameters alone, whatever runs beside it.  The portable form (+ - * / sqrt, nothing fused) has the bits
+ * of fst_run() on every machine. */
 typedef enum { FST_ARITHMETIC_PORTABLE, FST_ARITHMETIC_AVX2, FST_ARITHMETIC_AVX512 } fst_arithmetic;
 FST_API const char *fst_arithmetic_name(fst_arithmetic arithmetic);
 
-/* The fastest form that this processor has. */
+/* The fastest form that this processor can do. */
 FST_API fst_arithmetic fst_best_arithmetic(void);
 
-/* A run to be done: its parameters and, where `has_start`, the state that it starts from instead of start.*. */
+/* A run to be done: its parameters and, if `has_start`, the state from which it starts instead of start.*. */
 typedef struct fst_row_job {
     int64_t point;
     fst_params params;
@@ -444,30 +455,32 @@ typedef struct fst_row_job {
 typedef struct fst_row_work {
     void *user;
     fst_arithmetic arithmetic;
-    int lanes; /* runs side by side: 1, 4 or 8; 0: as many as the processor likes */
-    /* Fill in the next job and return 1; 0: there is none. */
+    int lanes; /* runs side by side: 1, 4 or 8; 0: as many as suit the processor */
+    /* Fill in the next job and return 1; return 0 where there is none. */
     int (*next)(void *user, fst_row_job *job);
-    /* Take a result; `status` and `error` are those of a run that failed.  Return 1 after filling in the job
-     * that is to follow at once, else 0. */
+    /* Take a result; for a run that failed `status` and `error` say why.  Return 1 after filling in the job
+     * that is to follow at once, otherwise 0. */
     int (*done)(void *user, fst_row_job *job, fst_status status, const fst_run_result *result,
                 const fst_error *error);
-    /* Whether to stop; asked often. */
+    /* Whether to stop; asked often, and by every thread that works on this source. */
     int (*stopped)(void *user);
 } fst_row_work;
 
-/* Do jobs in the calling thread until there are none; several threads may work on one source, each with a call
- * of its own.  FST_UNAVAILABLE: this processor lacks the arithmetic; FST_INTERRUPTED: stopped() said so. */
+/* Do jobs in the calling thread until there are none.  Several threads may work on one source, each with a call
+ * of its own.  FST_UNAVAILABLE: this processor cannot do the arithmetic; FST_INTERRUPTED: stopped() said so. */
 FST_API fst_status fst_rows(const fst_row_work *work, fst_error *error);
 
-/* Where images of runs that are not over are kept, so that another process can go on with them.  An image is
- * bytes that mean something to this build alone, in the same arithmetic; the run that goes on from it has the
- * bits of one that was never broken off. */
+/* Where images of unfinished runs are kept, so that another process can go on with them.  An image is bytes
+ * that only this build can read, in the same arithmetic; a run that goes on from it ends with the same bits as
+ * one that was never broken off. */
 typedef struct fst_row_images {
     void *user;
-    double seconds; /* of work after which a run is saved, again and again; all are when stopped() says so */
-    /* Take a copy of the image of a job that is not done. */
+    double seconds; /* seconds of work after which a run is saved, again and again; all are saved when stopped()
+                       says so */
+    /* Take a copy of the image of an unfinished job. */
     void (*save)(void *user, const fst_row_job *job, const void *image, size_t size);
-    /* The image of a job that begins, from malloc(), or NULL; one that this build cannot read is left out. */
+    /* The image of a job that begins, from malloc(), or NULL.  An image that this build cannot read
+     * is ignored. */
     void *(*find)(void *user, const fst_row_job *job, size_t *size);
 } fst_row_images;
 

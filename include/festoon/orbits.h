@@ -1,8 +1,8 @@
-/* orbits.h - periodic orbits, equilibria, their branches and bifurcations, Lyapunov spectra; a part of
- * festoon.h, which brings it.
+/* orbits.h - periodic orbits, equilibria, their branches and bifurcations, Lyapunov spectra; festoon.h includes
+ * it.
  *
- * All of it needs LAPACK; FST_UNAVAILABLE where this build or machine has none.  Methods and criteria:
- * docs/orbits.md.
+ * Everything here needs LAPACK; FST_UNAVAILABLE where this build or machine has none.  docs/orbits.md explains
+ * the methods and criteria.
  */
 #ifndef FESTOON_ORBITS_H
 #define FESTOON_ORBITS_H
@@ -13,40 +13,33 @@
 extern "C" {
 #endif
 
-/* Whether it can be called. */
+/* Whether LAPACK is there, so that the functions below can be called. */
 FST_API int fst_lapack_present(void);
 
 enum { FST_MULTIPLIER_COUNT = 8, FST_EIGENVALUE_COUNT = 9, FST_LYAPUNOV_TRACE = 64 };
 
 /* A periodic orbit of the turning frame. */
 typedef struct fst_orbit {
-    fst_run_result means;  /* over one whole turn of Phi (a libration: one period); `period` is that time */
-    fst_symmetry symmetry; /* S1, S2, or none for a libration */
-    int turns;             /* of Phi in the period: -1 for counter-rotation, 0 for a libration */
+    fst_run_result
+        means; /* over one whole turn of Phi (of a libration: over one period); `period` is that time */
+    fst_symmetry symmetry; /* S1 or S2; none for a libration */
+    int turns;             /* turns of Phi in the period: -1 for counter-rotation, 0 for a libration */
     int stable;
-    double multiplier_re[FST_MULTIPLIER_COUNT]; /* of the half map composed with S2 for S2, else of the full
-                                                   map; */
-    double multiplier_im[FST_MULTIPLIER_COUNT]; /* flow direction and |n| are split off */
-    double relaxation_time; /* in which a small disturbance falls by e, from the leading multiplier; NAN:
-                               unstable */
-    double swing_ratio;   /* the paper's p: of the two falls of r in a turn the larger over the other, minus 1;
-                           * NAN:   there are not two */
+    /* Multipliers of the half map composed with S2 for an S2 orbit, otherwise of the full map; the flow
+     * direction and |n| are split off. */
+    double multiplier_re[FST_MULTIPLIER_COUNT], multiplier_im[FST_MULTIPLIER_COUNT];
+    double relaxation_time; /* in which a small disturbance falls by a factor e, from the leading multiplier;
+                               NAN: unstable */
+    double swing_ratio;   /* the paper's p: r falls twice in a turn; the larger fall over the smaller one, minus
+                             1; NAN: it does not fall twice */
     double trivial_error; /* how exactly the flow direction was mapped onto itself */
-    double residual;      /* greatest component of what Newton's equations leave */
-    double state[FST_STATE_SIZE]; /* on Phi = pi/2, passed downward; a libration: where r is greatest */
+    double residual;      /* the greatest component of the residual of Newton's equations */
+    double state[FST_STATE_SIZE]; /* on Phi = pi/2, passed downward; of a libration where r is greatest */
 } fst_orbit;
 
-/* Who is told how far a long computation is: every few milliseconds, from its innermost loops.  A status other
- * than FST_OK ends it, with that status and with what the callback filled into `error`; the callback is then
- * not called again. */
-typedef struct fst_progress {
-    void *user;
-    fst_status (*tell)(void *user, double fraction, fst_error *error);
-} fst_progress;
-
-/* The stable orbit to which start.* leads: integrated until its returns come close, then polished by Newton's
- * method.  The plate's edge is ignored.  FST_NO_CONVERGENCE: no such orbit; the sentence tells where the bead
- * went instead (locked, ejected, irregular).  `progress` may be NULL. */
+/* The stable orbit to which start.* leads: integrated until its returns come close to each other, then refined
+ * by Newton's method.  The plate's edge is ignored.  FST_NO_CONVERGENCE: there is no such orbit; the sentence
+ * says where the bead went (locked, ejected, irregular).  `progress` may be NULL. */
 FST_API fst_status fst_orbit_find(const fst_params *params, const fst_progress *progress, fst_orbit *orbit,
                                   fst_error *error);
 
@@ -59,19 +52,20 @@ typedef struct fst_locked {
     double eigenvalue_re[FST_EIGENVALUE_COUNT], eigenvalue_im[FST_EIGENVALUE_COUNT];
     int stable;
     double residual;
-    int found; /* from how many starts Newton's method came here */
+    int found; /* the number of starts from which Newton's method came here */
 } fst_locked;
 
 typedef struct fst_locked_list {
-    fst_locked *states; /* by falling stability, then r */
+    fst_locked *states; /* ordered by falling stability, then by r */
     size_t count;
     int starts;    /* of the search */
-    int index_sum; /* sum of the signs of det(-J): the same at every omega unless a state comes from infinity */
-    int truncated; /* there are more states than the list has room for: they form continua */
+    int index_sum; /* the sum of the signs of det(-J): the same at every omega, unless a state comes from
+                      infinity */
+    int truncated; /* there are more states than the list can hold: they form continua */
 } fst_locked_list;
 
-/* Every equilibrium, by Newton's method from many starts.  Free the list with fst_locked_free().  `progress`
- * may be NULL. */
+/* Find every equilibrium, by Newton's method from many starts.  Free the list with fst_locked_free().
+ * `progress` may be NULL. */
 FST_API fst_status fst_locked_find(const fst_params *params, const fst_progress *progress,
                                    fst_locked_list *list, fst_error *error);
 FST_API void fst_locked_free(fst_locked_list *list);
@@ -79,7 +73,7 @@ FST_API void fst_locked_free(fst_locked_list *list);
 typedef enum {
     FST_BRANCH_COUNTER, /* the counter-rotating family */
     FST_BRANCH_LOCKED,  /* every family of equilibria */
-    FST_BRANCH_ALL /* these, and the orbits that are born at their Hopf points, with all that leaves them */
+    FST_BRANCH_ALL      /* these, the orbits that are born at their Hopf points, and all that leave those */
 } fst_branch_kind;
 /* "counter", "locked", "all" */
 FST_API const char *fst_branch_kind_name(fst_branch_kind kind);
@@ -98,12 +92,12 @@ FST_API const char *fst_special_name(fst_special_type type);
 /* A point of a branch. */
 typedef struct fst_branch_point {
     double value;  /* of the parameter */
-    double second; /* of the second one, NAN where there is none */
+    double second; /* of the second parameter; NAN where there is none */
     double omega, mean_r, mean_alpha_dot, mean_nz, festoons, period, min_r, phi_deg, slip;
-    double relaxation_time, swing_ratio; /* as of an orbit; of an equilibrium the former */
+    double relaxation_time, swing_ratio; /* as of an orbit; an equilibrium has only the former */
     fst_symmetry symmetry;
     int stable, turns, branch;
-    int multipliers; /* 8 of an orbit, 9 eigenvalues of an equilibrium */
+    int multipliers; /* 8 multipliers of an orbit, 9 eigenvalues of an equilibrium */
     double multiplier_re[FST_EIGENVALUE_COUNT], multiplier_im[FST_EIGENVALUE_COUNT];
     double state[FST_STATE_SIZE];
 } fst_branch_point;
@@ -113,16 +107,16 @@ typedef struct fst_special {
     double value, omega;
     int branch;
     int criticality; /* 1 supercritical, -1 subcritical, 0 undecided or meaningless */
-    int born;        /* branch that leaves here, or -1 */
+    int born;        /* the branch that leaves here, or -1 */
     fst_branch_point at;
 } fst_special;
 
-/* Why a branch ends. */
+/* An end of a branch, and why it ends there. */
 typedef struct fst_branch_end {
     int branch;
     int family; /* the branch from which it was born, or -1 */
-    int image;  /* the branch on which the images of its states under S2 lie: its own number where it is its own
-                 * image, another one, or -1: there is such a branch, which is not listed */
+    int image;  /* the branch of the images of its states under S2: its own number where it is its own image,
+                   another branch, or -1: that branch exists but is not listed */
     double value;
     char reason[192];
 } fst_branch_end;
@@ -131,8 +125,9 @@ typedef struct fst_branch {
     fst_branch_kind kind;
     char key[64];
     double from, to;
-    /* Over two parameters (else second_key is empty): points are special points of the type `followed`, each
-     * branch is the curve of one, and `stable` says whether all attracts but the critical direction. */
+    /* Over two parameters (otherwise second_key is empty) a point is a special point of the type `followed`,
+     * and each branch is the curve of one.  `stable` then says whether all directions except the critical one
+     * attract. */
     char second_key[64];
     double second_from, second_to;
     fst_special_type followed;
@@ -140,10 +135,10 @@ typedef struct fst_branch {
     size_t point_count;
     fst_special *specials;
     size_t special_count;
-    fst_branch_end *ends; /* two a branch */
+    fst_branch_end *ends; /* two for each branch */
     size_t end_count;
     int branches;
-    int complete; /* 0: stopped by the caller before its end */
+    int complete; /* 0: the caller stopped it before its end */
 } fst_branch;
 
 typedef struct fst_branch_options {
@@ -154,20 +149,19 @@ typedef struct fst_branch_options {
     double tolerance;    /* of the integration; 1e-12 */
     double longest_step; /* along the curve, scaled; 0.5 */
     int follow;          /* switch branches at pitchforks, period doublings and Hopf points */
-    /* A second parameter (NULL: none) and its range: special points of the type `special` are sought over `key`
-     * at the scene's value of the second, and each is then followed as a curve over both. */
+    /* A second parameter (NULL: none) and its range.  Special points of the type `special` are sought over
+     * `key` at the scene's value of the second parameter, and each is then followed as a curve over both. */
     const char *second_key;
     double second_from, second_to;
     fst_special_type special;
-    void *user;
-    fst_status (*progress)(void *user, double fraction, fst_error *error);
+    const fst_progress *progress; /* NULL: nobody is told */
 } fst_branch_options;
 FST_API fst_branch_options fst_default_branch_options(void);
 
 /* Follow the counter-rotating family (the S2 branch both ways, the S1 branches that leave it, through r = 0 and
- * beyond), or every family of equilibria, or all of it, over a parameter; or the curves of special points over
- * two.  Free it with fst_branch_free().  FST_INTERRUPTED (from `progress`): the branch holds what was found
- * until then, and is to be freed too. */
+ * beyond), or every family of equilibria, or all of these, over a parameter; or the curves of special points
+ * over two.  Free the branch with fst_branch_free(), also after FST_INTERRUPTED (from `progress`): it then
+ * holds what was found until then. */
 FST_API fst_status fst_branch_follow(const fst_params *params, const fst_branch_options *options,
                                      fst_branch *branch, fst_error *error);
 FST_API void fst_branch_free(fst_branch *branch);
@@ -177,18 +171,18 @@ typedef struct fst_festoon_list {
     double *omegas; /* rising; each has a stable orbit with N festoons */
     fst_orbit *orbits;
     size_t count;
-    double least[2],
-        greatest[2]; /* N on the stable S1 orbits, on the stable S2 orbits; inf, -inf: none is stable */
-    double from, to; /* the range of omega of both */
+    double least[2], greatest[2]; /* N on the stable S1 orbits, on the stable S2 orbits; inf, -inf: no such
+                                     orbit is stable */
+    double from, to;              /* the range of omega of both */
 } fst_festoon_list;
 
-/* Every omega at which a stable counter-rotating pattern has exactly N festoons.  FST_NO_CONVERGENCE: none; the
- * sentence tells how far the branch reaches.  `progress` may be NULL. */
+/* Find every omega at which a stable counter-rotating pattern has exactly N festoons.  FST_NO_CONVERGENCE:
+ * there is none; the sentence says how far the branch reaches.  `progress` may be NULL. */
 FST_API fst_status fst_festoons_find(const fst_params *params, double festoons, const fst_progress *progress,
                                      fst_festoon_list *list, fst_error *error);
 
-/* The same on a branch of the kind FST_BRANCH_COUNTER over drive.omega that fst_branch_follow() made of the
- * same parameters: for many N. */
+/* The same on a branch of the kind FST_BRANCH_COUNTER over drive.omega that fst_branch_follow() made from the
+ * same parameters; it saves time for many N. */
 FST_API fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, double festoons,
                                    const fst_progress *progress, fst_festoon_list *list, fst_error *error);
 FST_API void fst_festoons_free(fst_festoon_list *list);
@@ -197,11 +191,12 @@ FST_API void fst_festoons_free(fst_festoon_list *list);
 typedef struct fst_lyapunov {
     double exponents[FST_EIGENVALUE_COUNT]; /* falling; gamma */
     double errors[FST_EIGENVALUE_COUNT];    /* standard errors, from blocks */
-    double error;                           /* the greatest of them */
-    int converged;                          /* every sign is decided, or zero within an error below 1e-4 */
-    int flow_direction; /* index of the exponent that belongs to the flow, -1 at an equilibrium */
-    double divergence;  /* mean divergence of the flow: the sum of the exponents, measured apart */
-    double time;        /* averaged over */
+    double error;                           /* the greatest of the errors */
+    int converged;      /* every exponent has a sure sign, or is zero within an error below 1e-4 */
+    int flow_direction; /* the index of the exponent that belongs to the flow; -1 at an equilibrium */
+    double divergence;  /* the mean divergence of the flow, measured independently; it equals the sum of the
+                           exponents */
+    double time;        /* the time over which they are averaged */
     int trace_count;
     double trace_time[FST_LYAPUNOV_TRACE], trace[FST_LYAPUNOV_TRACE][FST_EIGENVALUE_COUNT]; /* running means */
 } fst_lyapunov;

@@ -1,22 +1,26 @@
-/* bracket.h - the zero of a function between two places, by false position with Illinois' rule: a place that
- * stays for a second time counts half, so that both close in. */
+/* bracket.h - the zero of a function between two places of opposite sign, by false position.
+ *
+ * The Illinois rule makes both places close in: where one place stays for the second time in a row, its value
+ * is halved before the next step.
+ */
 #ifndef FST_BASE_BRACKET_H
 #define FST_BASE_BRACKET_H
 
 typedef struct fst_bracket {
-    double lo, hi;     /* places, in any order ... */
-    double f_lo, f_hi; /* ... with values of opposite signs, those that count half halved */
+    double lo, hi;     /* two places, in any order ... */
+    double f_lo, f_hi; /* ... and the values there, of opposite signs; halved where the rule says so */
     int side;          /* which place moved last: -1 lo, 1 hi, 0 none yet */
 } fst_bracket;
 
-/* Where to look next; the middle where rounding leaves no place between. */
+/* The next place to evaluate the function: the zero of the straight line through both values, or the middle
+ * where rounding puts that zero outside. */
 static inline double fst_bracket_next(const fst_bracket *b)
 {
     const double x = (b->lo * b->f_hi - b->hi * b->f_lo) / (b->f_hi - b->f_lo);
     return (x - b->lo) * (b->hi - x) > 0 ? x : 0.5 * (b->lo + b->hi);
 }
 
-/* The value there. */
+/* Take the value `f` at the place `x`, which replaces the end whose value has the same sign. */
 static inline void fst_bracket_take(fst_bracket *b, double x, double f)
 {
     if ((f < 0) == (b->f_lo < 0)) {

@@ -1,10 +1,10 @@
-/* clock.h - the clock that nobody sets: that of the day may be set back by hours. */
+/* clock.h - a clock that only runs forward.  (The time of day does not: it may be set back by hours.) */
 #ifndef FST_BASE_CLOCK_H
 #define FST_BASE_CLOCK_H
 
 #include <time.h>
 
-/* Seconds since some moment. */
+/* Seconds since some fixed moment: only differences mean something. */
 static inline double fst_clock_seconds(void)
 {
     struct timespec time = {0, 0};

@@ -1,6 +1,8 @@
+/* elementary.c - sine and cosine from additions and multiplications alone, so that every machine gives the same
+ * bits. */
 #include "base/elementary.h"
 
-/* Taylor's series on |x| <= pi/4; the first term left out is below 2^-64 of the result. */
+/* Taylor's series for |x| <= pi/4; the first term left out is below 2^-64 of the result. */
 static double sine_series(double x)
 {
     static const double c[] = {-1.0 / 6,        1.0 / 120,        -1.0 / 5040,          1.0 / 362880,
@@ -25,7 +27,7 @@ static double cosine_series(double x)
 
 void fst_sin_cos_degrees(double degrees, double *sine, double *cosine)
 {
-    /* Turns and quarter turns of whole degrees are taken off exactly; |rest| <= 45. */
+    /* Take off whole turns and then quarter turns; for whole degrees this is exact.  Then |rest| <= 45. */
     double rest = degrees - 360.0 * (double)(long long)(degrees / 360.0);
     const int quarters = (int)(rest / 90.0 + (rest < 0 ? -0.5 : 0.5));
     rest -= 90.0 * quarters;

@@ -1,3 +1,4 @@
+/* error.c - filling the caller's error, the texts of the statuses, and the version. */
 #include "base/error.h"
 
 #include <stdarg.h>
@@ -15,10 +16,10 @@ fst_status fst_fail(fst_error *error, fst_status code, const char *where, const 
     va_start(arguments, format);
     (void)vsnprintf(sentence, sizeof sentence, format, arguments);
     va_end(arguments);
-    /* The format may quote the old error's text, so both fields are replaced only now. */
+    /* The arguments may point into the old error, so both fields are replaced only now. */
     char place[sizeof error->where];
     (void)snprintf(place, sizeof place, "%s", where ? where : "");
-    /* Both may quote a file's words or its name, and go to a terminal. */
+    /* Both may quote a file's name or contents, and both go to a terminal. */
     fst_text_tame(place);
     fst_text_tame(sentence);
     error->code = code;

@@ -4,8 +4,8 @@
 
 #include <festoon/festoon.h>
 
-/* Write code, place and sentence into `error` (ignored if NULL) and return `code`, so that a failing function
- * can end with `return fst_fail(...)`.  `where` may be NULL. */
+/* Write code, place and sentence into `error` (nothing where it is NULL) and return `code`, so that a failing
+ * function can end with `return fst_fail(...)`.  `where` may be NULL. */
 fst_status fst_fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

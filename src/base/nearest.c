@@ -1,12 +1,13 @@
+/* nearest.c - the valid name that is nearest to a wrong one, for "did you mean". */
 #include <festoon/festoon.h>
 
 #include <stdio.h>
 #include <string.h>
 
-/* Longer words are compared by their beginnings: no name comes near this. */
+/* Longer words are compared by their first 63 letters: every valid name is shorter. */
 #define LONGEST 63
 
-/* Costs are counted in halves: a wrong letter 2, a letter in the wrong case 1. */
+/* Costs are counted in halves: a wrong letter costs 2, a letter in the wrong case 1. */
 #define EDIT_COST 2U
 #define CASE_COST 1U
 
@@ -27,17 +28,17 @@ static unsigned replacing(char a, char b)
     return lower((unsigned char)a) == lower((unsigned char)b) ? CASE_COST : EDIT_COST;
 }
 
-/* Edit distance in halves, by the usual table kept as three rows: letters left out, put in, replaced, and two
- * neighbours exchanged each cost one edit. */
+/* The edit distance in halves.  A letter left out, put in or replaced costs one edit, and so do two neighbours
+ * exchanged.  It is the usual table of dynamic programming, of which three rows are kept. */
 static unsigned distance(const char *a, size_t a_length, const char *b, size_t b_length)
 {
     unsigned rows[3][LONGEST + 1];
     unsigned *two_up = rows[0], *up = rows[1], *row = rows[2];
-    for (size_t j = 0; j <= b_length; j++)
+    for (size_t j = 0; j <= b_length; ++j)
         up[j] = (unsigned)j * EDIT_COST;
-    for (size_t i = 1; i <= a_length; i++) {
+    for (size_t i = 1; i <= a_length; ++i) {
         row[0] = (unsigned)i * EDIT_COST;
-        for (size_t j = 1; j <= b_length; j++) {
+        for (size_t j = 1; j <= b_length; ++j) {
             unsigned cost = up[j - 1] + replacing(a[i - 1], b[j - 1]);
             cost = least(cost, least(up[j], row[j - 1]) + EDIT_COST);
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])

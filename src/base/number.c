@@ -1,3 +1,4 @@
+/* number.c - decimal numbers to and from text, the same in every locale. */
 #include "base/number.h"
 
 #include <math.h>
@@ -5,8 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Longest number that is read: more digits than any double needs to be exact would be 770, but nobody types
- * 400 either. */
+/* The longest number that is read.  No double needs more than 770 digits, and nobody types 400. */
 #define LONGEST 400
 
 fst_c_locale fst_c_locale_enter(void)
@@ -40,7 +40,7 @@ size_t fst_number_length(const char *text)
     }
     if (whole + fraction == 0)
         return 0;
-    /* An 'e' without digits behind it is no exponent; the caller then meets it as a unit. */
+    /* An 'e' without digits behind it is no exponent; the caller then takes it for the beginning of a unit. */
     if (text[at] == 'e' || text[at] == 'E') {
         size_t sign = text[at + 1] == '+' || text[at + 1] == '-';
         size_t exponent = digits_at(text + at + 1 + sign);
@@ -56,11 +56,11 @@ double fst_number_read(const char *text, size_t length, int shift)
         return INFINITY;
     size_t mantissa = 0;
     while (mantissa < length && text[mantissa] != 'e' && text[mantissa] != 'E')
-        mantissa++;
+        ++mantissa;
     long exponent = 0;
     if (mantissa < length)
         exponent = strtol(text + mantissa + 1, NULL, 10);
-    /* Far beyond the range of a double either way; clamped so that the sum cannot overflow. */
+    /* Clamped far outside the range of a double, so that the sum below cannot overflow. */
     if (exponent > 100000)
         exponent = 100000;
     if (exponent < -100000)
@@ -78,7 +78,7 @@ int fst_number_write(char *text, size_t size, double value)
     fst_c_locale locale = fst_c_locale_enter();
     char number[40] = "";
     int length = 0;
-    for (int digits = 15; digits <= 17; digits++) {
+    for (int digits = 15; digits <= 17; ++digits) {
         length = snprintf(number, sizeof number, "%.*g", digits, value);
         if (!isfinite(value) || memcmp(&(double){strtod(number, NULL)}, &value, sizeof value) == 0)
             break;

@@ -1,8 +1,9 @@
 /* real_double.h - bodies (*.inl) compiled over double.
  *
- * A body is written once over REAL, FN() and R() and includes no header of its own: the including file says
- * which kind of number it is compiled for.  This is the portable form: + - * / sqrt alone, nothing fused, so
- * that its bits are the same on every machine.  Lanes of an instruction set get a header like this one.
+ * A body is written once over REAL, FN() and R() and includes no header of its own: the file that includes it
+ * says for which kind of number it is compiled.  This is the portable form: only + - * / sqrt, and no fused
+ * multiply-add, so that its bits are the same on every machine.  The lanes of an instruction set have wide.h
+ * instead.
  */
 #ifndef FST_BASE_REAL_DOUBLE_H
 #define FST_BASE_REAL_DOUBLE_H
@@ -15,7 +16,8 @@
 #include <emmintrin.h>
 #endif
 
-/* The two ends of a line of dipoles side by side, where a processor's basic registers hold two doubles. */
+/* The two ends of a line of dipoles, computed side by side: two doubles fit into one of a processor's basic
+ * registers. */
 typedef double fst_two_doubles __attribute__((vector_size(16)));
 
 static inline fst_two_doubles fst_sqrt_two_doubles(fst_two_doubles x)
@@ -27,7 +29,7 @@ static inline fst_two_doubles fst_sqrt_two_doubles(fst_two_doubles x)
 #endif
 }
 
-#define ENDS fst_two_doubles /* both ends in one ... */
+#define ENDS fst_two_doubles /* both ends in one register */
 #define ENDS_GROUPS 1
 #define ENDS_OF(plus, minus)                                                                                   \
     {                                                                                                          \

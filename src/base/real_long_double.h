@@ -7,7 +7,7 @@
 #include "base/real_scalar.h"
 #include "base/sums.h"
 
-#define ENDS long double /* ... or each on its own */
+#define ENDS long double /* each end on its own */
 #define ENDS_GROUPS 2
 #define ENDS_OF(plus, minus)                                                                                   \
     {                                                                                                          \

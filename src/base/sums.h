@@ -1,6 +1,7 @@
-/* sums.h - sums of products in one order for every kind of number: ((a1 b1 + a2 b2) + a3 b3) + ...
+/* sums.h - sums of products, in one order for every kind of number: ((a1 b1 + a2 b2) + a3 b3) + ...
  *
- * Each product is added by REAL_MULADD(a, b, sum), which lanes with fused operations round once.
+ * Do not reorder: this order defines the published bits.  Each product is added by REAL_MULADD(a, b, sum),
+ * which lanes with fused operations round once.
  */
 #ifndef FST_BASE_SUMS_H
 #define FST_BASE_SUMS_H

@@ -6,13 +6,13 @@
 
 #include <festoon/festoon.h> /* fst_text_tame() */
 
-/* Room that fst_quote() needs at most. */
+/* The most room that fst_quote() needs. */
 #define FST_QUOTE_SIZE 80
 
-/* Copy `text` between double quotes, tamed, long text cut with "..."; returns `quoted`. */
+/* Copy `text` between double quotes, tamed, with "..." where a long text is cut.  Returns `quoted`. */
 const char *fst_quote(const char *text, char quoted[FST_QUOTE_SIZE]);
 
-/* `text` without white space at both ends: returns its beginning and stores its length. */
+/* Strip white space from both ends of `text`: returns where the rest begins, and stores its length. */
 const char *fst_trim(const char *text, size_t *length);
 
 #endif

@@ -1,3 +1,5 @@
+/* units.c - the units that values may carry: reading "2.5 mm", and writing values in the units that
+ * people use. */
 #include "base/units.h"
 
 #include <stdio.h>
@@ -7,8 +9,8 @@
 #include "base/number.h"
 #include "base/text.h"
 
-/* One unit: value in SI = number * 10^shift * times / over.  Powers of ten go into the decimal text, so that
- * "2.5 mm" is the double nearest to 0.0025. */
+/* One unit: the value in SI is number * 10^shift * times / over.  The power of ten goes into the decimal text
+ * before it is read, so that "2.5 mm" is the double nearest to 0.0025. */
 typedef struct unit_row {
     fst_unit kind;
     const char *name; /* in the plain spelling that plain_unit() makes */
@@ -46,7 +48,8 @@ static const unit_row unit_rows[] = {
 };
 static const size_t unit_row_count = sizeof unit_rows / sizeof unit_rows[0];
 
-/* Per kind: the SI unit, the list for messages, and the row in which people like to read values. */
+/* For each kind: the SI unit, the list for messages, and the row of the unit in which people like to read
+ * values. */
 static const struct {
     const char *name, *accepted, *customary;
 } kinds[] = {
@@ -71,7 +74,7 @@ const char *fst_unit_accepted(fst_unit unit)
     return kinds[unit].accepted;
 }
 
-/* Spellings of the same character or sign, longest first. */
+/* Different spellings of one character or sign; the longest come first. */
 static const struct {
     const char *found, *plain;
 } spellings[] = {
@@ -81,15 +84,15 @@ static const struct {
     {"\xC2\xB7", " "},   {"*", " "},        {".", " "},        /* products */
 };
 
-/* Bring a unit to the spelling of the table: "µm" to "um", "A.m^2" and "A*m²" to "A m2", runs of white space
- * to one space.  Too long a unit is cut: it is unknown anyway. */
+/* Bring a unit to the spelling of the table: "µm" to "um", "A.m^2" and "A*m²" to "A m2", runs of white space to
+ * one space.  A unit that is too long is cut: it is unknown in any case. */
 static void plain_unit(const char *text, size_t length, char *plain, size_t size)
 {
     size_t out = 0;
     for (size_t at = 0; at < length && out + 4 < size;) {
         const char *piece = NULL;
         size_t taken = 1;
-        for (size_t i = 0; i < sizeof spellings / sizeof spellings[0] && !piece; i++) {
+        for (size_t i = 0; i < sizeof spellings / sizeof spellings[0] && !piece; ++i) {
             size_t found = strlen(spellings[i].found);
             if (found <= length - at && memcmp(text + at, spellings[i].found, found) == 0) {
                 piece = spellings[i].plain;
@@ -113,7 +116,7 @@ static void plain_unit(const char *text, size_t length, char *plain, size_t size
 
 static const unit_row *find_unit(fst_unit kind, const char *plain)
 {
-    for (size_t i = 0; i < unit_row_count; i++)
+    for (size_t i = 0; i < unit_row_count; ++i)
         if (unit_rows[i].kind == kind && strcmp(unit_rows[i].name, plain) == 0)
             return &unit_rows[i];
     return NULL;
@@ -126,10 +129,10 @@ static fst_status wrong_unit(const char *text, fst_unit kind, const char *writte
     fst_quote(text, quoted_text);
     fst_quote(written, quoted);
     if (kind == FST_UNIT_NUMBER)
-        return fst_fail(error, FST_BAD_INPUT, "value", "%s has the unit %s where a number without unit belongs",
-                        quoted_text, quoted);
+        return fst_fail(error, FST_BAD_INPUT, "value",
+                        "%s has the unit %s, but this value is a number without a unit", quoted_text, quoted);
     char names[256] = "", nearest[16];
-    for (size_t i = 0; i < unit_row_count; i++)
+    for (size_t i = 0; i < unit_row_count; ++i)
         if (unit_rows[i].kind == kind) {
             size_t used = strlen(names);
             (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", unit_rows[i].name);
@@ -158,7 +161,8 @@ fst_status fst_parse_value(const char *text, fst_unit unit, double *value, fst_e
     plain_unit(written, strlen(written), plain, sizeof plain);
     static const unit_row bare = {FST_UNIT_NUMBER, "", 0, 1, 1};
     const unit_row *row = written[0] ? find_unit(unit, plain) : &bare;
-    /* "0x10" begins with a number, the zero; say what is really wrong. */
+    /* "0x10" begins with a number, the zero, so the complaint would be about the unit "x10": say what is really
+     * wrong. */
     if (!row && (written[0] == 'x' || written[0] == 'X'))
         return fst_fail(error, FST_BAD_INPUT, "value", "%s is no decimal number", fst_quote(text, quoted));
     if (!row)
@@ -179,7 +183,8 @@ int fst_value_write(char *text, size_t size, double value, fst_unit unit)
         (void)fst_number_write(number, sizeof number, value);
         return snprintf(text, size, "%s", number);
     }
-    /* The customary units are powers of ten of the SI unit: shift the digits, not the value. */
+    /* The customary units are powers of ten of the SI unit: shift the digits instead of computing with the
+     * value. */
     const unit_row *row = find_unit(unit, customary);
     (void)fst_number_write(number, sizeof number, value);
     double shifted = fst_number_read(number, fst_number_length(number), -row->shift);

@@ -1,10 +1,10 @@
 /* wide.h - bodies (*.inl) compiled over 4 or 8 doubles side by side, one trajectory in each lane.
  *
- * The including file defines FST_LANES (4: AVX2, 8: AVX-512) and, for the fast form, FST_FUSED; it is compiled
- * with the flags of its instruction set, and no wide value leaves it.  + - * / are the compiler's vector
- * operations; the rest is here.  The portable form has the operations of real_double.h and so its bits, lane by
- * lane.  The fast form fuses multiplications with additions where a body says REAL_MULADD, and takes reciprocal
- * square roots from an estimate.
+ * The file that includes this defines FST_LANES (4: AVX2, 8: AVX-512) and, for the fast form, FST_FUSED.  It is
+ * compiled with the flags of its instruction set, and no wide value leaves it.  + - * / are the compiler's
+ * vector operations; the rest is here.  The portable form does the operations of real_double.h and so has its
+ * bits, lane by lane.  The fast form fuses a multiplication with an addition where a body says REAL_MULADD, and
+ * computes reciprocal square roots from the processor's estimate.
  */
 #ifndef FST_BASE_WIDE_H
 #define FST_BASE_WIDE_H
@@ -13,7 +13,7 @@
 
 #include "base/sums.h"
 
-/* The bodies are compiled once more: forget the kind of number that the including file's headers brought. */
+/* The bodies are compiled once more: undefine the kind of number that the earlier headers brought. */
 #undef ENDS
 #undef ENDS_GROUPS
 #undef ENDS_OF
@@ -124,9 +124,8 @@ static inline fst_wide fst_wide_improve(fst_wide x, fst_wide y)
 }
 
 #if FST_LANES == 4
-/* 1/sqrt(x) to 3.5 %, from the number's exponent: processors differ in the bits of their estimates for 4
- * floats.
- */
+/* 1/sqrt(x) to 3.5 %, from the number's exponent.  The instruction that estimates 4 floats is not used: its
+ * bits differ between makes of processor. */
 static inline fst_wide fst_wide_guess_reciprocal_sqrt(fst_wide x)
 {
     const fst_wide_bits bits = 0x5fe6eb50c7b537a9LL - ((fst_wide_bits)_mm256_srli_epi64((__m256i)x, 1));
@@ -137,7 +136,7 @@ static inline fst_wide fst_wide_guess_reciprocal_sqrt(fst_wide x)
 static inline fst_wide fst_wide_reciprocal_sqrt(fst_wide x)
 {
 #if FST_LANES == 8
-    /* Exact to 2^-14, by definition of the instruction. */
+    /* Correct to 2^-14, by definition of the instruction. */
     return fst_wide_improve(x, (fst_wide)_mm512_rsqrt14_pd(WIDE_NATIVE(x)));
 #else
     return fst_wide_improve(x, fst_wide_improve(x, fst_wide_guess_reciprocal_sqrt(x)));
@@ -150,7 +149,7 @@ static inline fst_wide fst_wide_estimate_reciprocal_sqrt(fst_wide x)
 #if FST_LANES == 8
     return (fst_wide)_mm512_rsqrt14_pd(WIDE_NATIVE(x));
 #else
-    /* A root and a quotient of floats, which are exactly rounded everywhere. */
+    /* A root and a quotient of floats; every processor rounds these exactly. */
     const __m128 root = _mm_sqrt_ps(_mm256_cvtpd_ps(WIDE_NATIVE(x)));
     return (fst_wide)_mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0F), root));
 #endif
@@ -167,26 +166,26 @@ static inline fst_wide fst_wide_inverse_fifth(fst_wide x, fst_wide y)
      * leaves 3.4e-16. */
     const fst_wide rest = WIDE_MULADD(e, fst_wide_of(6.5625), fst_wide_of(4.375 + 1.1135e-7));
 #else
-    /* |e| < 4e-7, and 6.6 e^3 is nothing. */
+    /* |e| < 4e-7: the next term, 6.6 e^3, is below rounding. */
     const fst_wide rest = fst_wide_of(4.375);
 #endif
     const fst_wide series = WIDE_MULADD(e, WIDE_MULADD(e, rest, first), one);
     return ((y2 * y2) * y) * series;
 }
 
-/* 1/x = y^2/(1 - e) of the same. */
+/* 1/x = y^2/(1 - e) of the same y and e. */
 static inline fst_wide fst_wide_inverse(fst_wide x, fst_wide y)
 {
     const fst_wide one = fst_wide_of(1.0), y2 = y * y, e = WIDE_NEGMULADD(x, y2, one);
 #if FST_LANES == 8
-    const fst_wide rest = WIDE_MULADD(e, e, e); /* e + e^2 + e^3, and e^4 < 2.3e-16 */
+    const fst_wide rest = WIDE_MULADD(e, e, e); /* e + e^2 + e^3; e^4 < 2.3e-16 */
     return WIDE_MULADD(y2, WIDE_MULADD(e, rest, e), y2);
 #else
     return WIDE_MULADD(y2, WIDE_MULADD(e, e, e), y2);
 #endif
 }
 
-/* 1/x to about 1e-8, for what needs no more: scaling errors. */
+/* 1/x to about 1e-8, which is enough to scale errors. */
 static inline fst_wide fst_wide_rough_reciprocal(fst_wide x)
 {
 #if FST_LANES == 8
@@ -197,7 +196,8 @@ static inline fst_wide fst_wide_rough_reciprocal(fst_wide x)
 #endif
 }
 
-/* 1/sqrt(x) to about 1e-4, for the choice of step sizes: nothing else can be done before the next is known. */
+/* 1/sqrt(x) to about 1e-4, which is enough to choose a step size.  It is short because nothing else can be
+ * computed until the next step size is known. */
 static inline fst_wide fst_wide_rough_reciprocal_sqrt(fst_wide x)
 {
 #if FST_LANES == 8
@@ -219,12 +219,13 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_MULSUB(a, b, c) WIDE_MULSUB(a, b, c)
 #define REAL_NEGMULADD(a, b, c) WIDE_NEGMULADD(a, b, c)
 #define REAL_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x)
-#define REAL_FAST_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x) /* where it is no root and a quotient */
+#define REAL_FAST_RECIPROCAL_SQRT(x)                                                                           \
+    fst_wide_reciprocal_sqrt(x) /* this form computes it without a root and a quotient */
 #define REAL_ESTIMATE_RECIPROCAL_SQRT(x) fst_wide_estimate_reciprocal_sqrt(x)
 #define REAL_INVERSE_FIFTH(x, estimate) fst_wide_inverse_fifth(x, estimate)
 #define REAL_INVERSE(x, estimate) fst_wide_inverse(x, estimate)
 #define REAL_ROUGH_RECIPROCAL(x) fst_wide_rough_reciprocal(x)
-#define REAL_OVER_SQRT(a, x) ((a)*fst_wide_rough_reciprocal_sqrt(x)) /* where four digits do */
+#define REAL_OVER_SQRT(a, x) ((a)*fst_wide_rough_reciprocal_sqrt(x)) /* to four digits */
 #define REAL_INVERSE_EIGHTH_ROOT(x) fst_wide_inverse_eighth_root(x)
 #else
 #define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
@@ -235,10 +236,9 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))
 #endif
 
-/* A right-hand side is long, and called thirteen times a step.  gcc is not to look into it either: it would
- * take numbers that it finds unchanged over a call for worth keeping, on a stack that the first cache has no
- * room for.
- */
+/* A right-hand side is long and called thirteen times a step, so it is not inlined.  noipa also keeps gcc from
+ * looking into it: gcc would find numbers that the call leaves unchanged and keep them on the stack, more of
+ * them than fit into the first cache. */
 #ifdef __clang__
 #define RHS_KIND static __attribute__((noinline))
 #else
@@ -246,7 +246,7 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #endif
 
 #ifdef FST_FUSED
-#define REAL_FORCES_AHEAD /* where forces, without a root and a quotient to wait for, keep a processor busy */
+#define REAL_FORCES_AHEAD /* forces first, then the stages' sums */
 #endif
 
 #define ENDS fst_wide /* the registers are full: each end on its own */

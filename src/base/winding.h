@@ -1,7 +1,7 @@
-/* winding.h - how often a point goes round the origin: an unwrapped angle without accumulated error.
+/* winding.h - how often a point has gone round the origin: an unwrapped angle without accumulated error.
  *
- * The angle is 2 pi times an integer plus the angle of the last point; the integer changes only when the path
- * crosses the negative x axis, which is decided by signs alone.
+ * The angle is 2 pi times an integer plus the angle of the last point.  The integer changes only when the path
+ * crosses the negative x axis, which the signs of the coordinates decide.
  */
 #ifndef FST_BASE_WINDING_H
 #define FST_BASE_WINDING_H
@@ -26,13 +26,13 @@ static inline void fst_winding_advance(fst_winding *w, double x, double y)
     w->y = y;
 }
 
-/* Whether the straight line to (x, y) passes the origin so closely that the curved path that it stands for may
- * pass on the other side: nearer than a quarter of its length. */
+/* Whether the straight line to (x, y) passes the origin within a quarter of its length.  The curved path that
+ * it stands for may then pass on the other side. */
 static inline int fst_winding_is_doubtful(const fst_winding *w, double x, double y)
 {
     const double dx = x - w->x, dy = y - w->y, length2 = dx * dx + dy * dy;
     const double along0 = w->x * dx + w->y * dy, along1 = x * dx + y * dy;
-    if (along0 > 0 || along1 < 0) /* the nearest point is an end */
+    if (along0 > 0 || along1 < 0) /* the nearest point of the line is one of its ends */
         return 0;
     const double cross = w->x * y - w->y * x;
     return 16.0 * (cross * cross) < length2 * length2;
@@ -41,7 +41,7 @@ static inline int fst_winding_is_doubtful(const fst_winding *w, double x, double
 /* The unwrapped angle, rad. */
 static inline double fst_winding_angle(const fst_winding *w)
 {
-    /* y = -0 lies on the same side of the half-axis as +0. */
+    /* y = -0 counts as +0: both lie on the same side of the half-axis. */
     return 6.283185307179586476925287 * (double)w->turns + atan2(w->y + 0.0, w->x);
 }
 

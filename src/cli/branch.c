@@ -21,12 +21,12 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-/* Both ends must be values that the key can have, and the equations of motion must depend on it. */
+/* Check that the key can have both values, and that the equations of motion depend on it. */
 static fst_status check_range(const char *name, const char *key, const char *low, const char *high,
                               fst_error *error)
 {
     static const char *const apart[] = {"start.", "run.", "plate."};
-    for (size_t i = 0; i < sizeof apart / sizeof *apart; i++)
+    for (size_t i = 0; i < sizeof apart / sizeof *apart; ++i)
         if (strncmp(key, apart[i], strlen(apart[i])) == 0)
             return fail(
                 error, FST_BAD_INPUT, name,
@@ -41,7 +41,7 @@ static fst_status check_range(const char *name, const char *key, const char *low
     return FST_OK;
 }
 
-/* KEY=LO:HI of an option into key and ends; values may carry the key's unit. */
+/* Read KEY=LO:HI of an option; the values may carry the key's unit. */
 static fst_status read_range(const char *name, const char *text, char key[64], double *from, double *to,
                              fst_error *error)
 {
@@ -55,7 +55,7 @@ static fst_status read_range(const char *name, const char *text, char key[64], d
     const int row = fst_param_find(key);
     if (row < 0 || fst_param_at(row)->kind != FST_KIND_REAL) {
         char names[2048] = "", nearest[64];
-        for (int i = 0; i < fst_param_count(); i++) {
+        for (int i = 0; i < fst_param_count(); ++i) {
             const size_t used = strlen(names);
             if (fst_param_at(i)->kind == FST_KIND_REAL)
                 (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
@@ -76,7 +76,7 @@ static fst_status read_range(const char *name, const char *text, char key[64], d
     return check_range(name, key, low, high, error);
 }
 
-/* The second parameter, and the type of the special points that are followed over both. */
+/* Read the second parameter, and the type of special points that are followed over both. */
 static fst_status read_second(const arguments *given, char key[64], fst_branch_options *o, fst_error *error)
 {
     const char *with = option_value(given, "with"), *follow = option_value(given, "follow");
@@ -87,7 +87,7 @@ static fst_status read_second(const arguments *given, char key[64], fst_branch_o
                     "curves over two parameters need both, as in --follow pitchfork --with model.kappa=1:3");
     char names[160] = "", nearest[32];
     int found = 0;
-    for (int type = FST_SPECIAL_FOLD; type <= FST_SPECIAL_ORIGIN_CROSSING; type++) {
+    for (int type = FST_SPECIAL_FOLD; type <= FST_SPECIAL_ORIGIN_CROSSING; ++type) {
         const char *name = fst_special_name((fst_special_type)type);
         const size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", name);
@@ -112,13 +112,13 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
     const char *kind = option_value(given, "kind"), *over = option_value(given, "over");
     const char *tolerance = option_value(given, "tolerance"), *step = option_value(given, "step");
     int found = 0;
-    for (int k = FST_BRANCH_COUNTER; kind && k <= FST_BRANCH_ALL; k++)
+    for (int k = FST_BRANCH_COUNTER; kind && k <= FST_BRANCH_ALL; ++k)
         if (strcmp(kind, fst_branch_kind_name((fst_branch_kind)k)) == 0) {
             o->kind = (fst_branch_kind)k;
             found = 1;
         }
     if (!kind)
-        return fail(error, FST_BAD_INPUT, "--kind", "tell which: --kind counter, --kind locked or --kind all");
+        return fail(error, FST_BAD_INPUT, "--kind", "say which: --kind counter, --kind locked or --kind all");
     if (!found) {
         char nearest[32];
         (void)fst_nearest_name(kind, "counter|locked|all", nearest, sizeof nearest);
@@ -126,7 +126,7 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
                     "unknown kind \"%.60s\"; the nearest is %s (counter|locked|all)", kind, nearest);
     }
     if (!over)
-        return fail(error, FST_BAD_INPUT, "--over", "tell over what: --over drive.omega=0.2:3");
+        return fail(error, FST_BAD_INPUT, "--over", "say over which parameter: --over drive.omega=0.2:3");
     fst_status status = read_range("--over", over, keys[0], &o->from, &o->to, error);
     o->key = keys[0];
     if (status == FST_OK)
@@ -143,31 +143,31 @@ static fst_status read_options(const arguments *given, char keys[2][64], fst_bra
     return status;
 }
 
-/* Whether a file can be made there, before any work is done for it. */
+/* Whether a file can be made at this place.  It is asked before any work is done for it. */
 static fst_status check_place(const char *path, fst_error *error)
 {
     char directory[1024];
     const char *slash = strrchr(path, '/');
     const int length = slash == path ? 1 : slash ? (int)(slash - path) : 0;
     if ((size_t)length >= sizeof directory)
-        return FST_OK; /* writing will tell */
+        return FST_OK; /* the writing will tell */
     (void)snprintf(directory, sizeof directory, "%.*s", length, path);
     return access(length ? directory : ".", W_OK) == 0
                ? FST_OK
                : fail(error, FST_IO, path, "cannot write here: %s", strerror(errno));
 }
 
-/* A curve over two parameters: a few of its points. */
+/* Print a curve over two parameters: some of its points. */
 static void print_curve(FILE *out, const fst_branch *b, int curve)
 {
     size_t first = 0, count = 0;
-    for (size_t i = 0; i < b->point_count; i++)
+    for (size_t i = 0; i < b->point_count; ++i)
         if (b->points[i].branch == curve && count++ == 0)
             first = i;
     (void)fprintf(out, "\n%s, curve %d: %zu points\n  %16s %16s\n", fst_special_name(b->followed), curve, count,
                   b->key, b->second_key);
     const size_t rows = count < 16 ? count : 16;
-    for (size_t k = 0; k < rows; k++) {
+    for (size_t k = 0; k < rows; ++k) {
         const fst_branch_point *p = &b->points[first + (rows > 1 ? k * (count - 1) / (rows - 1) : 0)];
         (void)fprintf(out, "  %16.10f %16.10f  %s\n", p->value, p->second,
                       p->stable ? "of a stable state" : "");
@@ -179,17 +179,17 @@ static void print_branch(FILE *out, const fst_branch *b)
     if (b->second_key[0]) {
         (void)fprintf(out, "%d curves of %s points over %s and %s\n", b->branches,
                       fst_special_name(b->followed), b->key, b->second_key);
-        for (int curve = 0; curve < b->branches; curve++)
+        for (int curve = 0; curve < b->branches; ++curve)
             print_curve(out, b, curve);
         (void)fprintf(out, "\nends\n");
-        for (size_t i = 0; i < b->end_count; i++)
+        for (size_t i = 0; i < b->end_count; ++i)
             (void)fprintf(out, "  curve %d at %s = %.10g: %s\n", b->ends[i].branch, b->key, b->ends[i].value,
                           b->ends[i].reason);
         return;
     }
     (void)fprintf(out, "%d branches, %zu points over %s = %.10g to %.10g\n\nspecial points\n", b->branches,
                   b->point_count, b->key, b->from, b->to);
-    for (size_t i = 0; i < b->special_count; i++) {
+    for (size_t i = 0; i < b->special_count; ++i) {
         const fst_special *s = &b->specials[i];
         (void)fprintf(out, "  %-16s %s = %.12g  omega = %.12g  branch %d%s\n", fst_special_name(s->type),
                       b->key, s->value, s->omega, s->branch,
@@ -198,17 +198,17 @@ static void print_branch(FILE *out, const fst_branch *b)
                                            : "");
     }
     (void)fprintf(out, "\nends\n");
-    for (size_t i = 0; i < b->end_count; i++)
+    for (size_t i = 0; i < b->end_count; ++i)
         (void)fprintf(out, "  branch %d at %.10g: %s\n", b->ends[i].branch, b->ends[i].value,
                       b->ends[i].reason);
 }
 
-/* At either end of the range; one word is enough. */
+/* Warn if the bead of either end contradicts any material; one warning is enough. */
 static void warn_of_ends(const fst_params *params, const fst_branch_options *o)
 {
     const double ends[2] = {o->from, o->to};
     char sentence[512], text[32];
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         fst_params at = *params;
         fst_error ignored;
         (void)snprintf(text, sizeof text, "%.17g", ends[i]);
@@ -236,9 +236,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return status;
     warn_of_ends(&params, &o);
     progress_line line;
+    const fst_progress progress = {&line, progress_tell};
     progress_begin(&line);
-    o.user = &line;
-    o.progress = progress_tell;
+    o.progress = &progress;
     status = fst_branch_follow(&params, &o, &branch, error);
     progress_end(&line);
     if (status != FST_OK && status != FST_INTERRUPTED)

@@ -1,4 +1,4 @@
-/* check.c - festoon check: read a scene, and tell what it means without running it. */
+/* check.c - festoon check: reading a scene, and telling what it means without running it. */
 #include <stdlib.h>
 
 #include "cli/command.h"
@@ -15,7 +15,7 @@ static void print_text(FILE *out, const char *path, const fst_model *model, cons
                   path ? shown(path, name) : "The default scene", scene);
     print_groups(out, &groups);
     (void)fprintf(out, "\nStart state (X Y vX vY nX nY nZ WX WY WZ):\n ");
-    for (int i = 0; i < FST_STATE_SIZE; i++)
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
         (void)fprintf(out, " %.6g", state[i]);
     (void)fprintf(out, "\n");
 }

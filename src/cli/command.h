@@ -1,4 +1,4 @@
-/* command.h - what a subcommand is, and what the subcommands share. */
+/* command.h - what a command of the program is, and what the commands share. */
 #ifndef FST_CLI_COMMAND_H
 #define FST_CLI_COMMAND_H
 
@@ -12,23 +12,23 @@
 /* One row of the table of commands. */
 typedef struct command {
     const char *name;
-    const char *synopsis; /* what stands behind the name: "[SCENE.yaml] [options]" */
+    const char *synopsis; /* what follows the name: "[SCENE.yaml] [options]" */
     const char *summary;  /* one line */
-    const char *details;  /* further help, whole lines, or "" */
+    const char *details;  /* further help in whole lines, or "" */
     const option *options;
-    int most_operands; /* arguments that are no options */
-    int much_output;   /* standard output may be larger than memory */
-    int has_helpers;   /* it starts other programs, which a signal from the terminal reaches too */
-    /* Do it.  What is written to `out` reaches standard output only if FST_OK is returned. */
+    int most_operands; /* how many arguments that are no options it takes */
+    int much_output;   /* its standard output may be larger than memory */
+    int has_helpers;   /* it starts other programs, which a signal from the terminal also reaches */
+    /* Do it.  What is written to `out` reaches standard output only if this returns FST_OK. */
     fst_status (*perform)(const arguments *given, FILE *out, fst_error *error);
 } command;
 
-/* Every subcommand, one file each. */
+/* The commands, a file each. */
 extern const command run_command, sweep_command, export_command, field_command, plot_command, movie_command,
     paper_command, init_command, check_command, schema_command, orbit_command, locked_command, branch_command,
     lyapunov_command;
 
-/* The options of every command that reads a scene; the first rows of its table. */
+/* The options of every command that reads a scene: the first rows of its table. */
 #define SCENE_OPTIONS                                                                                          \
     {                                                                                                          \
         "set", '\0', "KEY=VALUE",                                                                              \
@@ -43,20 +43,20 @@ extern const command run_command, sweep_command, export_command, field_command, 
 fst_status fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* The parameters of the scene operand `path` (NULL: the defaults) and all --set. */
+/* The parameters of the scene `path` (NULL: the defaults), with all --set applied. */
 fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error);
 
-/* A line on standard error where mass and radius of the bead contradict any material. */
+/* Warn on standard error where mass and radius of the bead contradict any material. */
 void warn_of_material(const fst_params *params);
 
-/* Print a text made by the library, and free it; NULL is FST_NO_MEMORY. */
+/* Print a text that the library made, and free it.  NULL becomes FST_NO_MEMORY. */
 fst_status print_and_free(char *text, FILE *out, fst_error *error);
 
-/* A file's name fit for a terminal; returns `text`. */
+/* A file's name made fit for a terminal; returns `text`. */
 #define SHOWN_SIZE 4200
 const char *shown(const char *path, char text[SHOWN_SIZE]);
 
-/* "wrote PATH" with a remark behind it, on standard error. */
+/* Say "wrote PATH", with a remark behind it, on standard error. */
 void tell_written(const char *path, const char *remark);
 
 /* Read exactly `count` numbers separated by commas. */

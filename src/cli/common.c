@@ -1,4 +1,4 @@
-/* common.c - what several subcommands need. */
+/* common.c - what several commands need: scenes with --set, warnings, names of files, numbers. */
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +18,7 @@ fst_status fail(fst_error *error, fst_status code, const char *where, const char
     return code;
 }
 
-/* KEY=VALUE, the key without its spaces. */
+/* Apply KEY=VALUE; blanks about the key are removed. */
 static fst_status apply_set(const char *text, fst_params *params, fst_error *error)
 {
     char key[96];
@@ -28,7 +28,7 @@ static fst_status apply_set(const char *text, fst_params *params, fst_error *err
                     text);
     size_t start = strspn(text, " \t");
     while (length > start && (text[length - 1] == ' ' || text[length - 1] == '\t'))
-        length--;
+        --length;
     (void)snprintf(key, sizeof key, "%.*s", start < length ? (int)(length - start) : 0, text + start);
     fst_status status = fst_params_set(params, key, strchr(text, '=') + 1, error);
     if (status != FST_OK)
@@ -36,7 +36,7 @@ static fst_status apply_set(const char *text, fst_params *params, fst_error *err
     return status;
 }
 
-/* A strength that the bead's material does not use would be ignored in silence. */
+/* Refuse a strength that the bead's material does not use: it would be ignored silently. */
 static fst_status check_material(const fst_params *params, const char *where, fst_error *error)
 {
     if (params->bead_material == FST_MATERIAL_HARD && params->bead_a != 0.0)
@@ -61,14 +61,14 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
         if (status != FST_OK)
             return status;
     }
-    for (int i = 0; i < given->option_count; i++) {
+    for (int i = 0; i < given->option_count; ++i) {
         if (strcmp(given->options[i].row->name, "set") != 0)
             continue;
         fst_status status = apply_set(given->options[i].value, params, error);
         if (status != FST_OK)
             return status;
     }
-    params->run_discard = fst_run_discard(params); /* what is echoed is what is done */
+    params->run_discard = fst_run_discard(params); /* what is printed is what is done */
     return check_material(params, path ? path : "", error);
 }
 
@@ -104,7 +104,7 @@ void tell_written(const char *path, const char *remark)
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count, fst_error *error)
 {
     const char *at = text;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; ++i) {
         char word[64];
         size_t length = strcspn(at, ",");
         int last = i + 1 == count;

@@ -13,10 +13,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     static const char *const names[] = {"csv", "json", "hdf5"};
     int chosen = -1, count = 0;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         if (option_value(given, names[i])) {
             chosen = i;
-            count++;
+            ++count;
         }
     if (!operand(given))
         return fail(error, FST_BAD_INPUT, "", "a database is missing: make one with festoon sweep -o FILE.db");

@@ -16,7 +16,7 @@ static void print_text(FILE *out, const fst_model *model, double x, double y)
     fst_field(model, x, y, b, grad);
     (void)fprintf(out, "at X = %g, Y = %g (l), magnet's frame, the bead's centre on the plate\n", x, y);
     (void)fprintf(out, "   %16s   %s\n", "B (B0)", "dB/dX, dB/dY, dB/dZ (B0/l)");
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         (void)fprintf(out, "%s  %16.9g   %16.9g %16.9g %16.9g\n", axes[i], b[i], grad[i][0], grad[i][1],
                       grad[i][2]);
     (void)fprintf(out, "|B| = %.9g B0\n", sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
@@ -30,7 +30,7 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
     double at[2];
     fst_model *model = NULL;
     fst_status status = read_numbers("--at", option_value(given, "at"), at, 2, error);
-    static const double farthest = 1e50; /* beyond, powers of the distance leave the range of a double */
+    static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
     if (status == FST_OK)
@@ -50,7 +50,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_params params;
     const char *at = option_value(given, "at"), *figure = option_value(given, "output");
     if (!at && !figure)
-        return fail(error, FST_BAD_INPUT, "", "tell where with --at X,Y, or draw a map with -o FIG.svg");
+        return fail(error, FST_BAD_INPUT, "", "say where with --at X,Y, or draw a map with -o FIG.svg");
     if (option_value(given, "json") && !at)
         return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
     fst_status status = read_scene(given, operand(given), &params, error);

@@ -1,3 +1,4 @@
+/* groups.c - printing the scaled groups of a model. */
 #include "cli/groups.h"
 
 static const double TWO_PI = 6.283185307179586;

@@ -1,4 +1,4 @@
-/* groups.h - the scaled groups of a model, for people. */
+/* groups.h - the scaled groups of a model, in words. */
 #ifndef FST_CLI_GROUPS_H
 #define FST_CLI_GROUPS_H
 
@@ -6,7 +6,7 @@
 
 #include <festoon/festoon.h>
 
-/* A few lines: the groups, and the units in which everything else is scaled. */
+/* Print the groups, and the units in which everything else is scaled. */
 void print_groups(FILE *out, const fst_groups *groups);
 
 #endif

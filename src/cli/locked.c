@@ -24,10 +24,10 @@ static void print_list(FILE *out, double omega, const fst_locked_list *list)
             "may lack some.\n\n");
     (void)fprintf(out, "%14s %10s  %26s  %28s %12s %12s\n", "r (l)", "Phi (deg)", "n", "W (gamma)",
                   "slip (l gamma)", "max Re");
-    for (size_t i = 0; i < list->count; i++) {
+    for (size_t i = 0; i < list->count; ++i) {
         const fst_locked *l = &list->states[i];
         double greatest = l->eigenvalue_re[0];
-        for (int k = 1; k < FST_EIGENVALUE_COUNT; k++)
+        for (int k = 1; k < FST_EIGENVALUE_COUNT; ++k)
             greatest = fmax(greatest, l->eigenvalue_re[k]);
         (void)fprintf(out, "%14.10f %10.4f  %8.5f %8.5f %8.5f  %9.5f %9.5f %9.5f %12.6g %12.5g  %s\n", l->r,
                       l->phi_deg, l->state[FST_NX], l->state[FST_NY], l->state[FST_NZ], l->state[FST_WX],
@@ -69,7 +69,7 @@ const command locked_command = {
     .summary = "Every equilibrium of the turning frame: the bead goes round with the magnet",
     .details =
         "Vectors are inertial, in components along the magnet's axes.  The list comes from many starts of\n"
-        "Newton's method; docs/orbits.md tells why it is believed to be complete.\n",
+        "Newton's method; docs/orbits.md says why it is believed to be complete.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -13,7 +13,7 @@ static void print_spectrum(FILE *out, const fst_lyapunov *l)
     (void)fprintf(out, "Lyapunov exponents over %.6g/gamma: %s\n", l->time,
                   l->converged ? "converged" : "undecided, take a longer run.periods");
     double sum = 0.0;
-    for (int i = 0; i < FST_EIGENVALUE_COUNT; i++) {
+    for (int i = 0; i < FST_EIGENVALUE_COUNT; ++i) {
         sum += l->exponents[i];
         (void)fprintf(out, "  %14.9f +- %.2g%s\n", l->exponents[i], l->errors[i],
                       i == l->flow_direction ? "   (the flow direction: zero)" : "");

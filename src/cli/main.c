@@ -1,4 +1,5 @@
-/* main.c - the program: finds the subcommand, reads its options, and turns a status into an exit status. */
+/* main.c - the program: finding the command, reading its options, running it, and turning its status into an
+ * exit status. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,7 +15,7 @@ enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
 static const command *find_command(const char *name)
 {
-    for (int i = 0; i < COMMAND_COUNT; i++)
+    for (int i = 0; i < COMMAND_COUNT; ++i)
         if (strcmp(commands[i]->name, name) == 0)
             return commands[i];
     return NULL;
@@ -28,7 +29,7 @@ static void print_help(FILE *out)
                   "festoon %s - a magnetic bead on a magnetic stirrer\n\n"
                   "usage: festoon COMMAND [SCENE.yaml] [--set KEY=VALUE]... [options]\n\n",
                   fst_version());
-    for (int i = 0; i < COMMAND_COUNT; i++)
+    for (int i = 0; i < COMMAND_COUNT; ++i)
         (void)fprintf(out, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
     (void)fprintf(
         out, "\nWithout a scene: the bead of Farago et al. (2020) at 10.7 Hz.  festoon COMMAND --help tells\n"
@@ -42,7 +43,7 @@ static void print_command_help(FILE *out, const command *shown)
     if (shown->details[0])
         (void)fprintf(out, "\n%s", shown->details);
     (void)fprintf(out, "\noptions:\n");
-    for (const option *row = shown->options; row->name; row++) {
+    for (const option *row = shown->options; row->name; ++row) {
         char words[64];
         (void)snprintf(words, sizeof words, "%s%c%s--%s %s", row->letter ? "-" : "",
                        row->letter ? row->letter : ' ', row->letter ? ", " : "", row->name,
@@ -55,7 +56,7 @@ static void print_command_help(FILE *out, const command *shown)
 static fst_status unknown_command(const char *name, fst_error *error)
 {
     char names[256] = "help|--help|--version", nearest[32];
-    for (int i = 0; i < COMMAND_COUNT; i++) {
+    for (int i = 0; i < COMMAND_COUNT; ++i) {
         size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|%s", commands[i]->name);
     }
@@ -80,13 +81,13 @@ static fst_status help(int count, char **words, FILE *out, fst_error *error)
 
 static int asks_for_help(int count, char **words)
 {
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; ++i)
         if (strcmp(words[i], "--help") == 0 || strcmp(words[i], "-h") == 0)
             return 1;
     return 0;
 }
 
-/* words[0] is the first word behind the program's name. */
+/* words[0] is the first word after the program's name. */
 static fst_status perform(int count, char **words, FILE *out, fst_error *error)
 {
     if (count == 0)
@@ -112,7 +113,7 @@ static fst_status perform(int count, char **words, FILE *out, fst_error *error)
     if (status != FST_OK)
         return status;
     status = wanted->perform(&given, out, error);
-    /* The signal reached a helper process such as gnuplot first. */
+    /* The signal reached a helper program such as gnuplot first. */
     if (wanted->has_helpers && status != FST_OK && status != FST_INTERRUPTED && interrupted())
         status = fail(error, FST_INTERRUPTED, "", "interrupted");
     return status;
@@ -132,7 +133,7 @@ static int exit_status(fst_status status)
     }
 }
 
-/* An error without a sentence has been told by another process of the same job. */
+/* An error without a sentence was reported by another process of the same job. */
 static void print_error(const fst_error *error)
 {
     if (!error->sentence[0])
@@ -140,11 +141,11 @@ static void print_error(const fst_error *error)
     (void)fprintf(stderr, "festoon: %s%s%s\n", error->where, error->where[0] ? ": " : "", error->sentence);
 }
 
-/* Standard output is written only when all is well: until then it waits in memory, or, where there is much of
+/* Standard output is written only if all went well.  Until then it waits in memory or, where there is much of
  * it, in a file. */
 typedef struct waiting_output {
     FILE *stream;
-    char *text; /* NULL: in a file */
+    char *text; /* NULL: it is in a file */
     size_t size;
 } waiting_output;
 
@@ -163,7 +164,8 @@ static fst_status end_output(waiting_output *out, fst_status status, fst_error *
 {
     int reason = 0;
     if ((fflush(out->stream) != 0 || ferror(out->stream)) && status == FST_OK)
-        status = fail(error, FST_IO, "standard output", "no room to gather it, in memory or in $TMPDIR");
+        status =
+            fail(error, FST_IO, "standard output", "there is no room to collect it, in memory or in $TMPDIR");
     if (status == FST_OK)
         reason =
             out->text ? write_standard_output(out->text, out->size) : spool_to_standard_output(out->stream);

@@ -38,7 +38,7 @@ static fst_status read_film(const arguments *given, fst_film_options *film, fst_
     } numbers[] = {
         {"fps", &film->fps}, {"turn", &film->seconds_per_turn}, {"from", &film->from}, {"to", &film->to}};
     fst_status status = size ? read_size(size, film, error) : FST_OK;
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == FST_OK; i++) {
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == FST_OK; ++i) {
         char name[16];
         (void)snprintf(name, sizeof name, "--%s", numbers[i].name);
         const char *text = option_value(given, numbers[i].name);
@@ -50,11 +50,6 @@ static fst_status read_film(const arguments *given, fst_film_options *film, fst_
     return status;
 }
 
-static fst_status show(void *user, double fraction, fst_error *error)
-{
-    return progress_show(user, fraction, "frames", error);
-}
-
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     (void)out;
@@ -62,11 +57,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     fst_film_options film;
     fst_table table;
     progress_line line;
+    const fst_progress progress = {&line, progress_tell};
     const char *path = operand(given), *to = option_value(given, "output");
     if (!path)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
-        return fail(error, FST_BAD_INPUT, "", "tell where the film goes: -o FILM.mp4");
+        return fail(error, FST_BAD_INPUT, "", "say where the film goes: -o FILM.mp4");
     fst_status status = read_film(given, &film, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);
@@ -75,8 +71,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (isnan(film.to))
         film.to = (isnan(film.from) ? 0.0 : film.from) + USUAL_PERIODS;
     progress_begin(&line);
-    film.user = &line;
-    film.progress = show;
+    film.progress = &progress;
     status = fst_film(&table, to, &film, error);
     progress_end(&line);
     if (status == FST_OK)

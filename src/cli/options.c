@@ -1,3 +1,4 @@
+/* options.c - reading a command line by a table of options. */
 #include "cli/options.h"
 
 #include <stdio.h>
@@ -5,10 +6,10 @@
 
 #include "cli/command.h"
 
-/* The row of "--name" (length counts the name alone) or of "-o". */
+/* The row of the table for "--name" (length counts the name alone) or for "-o". */
 static const option *find_long(const option *table, const char *name, size_t length)
 {
-    for (; table->name; table++)
+    for (; table->name; ++table)
         if (strlen(table->name) == length && memcmp(table->name, name, length) == 0)
             return table;
     return NULL;
@@ -16,7 +17,7 @@ static const option *find_long(const option *table, const char *name, size_t len
 
 static const option *find_letter(const option *table, char letter)
 {
-    for (; table->name; table++)
+    for (; table->name; ++table)
         if (table->letter && table->letter == letter)
             return table;
     return NULL;
@@ -25,7 +26,7 @@ static const option *find_letter(const option *table, char letter)
 static fst_status unknown_option(const option *table, const char *word, fst_error *error)
 {
     char names[512] = "--help", nearest[48];
-    for (; table->name; table++) {
+    for (; table->name; ++table) {
         size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|--%s", table->name);
     }
@@ -35,7 +36,7 @@ static fst_status unknown_option(const option *table, const char *word, fst_erro
     return fail(error, FST_BAD_INPUT, "", "unknown option %s; the nearest is %s", written, nearest);
 }
 
-/* Whether `word` names an option of the table: then it is no value of another. */
+/* Whether `word` is an option of the table: then it is not the value of another one. */
 static int is_option(const option *table, const char *word)
 {
     if (word[0] != '-')
@@ -55,7 +56,8 @@ static fst_status keep_option(arguments *given, const option *row, const char *v
     return FST_OK;
 }
 
-/* The option words[*at], with its value in the same word or the next one; moves *at to its last word. */
+/* Read the option words[*at], whose value is in the same word or in the next one; moves *at to its
+ * last word. */
 static fst_status read_option(const option *table, int count, char **words, int *at, arguments *given,
                               fst_error *error)
 {
@@ -95,7 +97,7 @@ fst_status read_arguments(const option *table, int most_operands, int count, cha
     given->option_count = 0;
     given->operand_count = 0;
     int only_operands = 0;
-    for (int at = 0; at < count; at++) {
+    for (int at = 0; at < count; ++at) {
         const char *word = words[at];
         fst_status status = FST_OK;
         if (!only_operands && strcmp(word, "--") == 0)
@@ -114,7 +116,7 @@ fst_status read_arguments(const option *table, int most_operands, int count, cha
 
 const char *option_value(const arguments *given, const char *name)
 {
-    for (int i = 0; i < given->option_count; i++)
+    for (int i = 0; i < given->option_count; ++i)
         if (strcmp(given->options[i].row->name, name) == 0)
             return given->options[i].value;
     return NULL;

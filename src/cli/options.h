@@ -4,15 +4,15 @@
 
 #include <festoon/festoon.h>
 
-/* One row; a table ends with a row without name. */
+/* One row of the table; a row without a name ends it. */
 typedef struct option {
     const char *name;  /* "json" for --json */
     char letter;       /* 'o' for -o; '\0': none */
-    const char *value; /* what its value is called in help; NULL: it takes none */
+    const char *value; /* what its value is called in the help; NULL: it takes none */
     const char *help;
 } option;
 
-#define OPTION_LIMIT 256 /* given options; more are refused */
+#define OPTION_LIMIT 256 /* the most options that are accepted */
 #define OPERAND_LIMIT 2
 
 typedef struct given_option {
@@ -27,9 +27,9 @@ typedef struct arguments {
     int operand_count;
 } arguments;
 
-/* Read words[0..count) by `table`.  Values may begin with a minus.  Only --set and --over may be repeated.
- * FST_BAD_INPUT: unknown option (with the nearest valid one), missing or superfluous value, too many operands.
- */
+/* Read words[0..count) by `table`.  A value may begin with a minus.  Only --set and --over may be repeated.
+ * FST_BAD_INPUT: unknown option (the sentence names the nearest), missing or superfluous value, too many
+ * operands. */
 fst_status read_arguments(const option *table, int most_operands, int count, char **words, arguments *given,
                           fst_error *error);
 

@@ -1,4 +1,5 @@
-/* orbit.c - festoon orbit: the periodic orbit that a start leads to, or that has so many festoons. */
+/* orbit.c - festoon orbit: the periodic orbit to which a start leads, or the one with a given number of
+ * festoons. */
 #include "cli/command.h"
 #include "cli/terminal.h"
 
@@ -38,7 +39,7 @@ static void print_orbit(FILE *out, const fst_orbit *o)
         (void)fprintf(out, "  the normal load vanishes on it (least %.4g weights): the bead would lift off\n",
                       m->min_load_weights);
     (void)fprintf(out, "  multipliers of the %s map:", o->symmetry == FST_SYMMETRY_S2 ? "half" : "full");
-    for (int i = 0; i < FST_MULTIPLIER_COUNT; i++)
+    for (int i = 0; i < FST_MULTIPLIER_COUNT; ++i)
         (void)fprintf(out, " %.4g%s%.4gi", o->multiplier_re[i], o->multiplier_im[i] < 0 ? "-" : "+",
                       fabs(o->multiplier_im[i]));
     if (isfinite(o->relaxation_time))
@@ -67,7 +68,7 @@ static fst_status with_festoons(const arguments *given, const fst_params *params
         status = print_and_free(fst_orbit_json(params, &list.orbits[0], list.orbits + 1, list.count - 1), out,
                                 error);
     else
-        for (size_t i = 0; i < list.count; i++)
+        for (size_t i = 0; i < list.count; ++i)
             print_orbit(out, &list.orbits[i]);
     fst_festoons_free(&list);
     return status;
@@ -103,7 +104,7 @@ const command orbit_command = {
     .details =
         "The bead is followed until its returns come close; Newton's method finds the orbit.  With --festoons\n"
         "the drive is solved for: the lowest omega at which a stable pattern closes after N festoons, and the\n"
-        "others.  docs/orbits.md tells how.\n",
+        "others.  docs/orbits.md explains how.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

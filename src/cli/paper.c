@@ -15,11 +15,6 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-static fst_status show(void *user, double fraction, const char *what, fst_error *error)
-{
-    return progress_show(user, fraction, what, error);
-}
-
 static fst_status list_statements(FILE *out, fst_error *error)
 {
     char *text = fst_paper_statements_text();
@@ -38,8 +33,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (only && (directory || option_value(given, "films")))
         return fail(error, FST_BAD_INPUT, "--only", "it writes no files: leave -o and --films away");
     if (!directory && !only)
-        return fail(error, FST_BAD_INPUT, "", "tell where the results go: -o DIR");
+        return fail(error, FST_BAD_INPUT, "", "say where the results go: -o DIR");
     progress_line line;
+    const fst_progress progress = {&line, progress_tell};
     fst_paper_options paper = fst_default_paper_options();
     paper.reduced = option_value(given, "reduced") != NULL;
     paper.films = option_value(given, "films") != NULL;
@@ -55,8 +51,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     paper.starts = (int)count;
     progress_begin(&line);
     paper.only = only;
-    paper.user = &line;
-    paper.progress = show;
+    paper.progress = &progress;
     char *summary = NULL;
     paper.summary = &summary;
     fst_status status = fst_paper(directory, &paper, error);

@@ -1,4 +1,4 @@
-/* plot.c - festoon plot: figures of a trajectory. */
+/* plot.c - festoon plot: figures of trajectories, branches and sweeps. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,7 +40,7 @@ static const option options[] = {
 
 static fst_status read_kind(const char *word, fst_figure_kind *kind, fst_error *error)
 {
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i)
         if (strcmp(kinds[i].name, word) == 0) {
             *kind = kinds[i].kind;
             return FST_OK;
@@ -54,7 +54,7 @@ static fst_status read_kind(const char *word, fst_figure_kind *kind, fst_error *
 static fst_status read_colour(const char *word, const char **colour, fst_error *error)
 {
     char names[1024] = "", nearest[32];
-    for (int i = 0; i < fst_column_count(); i++) {
+    for (int i = 0; i < fst_column_count(); ++i) {
         const char *name = fst_column_at(i)->name;
         if (strcmp(name, word) == 0) {
             *colour = name;
@@ -124,7 +124,7 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     return status;
 }
 
-/* Curves over one axis, a map over two. */
+/* Draw a sweep: curves over one axis, a map over two. */
 static fst_status plot_sweep(const arguments *given, const char *path, const char *to, fst_error *error)
 {
     enum { MOST_KEYS = 16 };
@@ -132,7 +132,7 @@ static fst_status plot_sweep(const arguments *given, const char *path, const cha
     char words[512] = "";
     int count = 0;
     fst_shown_units units = FST_SHOWN_AS_GIVEN;
-    for (int i = 0; i < given->option_count; i++) {
+    for (int i = 0; i < given->option_count; ++i) {
         const char *name = given->options[i].row->name;
         if (strcmp(name, "key") != 0 && strcmp(name, "units") != 0 && strcmp(name, "output") != 0)
             return fail(error, FST_BAD_INPUT, "", "--%s belongs to trajectories; this is a sweep", name);
@@ -166,13 +166,13 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (!path)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
-        return fail(error, FST_BAD_INPUT, "", "tell where the figure goes: -o FIG.svg");
+        return fail(error, FST_BAD_INPUT, "", "say where the figure goes: -o FIG.svg");
     if (ends_in(path, ".json")) /* a branch */
         return plot_branch(given, path, to, error);
     if (fst_is_sweep(path) || ends_in(path, ".db"))
         return plot_sweep(given, path, to, error);
     if (option_value(given, "key") || option_value(given, "units"))
-        return fail(error, FST_BAD_INPUT, path, "--key and --units belong to sweeps; this is none");
+        return fail(error, FST_BAD_INPUT, path, "--key and --units belong to sweeps; this file is none");
     fst_status status = read_figure(given, &figure, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);

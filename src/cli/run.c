@@ -21,11 +21,10 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-/* What a run pushes its findings into. */
+/* Where the samples and ramp points of a run go. */
 typedef struct run_outputs {
     fst_trajectory *files[2];
     const char *paths[2];
-    progress_line progress;
     fst_ramp_point *ramp;
     size_t ramp_count, ramp_room;
 } run_outputs;
@@ -36,7 +35,7 @@ static fst_status take_sample(void *user, const fst_sample *sample, fst_error *e
 {
     run_outputs *outputs = user;
     fst_status status = FST_OK;
-    for (int i = 0; i < 2 && status == FST_OK; i++)
+    for (int i = 0; i < 2 && status == FST_OK; ++i)
         if (outputs->files[i])
             status = fst_trajectory_append(outputs->files[i], sample, error);
     return status;
@@ -57,15 +56,9 @@ static fst_status take_ramp_point(void *user, const fst_ramp_point *point, fst_e
     return FST_OK;
 }
 
-static fst_status take_progress(void *user, double fraction, fst_error *error)
-{
-    run_outputs *outputs = user;
-    return progress_show(&outputs->progress, fraction, NULL, error);
-}
-
 /* ---------------------------------------------------------------- options */
 
-/* One end of a ramp as omega. */
+/* Read an end of a ramp as omega. */
 static fst_status read_ramp_end(const char *text, int scaled, double gamma, double *omega, fst_error *error)
 {
     fst_status status = fst_parse_value(text, scaled ? FST_UNIT_NUMBER : FST_UNIT_FREQUENCY, omega, error);
@@ -82,7 +75,7 @@ static fst_status read_ramp_end(const char *text, int scaled, double gamma, doub
     return FST_OK;
 }
 
-/* A number that only a ramp needs, within bounds. */
+/* Read a number that only a ramp needs, within bounds. */
 static fst_status read_of_ramp(const arguments *given, const char *name, double greatest, double *value,
                                fst_error *error)
 {
@@ -139,17 +132,17 @@ static fst_status open_files(const arguments *given, const fst_params *params, r
     if (csv && outputs->paths[0] && strcmp(csv, outputs->paths[0]) == 0)
         return fail(error, FST_BAD_INPUT, "--csv", "-o and --csv name the same file");
     fst_status status = FST_OK;
-    for (int i = 0; i < 2 && status == FST_OK; i++)
+    for (int i = 0; i < 2 && status == FST_OK; ++i)
         if (outputs->paths[i])
             status = fst_trajectory_create(outputs->paths[i], params, &outputs->files[i], error);
     return status;
 }
 
-/* A finished or interrupted run is kept, a failed one is not. */
+/* Close the files: keep them for a finished or interrupted run, discard them for a failed one. */
 static fst_status close_files(run_outputs *outputs, fst_status status, const fst_run_result *result,
                               fst_error *error)
 {
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         if (!outputs->files[i])
             continue;
         if (status != FST_OK && status != FST_INTERRUPTED) {
@@ -189,6 +182,8 @@ static fst_status run_into(const arguments *given, const fst_params *params, run
                            fst_error *error)
 {
     fst_run_result result;
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
     fst_run_options run = fst_default_run_options();
     fst_status status = read_ramp(given, params->friction_gamma, &run, error);
     if (status == FST_OK)
@@ -199,13 +194,13 @@ static fst_status run_into(const arguments *given, const fst_params *params, run
         status = open_files(given, params, outputs, error);
     if (status == FST_OK) {
         run.sink.user = outputs;
-        run.sink.progress = take_progress;
+        run.progress = &progress;
         run.sink.ramp_point = take_ramp_point;
         if (outputs->files[0] || outputs->files[1])
             run.sink.sample = take_sample;
-        progress_begin(&outputs->progress);
+        progress_begin(&line);
         status = fst_run(params, &run, &result, error);
-        progress_end(&outputs->progress);
+        progress_end(&line);
     }
     status = close_files(outputs, status, &result, error);
     return status == FST_OK ? print_result(given, params, &result, outputs, out, error) : status;

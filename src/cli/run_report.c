@@ -1,3 +1,4 @@
+/* run_report.c - the result of a run in words: a sentence, then the numbers. */
 #include "cli/run_report.h"
 
 #include "cli/groups.h"
@@ -11,7 +12,7 @@ static double millimetres(const fst_groups *groups, double length)
     return 1e3 * groups->length_unit * length;
 }
 
-/* Angle of the bead against the magnet at the end, in degrees. */
+/* The angle between bead and magnet at the end, in degrees. */
 static double final_phi_degrees(const fst_run_result *result)
 {
     return atan2(result->final_state[FST_Y], result->final_state[FST_X]) * 360.0 / TWO_PI;
@@ -32,7 +33,7 @@ static void print_rotation(FILE *out, const fst_groups *groups, const fst_run_re
     (void)fprintf(out, ", radius %.3g mm\n", millimetres(groups, result->mean_r));
 }
 
-/* Where and when a bead left the plate. */
+/* Say where and when the bead left the plate. */
 static void print_end(FILE *out, const fst_groups *groups, const fst_run_result *result, const char *what)
 {
     (void)fprintf(out,
@@ -79,7 +80,8 @@ static void print_sentence(FILE *out, const fst_groups *groups, const fst_run_re
 
 /* ---------------------------------------------------------------- the numbers */
 
-/* A line with a scaled number, its error bar (NAN: none), and the number in another unit: value * factor. */
+/* Print a line with a scaled number, its error bar (NAN: none), and the number in another unit:
+ * value * factor. */
 static void print_line(FILE *out, const char *name, double value, double bar, const char *scaled_unit,
                        double factor, const char *unit)
 {
@@ -165,7 +167,7 @@ void print_ramp(FILE *out, const fst_groups *groups, const fst_run_result *resul
                   "%12s %14s %14s %10s\n",
                   result->frequency_hz, "drive Hz", "omega", "<r> mm", "delta r mm", "<alpha'> Hz", "<phi'> Hz",
                   "<n_z>");
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; ++i)
         (void)fprintf(out, "  %10.5g %10.6g %10.5g %12.4g %14.6g %14.6g %10.3g%s\n", points[i].frequency_hz,
                       points[i].omega, mm * points[i].mean_r, mm * points[i].std_r,
                       hertz * points[i].mean_alpha_dot, hertz * points[i].mean_phi_dot, points[i].mean_nz,

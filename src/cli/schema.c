@@ -21,7 +21,7 @@ static void print_limits(FILE *out, const fst_param_info *info)
 static void print_table(FILE *out)
 {
     const fst_params defaults = fst_default_params();
-    for (int i = 0; i < fst_param_count(); i++) {
+    for (int i = 0; i < fst_param_count(); ++i) {
         const fst_param_info *info = fst_param_at(i);
         char value[64];
         (void)fst_params_get(&defaults, i, value, sizeof value);

@@ -40,7 +40,7 @@ static fst_status read_whole(const arguments *given, const char *name, double le
 
 static fst_status read_arithmetic(const char *word, fst_arithmetic *arithmetic, fst_error *error)
 {
-    for (int i = FST_ARITHMETIC_PORTABLE; i <= FST_ARITHMETIC_AVX512; i++)
+    for (int i = FST_ARITHMETIC_PORTABLE; i <= FST_ARITHMETIC_AVX512; ++i)
         if (strcmp(fst_arithmetic_name((fst_arithmetic)i), word) == 0) {
             *arithmetic = (fst_arithmetic)i;
             return FST_OK;
@@ -52,7 +52,7 @@ static fst_status read_sweep(const arguments *given, const char **axes, fst_swee
                              fst_error *error)
 {
     *sweep = fst_default_sweep_options();
-    for (int i = 0; i < given->option_count; i++)
+    for (int i = 0; i < given->option_count; ++i)
         if (strcmp(given->options[i].row->name, "over") == 0)
             axes[sweep->axis_count++] = given->options[i].value;
     sweep->axes = axes;
@@ -85,14 +85,15 @@ static fst_status read_sweep(const arguments *given, const char **axes, fst_swee
     return status;
 }
 
-/* What is shown while the sweep is at work. */
+/* What the progress line shows while the sweep is at work. */
 typedef struct display {
     progress_line line;
-    fst_params contradiction; /* a point whose bead no material makes */
+    fst_sweep_counts counts;  /* the library keeps them up to date */
+    fst_params contradiction; /* a point whose bead cannot be made of any material */
     int to_warn;
 } display;
 
-/* Of several ranks one warns. */
+/* Warn once; of several ranks only rank 0 does. */
 static void warn_once(display *shown, int rank)
 {
     if (shown->to_warn && rank == 0)
@@ -100,7 +101,7 @@ static void warn_once(display *shown, int rank)
     shown->to_warn = 0;
 }
 
-/* Look at the ends of the grid: one word is enough. */
+/* Look for a contradiction at both ends of the grid; one warning is enough. */
 static void look_for_contradiction(display *shown, const fst_params *params, const fst_sweep_options *sweep)
 {
     char sentence[512];
@@ -109,27 +110,30 @@ static void look_for_contradiction(display *shown, const fst_params *params, con
     if (fst_grid_new(params, sweep->axes, sweep->axis_count, sweep->seed, &grid, &ignored) != FST_OK)
         return; /* the sweep itself will say why */
     const int64_t ends[2] = {0, fst_grid_points(grid) - 1};
-    for (int i = 0; i < 2 && !shown->to_warn; i++)
+    for (int i = 0; i < 2 && !shown->to_warn; ++i)
         shown->to_warn = fst_grid_params(grid, ends[i], &shown->contradiction, &ignored) == FST_OK &&
                          fst_bead_contradiction(&shown->contradiction, sentence, sizeof sentence) != 0;
     fst_grid_free(grid);
 }
 
-static fst_status show(void *user, const fst_sweep_progress *p, fst_error *error)
+static fst_status show(void *user, double fraction, const char *part, fst_error *error)
 {
+    (void)part;
     char what[64];
-    warn_once(user, p->rank);
+    display *all = user;
+    const fst_sweep_counts *p = &all->counts;
+    warn_once(all, p->rank);
     if (p->rank != 0)
         return interrupted() ? fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
-    /* A sweep that goes on counts what is there, but hopes for the speed of this call. */
+    /* The fraction counts all rows, but the time left follows from the speed of this call. */
     const double rate = p->seconds > 0 ? (double)p->added / p->seconds : 0.0;
     (void)snprintf(what, sizeof what, "%lld of %lld points, %.3g a second", (long long)p->there,
                    (long long)p->points, rate);
-    return progress_show_left(&((display *)user)->line, (double)p->there / (double)p->points,
-                              rate > 0 ? (double)(p->points - p->there) / rate : INFINITY, what, error);
+    return progress_show_left(&all->line, fraction, rate > 0 ? (double)(p->points - p->there) / rate : INFINITY,
+                              what, error);
 }
 
-static void print_sweep(FILE *out, const char *path, const fst_sweep_progress *p, int json)
+static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, int json)
 {
     if (json) {
         (void)fprintf(
@@ -153,22 +157,21 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_progress *p
                   p->seconds, path, path);
 }
 
-static void tell_of_repair(const char *path, const fst_sweep_progress *result)
+static void tell_of_repair(const char *path, const fst_sweep_counts *counts)
 {
     (void)fprintf(stderr,
                   "festoon: %s: this database was damaged; its sound rows were kept, the lost ones (%lld) "
                   "are computed again, and the damaged file was kept as %s.damaged\n",
-                  path, (long long)result->lost, path);
+                  path, (long long)counts->lost, path);
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
     fst_sweep_options sweep;
-    fst_sweep_progress result;
     const char *axes[OPTION_LIMIT], *path = option_value(given, "output");
     if (!path)
-        return fail(error, FST_BAD_INPUT, "", "tell where the rows go: -o FILE.db");
+        return fail(error, FST_BAD_INPUT, "", "say where the rows go: -o FILE.db");
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
         status = read_sweep(given, axes, &sweep, error);
@@ -177,25 +180,26 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     display shown = {.to_warn = 0};
     look_for_contradiction(&shown, &params, &sweep);
     progress_begin(&shown.line);
-    sweep.user = &shown;
-    sweep.progress = show;
+    const fst_progress progress = {&shown, show};
+    sweep.progress = &progress;
     sweep.with_ranks = 1;
-    status = fst_sweep(&params, path, &sweep, &result, error);
+    status = fst_sweep(&params, path, &sweep, &shown.counts, error);
     progress_end(&shown.line);
     if (status == FST_OK)
-        warn_once(&shown, result.rank);
-    /* Rank 0 tells what happened to all, in words and by its status: mpirun kills the others as soon as one
-     * process has ended with a status of its own, be rank 0 still about to speak. */
-    if (result.rank != 0)
+        warn_once(&shown, shown.counts.rank);
+    /* Rank 0 reports what happened to all, by its words and its status.  The others end with status 0, because
+     * mpirun kills all ranks as soon as one has ended with another status, even if rank 0 is still about to
+     * speak. */
+    if (shown.counts.rank != 0)
         return FST_OK;
-    if (result.repaired)
-        tell_of_repair(path, &result);
+    if (shown.counts.repaired)
+        tell_of_repair(path, &shown.counts);
     if (status == FST_INTERRUPTED)
         return fail(error, FST_INTERRUPTED, path,
                     "interrupted with %lld of %lld points done; the same command goes on",
-                    (long long)result.there, (long long)result.points);
+                    (long long)shown.counts.there, (long long)shown.counts.points);
     if (status == FST_OK)
-        print_sweep(out, path, &result, option_value(given, "json") != NULL);
+        print_sweep(out, path, &shown.counts, option_value(given, "json") != NULL);
     return status;
 }
 

@@ -1,3 +1,4 @@
+/* terminal.c - signals, the progress line, and writing standard output completely or with a message. */
 #include "cli/terminal.h"
 
 #include <errno.h>
@@ -12,10 +13,13 @@
 
 #include "cli/command.h"
 
-/* The one thing that a signal handler may touch: when the first signal came, in ms; 0: none did. */
+/* When the first signal came, in ms; 0: none came.  A signal handler may touch nothing else. */
 static atomic_llong first_signal = 0;
 
-enum { ONE_INTERRUPTION = 250 }; /* ms: some send to the process and to its group, as timeout(1) does */
+enum {
+    ONE_INTERRUPTION = 250
+}; /* ms; a second signal within this time is the same one: timeout(1), for example, sends it to the process and
+      to its group */
 
 static void note_signal(int number)
 {
@@ -28,8 +32,8 @@ static void note_signal(int number)
     (void)raise(number);
 }
 
-/* A stream that the caller closed would be taken by the next file that is opened, and messages would end up in
- * it.  Opened for the wrong direction, the place is kept and writing still fails. */
+/* If the caller closed a standard stream, the next file that is opened would take its place, and messages would
+ * end up in that file.  So the place is taken here, in the wrong direction, so that writing still fails. */
 static void keep_descriptor(int descriptor, int flags)
 {
     if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF)
@@ -41,17 +45,18 @@ void terminal_prepare(void)
     keep_descriptor(STDIN_FILENO, O_WRONLY);
     keep_descriptor(STDOUT_FILENO, O_RDONLY);
     keep_descriptor(STDERR_FILENO, O_RDONLY);
-    /* The first signal is noted; another one, a quarter of a second later or more, ends the program at once. */
+    /* The first signal is noted.  Another one, a quarter of a second later or more, ends the
+     * program at once. */
     struct sigaction action = {.sa_handler = note_signal};
     (void)sigemptyset(&action.sa_mask);
     (void)sigaction(SIGINT, &action, NULL);
     (void)sigaction(SIGTERM, &action, NULL);
-    /* A terminal that goes away ends a command in the same way, but for one that nohup(1) has started. */
+    /* A terminal that goes away ends a command in the same way, unless nohup(1) started it. */
     struct sigaction before;
     if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
         (void)sigaction(SIGHUP, &action, NULL);
-    /* A closed pipe, and a file that grows over the limit of ulimit -f, are failed writes, with a message and
-     * status 1. */
+    /* A closed pipe, or a file that exceeds the limit of ulimit -f, makes a write fail, with a message and
+     * status 1, instead of ending the program by a signal. */
     struct sigaction ignore = {.sa_handler = SIG_IGN};
     (void)sigemptyset(&ignore.sa_mask);
     (void)sigaction(SIGPIPE, &ignore, NULL);
@@ -116,9 +121,9 @@ fst_status progress_show(progress_line *line, double fraction, const char *what,
                               what, error);
 }
 
-fst_status progress_tell(void *line, double fraction, fst_error *error)
+fst_status progress_tell(void *line, double fraction, const char *what, fst_error *error)
 {
-    return progress_show(line, fraction, NULL, error);
+    return progress_show(line, fraction, what, error);
 }
 
 void progress_end(progress_line *line)
@@ -127,7 +132,8 @@ void progress_end(progress_line *line)
         (void)fputs("\r\033[K", stderr);
 }
 
-/* 0, or errno; -1: a reader such as head(1) took a part and wants no more, which is no failure. */
+/* Write everything: 0, or errno. -1: the reader, such as head(1), took a part and wants no more, which is no
+ * failure. */
 static int write_all(const char *text, size_t size, int *some)
 {
     while (size > 0) {
@@ -145,7 +151,7 @@ static int write_all(const char *text, size_t size, int *some)
     return 0;
 }
 
-/* Some file systems tell only now that the disk is full. */
+/* Some file systems report a full disk only when the file is closed. */
 static int end_standard_output(int reason)
 {
     const int failed = close(STDOUT_FILENO) != 0 ? errno : 0;
@@ -166,7 +172,7 @@ FILE *spool_open(void)
     const int descriptor = length < (int)sizeof path ? mkstemp(path) : -1;
     if (descriptor < 0)
         return NULL;
-    (void)unlink(path); /* it lives as long as it is open */
+    (void)unlink(path); /* the file exists as long as it is open */
     FILE *spool = fdopen(descriptor, "w+");
     if (!spool)
         (void)close(descriptor);

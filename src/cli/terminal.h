@@ -1,4 +1,4 @@
-/* terminal.h - the program's side towards the terminal and the shell: signals, progress, standard output. */
+/* terminal.h - the program and its terminal: signals, the progress line, standard output. */
 #ifndef FST_CLI_TERMINAL_H
 #define FST_CLI_TERMINAL_H
 
@@ -6,13 +6,13 @@
 
 #include <festoon/festoon.h>
 
-/* Prepare standard streams and signals, before anything is opened. */
+/* Prepare the standard streams and signals.  Call it before any file is opened. */
 void terminal_prepare(void);
 
 /* Whether SIGINT, SIGTERM or SIGHUP came. */
 int interrupted(void);
 
-/* A progress line on standard error, if that is a terminal. */
+/* A line of progress on standard error, if that is a terminal. */
 typedef struct progress_line {
     double started, shown; /* s */
     int visible;
@@ -20,25 +20,25 @@ typedef struct progress_line {
 
 void progress_begin(progress_line *line);
 
-/* Show `fraction` with the time left and `what` (may be NULL).  Returns FST_INTERRUPTED, with `error` filled
- * in, once a signal came; that is how a computation learns of it. */
+/* Show `fraction`, the time left and `what` (may be NULL).  Once a signal came it returns FST_INTERRUPTED, with
+ * `error` filled in; so a computation learns of the signal. */
 fst_status progress_show(progress_line *line, double fraction, const char *what, fst_error *error);
 
-/* The same where the time left does not follow from the fraction (INFINITY: nobody knows). */
+/* The same where the time left does not follow from the fraction (INFINITY: it is unknown). */
 fst_status progress_show_left(progress_line *line, double fraction, double seconds_left, const char *what,
                               fst_error *error);
 
-/* As a callback of the library: `line` is a progress_line. */
-fst_status progress_tell(void *line, double fraction, fst_error *error);
+/* progress_show() as the tell() of an fst_progress: `line` is a progress_line. */
+fst_status progress_tell(void *line, double fraction, const char *what, fst_error *error);
 
 /* Wipe the line. */
 void progress_end(progress_line *line);
 
-/* Write all of `text` to standard output; 0, or the reason (errno). */
+/* Write all of `text` to standard output.  Returns 0, or an errno. */
 int write_standard_output(const char *text, size_t size);
 
-/* A file without a name, for output that may not fit into memory, in $TMPDIR or /tmp; NULL: it cannot be made.
- * The second one writes all of it to standard output, as above. */
+/* Make a file without a name, for output that may not fit into memory, in $TMPDIR or /tmp; NULL: it cannot be
+ * made.  The second function writes all of it to standard output, as above. */
 FILE *spool_open(void);
 int spool_to_standard_output(FILE *spool);
 

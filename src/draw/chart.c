@@ -1,3 +1,4 @@
+/* chart.c - writing a chart (chart.h) as a gnuplot script with its data. */
 #include "draw/chart.h"
 
 #include <math.h>
@@ -6,17 +7,17 @@ enum { USUAL_WIDTH = 720, PANEL_HEIGHT = 260, HEAD_HEIGHT = 112, FOOT_HEIGHT = 6
 
 /* ------------------------------------------------------------------ data */
 
-/* Blocks "NAMEi-curvej" of the curves. */
+/* Write the curves as data blocks "NAMEi-curvej". */
 static void write_blocks(fst_figure_file *figure, const char *name, int number, const fst_chart_curve *curves,
                          int count)
 {
-    for (int c = 0; c < count; c++) {
+    for (int c = 0; c < count; ++c) {
         const fst_chart_curve *curve = &curves[c];
         char block[32];
         (void)snprintf(block, sizeof block, "%s%d-curve%d", name, number, c + 1);
         fst_figure_block(figure, block, curve->title ? curve->title : "x y");
-        for (size_t i = 0; i < curve->count; i++) {
-            /* gnuplot breaks a line at an empty line, and steps over a missing value. */
+        for (size_t i = 0; i < curve->count; ++i) {
+            /* gnuplot breaks a line at an empty line, but steps over a missing value. */
             if (isfinite(curve->x[i]) && isfinite(curve->y[i]))
                 (void)fprintf(figure->data, "%.9g %.9g\n", curve->x[i], curve->y[i]);
             else if (i > 0 && isfinite(curve->x[i - 1]) && isfinite(curve->y[i - 1]))
@@ -29,7 +30,7 @@ static void write_blocks(fst_figure_file *figure, const char *name, int number, 
 
 static void write_data(fst_figure_file *figure, const fst_chart *chart)
 {
-    for (int p = 0; p < chart->panel_count; p++) {
+    for (int p = 0; p < chart->panel_count; ++p) {
         const fst_chart_panel *panel = &chart->panels[p];
         write_blocks(figure, "panel", p + 1, panel->curves, panel->curve_count);
         if (panel->inset)
@@ -50,7 +51,7 @@ static void write_label(fst_figure_file *figure, const char *axis, const char *t
     (void)fprintf(figure->script, " textcolor rgb '%s'\n", fst_colour_code(colour));
 }
 
-/* The tics of the abscissa; only the panel at the bottom names them. */
+/* The tics of the abscissa; only the panel at the bottom shows their numbers. */
 static void write_tics(FILE *script, const char *tics, int named)
 {
     int in_name = 0;
@@ -98,7 +99,7 @@ static void write_axes(fst_figure_file *figure, const fst_chart *chart, const fs
 static void write_marks(fst_figure_file *figure, const fst_chart *chart, int top)
 {
     (void)fputs("unset arrow\nunset label\n", figure->script);
-    for (int m = 0; m < chart->mark_count; m++) {
+    for (int m = 0; m < chart->mark_count; ++m) {
         const fst_chart_mark *mark = &chart->marks[m];
         (void)fprintf(figure->script,
                       "set arrow from first %.9g,graph 0 to first %.9g,graph 1 nohead lc rgb '#9a9a9a' dt 3 "
@@ -124,7 +125,7 @@ static void write_curves(fst_figure_file *figure, const char *name, int number, 
                                          [FST_CURVE_OPEN_POINTS] = "points pt 6 ps 0.7 lw 1.2",
                                          [FST_CURVE_LINE_POINTS] = "linespoints pt 7 ps 0.6 lw 2",
                                          [FST_CURVE_DASHED_POINTS] = "linespoints dt (6,5) pt 6 ps 0.7 lw 2"};
-    for (int c = 0; c < count; c++) {
+    for (int c = 0; c < count; ++c) {
         const fst_chart_curve *curve = &curves[c];
         (void)fprintf(figure->script, "%sdata index '%s%d-curve%d' using 1:2 axes %s with %s lc rgb '%s' ",
                       c ? ", \\\n     " : "plot ", name, number, c + 1, curve->right ? "x1y2" : "x1y1",
@@ -139,7 +140,7 @@ static void write_curves(fst_figure_file *figure, const char *name, int number, 
     (void)fputc('\n', figure->script);
 }
 
-/* "[low:high]", where NAN leaves an end to the data. */
+/* Write "[low:high]"; NAN leaves an end to the data. */
 static void write_range(FILE *script, const char *axis, double low, double high)
 {
     (void)fprintf(script, "set %srange [", axis);
@@ -147,7 +148,7 @@ static void write_range(FILE *script, const char *axis, double low, double high)
     (void)(isfinite(high) ? fprintf(script, "%.9g]\n", high) : fputs("*]\n", script));
 }
 
-/* The inset of the panel whose frame is given in parts of the screen. */
+/* Draw the inset of a panel whose frame is given in parts of the screen. */
 static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, int number,
                         const double frame[4])
 {
@@ -168,7 +169,7 @@ static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, i
     write_label(figure, "x", inset->x_label, FST_COLOUR_BLACK);
     write_label(figure, "y", inset->label, FST_COLOUR_BLACK);
     (void)fputs("set xlabel font ',12' offset 0,0.4\nset ylabel font ',12' offset 1,0\n", script);
-    for (int i = 0; i < inset->label_count; i++) {
+    for (int i = 0; i < inset->label_count; ++i) {
         (void)fputs("set label ", script);
         fst_figure_quote(figure, inset->labels[i].text);
         (void)fprintf(script, " at first %.9g,%.9g font ',12' front\n", inset->labels[i].x, inset->labels[i].y);
@@ -205,7 +206,7 @@ fst_status fst_figure_chart(const char *out, const fst_chart *chart, fst_error *
     write_data(&figure, chart);
 
     int two = 0;
-    for (int p = 0; p < chart->panel_count; p++)
+    for (int p = 0; p < chart->panel_count; ++p)
         two = two || chart->panels[p].right_label;
     FILE *script = figure.script;
     (void)fputs("set multiplot title ", script);
@@ -217,7 +218,7 @@ fst_status fst_figure_chart(const char *out, const fst_chart *chart, fst_error *
         fst_figure_logarithmic(&figure, "x", chart->x_low, chart->x_high);
     double head = (chart->x2_label ? HEAD_HEIGHT : HEAD_HEIGHT - 70) / (double)height;
     double each = (1.0 - head - FOOT_HEIGHT / (double)height) / chart->panel_count;
-    for (int p = 0; p < chart->panel_count; p++) {
+    for (int p = 0; p < chart->panel_count; ++p) {
         double top = 1.0 - head - p * each;
         const double frame[4] = {104.0 / width, 1.0 - (two ? 108.0 : 24.0) / width,
                                  top - each + (p + 1 < chart->panel_count ? 16.0 / height : 0.0), top};

@@ -1,4 +1,5 @@
-/* chart.h - figures of curves: panels over one common abscissa, each with up to two ordinates. */
+/* chart.h - figures of curves: panels one below the other over a common abscissa, each with one or two
+ * ordinates. */
 #ifndef FST_DRAW_CHART_H
 #define FST_DRAW_CHART_H
 
@@ -9,12 +10,12 @@ typedef enum {
     FST_CURVE_DASHED,
     FST_CURVE_POINTS,
     FST_CURVE_OPEN_POINTS,
-    FST_CURVE_LINE_POINTS, /* few points, which the line only guides the eye between */
+    FST_CURVE_LINE_POINTS, /* few points; the line only guides the eye between them */
     FST_CURVE_DASHED_POINTS
 } fst_curve_style;
 
 typedef struct fst_chart_curve {
-    const char *title;   /* in the key; NULL: not there */
+    const char *title;   /* its name in the key; NULL: it is not in the key */
     const double *x, *y; /* a NAN breaks the line */
     size_t count;
     fst_colour colour;
@@ -28,10 +29,10 @@ typedef struct fst_chart_label {
     const char *text;
 } fst_chart_label;
 
-/* A small chart within a panel, on white. */
+/* A small chart within a panel, on white ground. */
 typedef struct fst_chart_inset {
     double left, right, bottom, top; /* its frame, in parts of the panel */
-    double x_low, x_high, low, high; /* its axes; NAN: from the data */
+    double x_low, x_high, low, high; /* the ranges of its axes; NAN: from the data */
     const char *x_label, *label;     /* NULL: none */
     const fst_chart_curve *curves;
     int curve_count;
@@ -40,17 +41,18 @@ typedef struct fst_chart_inset {
 } fst_chart_inset;
 
 typedef struct fst_chart_panel {
-    const char *left_label, *right_label; /* right: NULL for none */
-    fst_colour left_colour, right_colour; /* of the labels, where they tell the curves apart */
-    double low, high;                     /* of the left ordinate; NAN: from the data */
-    double right_low, right_high;         /* of the right one; both 0: from the data */
-    const char *key;                      /* gnuplot's place of the key, "top right"; NULL: no key */
+    const char *left_label, *right_label; /* right: NULL where there is none */
+    fst_colour left_colour,
+        right_colour;             /* of the labels, where they say which curves belong to which ordinate */
+    double low, high;             /* range of the left ordinate; NAN: from the data */
+    double right_low, right_high; /* range of the right ordinate; both 0: from the data */
+    const char *key;              /* where gnuplot puts the key, "top right"; NULL: no key */
     const fst_chart_curve *curves;
     int curve_count;
     const fst_chart_inset *inset; /* NULL: none */
 } fst_chart_panel;
 
-/* A vertical line through all panels, with its text in the top one. */
+/* A vertical line through all panels, with its text in the topmost one. */
 typedef struct fst_chart_mark {
     double x;
     const char *text;
@@ -64,7 +66,7 @@ typedef struct fst_chart {
     const char *x2_label; /* a second abscissa on top, x2 = x2_factor x; NULL: none */
     double x2_factor;
     int width, height; /* pixels; 0: as usual */
-    int square;        /* one unit is as long on both axes */
+    int square;        /* one unit is equally long on both axes */
     const fst_chart_panel *panels;
     int panel_count;
     const fst_chart_mark *marks;

@@ -34,7 +34,7 @@ static const struct observable {
 
 static const struct observable *find_observable(const char *name)
 {
-    for (size_t i = 0; i < sizeof OBSERVABLES / sizeof *OBSERVABLES; i++)
+    for (size_t i = 0; i < sizeof OBSERVABLES / sizeof *OBSERVABLES; ++i)
         if (strcmp(OBSERVABLES[i].name, name) == 0)
             return &OBSERVABLES[i];
     return NULL;
@@ -47,7 +47,7 @@ static double value_of(const fst_branch_point *p, const struct observable *what)
     return value;
 }
 
-/* Two columns of numbers for a curve. */
+/* Write a curve as two columns of numbers. */
 typedef struct columns {
     double *x, *y;
     size_t count;
@@ -67,15 +67,16 @@ static void put(columns *c, double x, double y)
     c->y[c->count++] = y;
 }
 
-/* Where between two neighbours the stability changes: at the special point there, if one is known; else half
- * way.  A fold lies a little beyond both, so the search reaches out by their distance. */
+/* Where the stability changes between two neighbouring points: at the special point there, if one is known;
+ * otherwise half way.  A fold lies a little beyond both points, so the search extends to both sides by their
+ * distance. */
 static void put_border(columns *c, const fst_branch *b, const fst_branch_point *p, const fst_branch_point *q,
                        const struct observable *what)
 {
     const double x = 0.5 * (p->value + q->value), reach = 1.5 * fabs(p->value - q->value) + 1e-9;
     const double r = 0.5 * (p->mean_r + q->mean_r), reach_r = 1.5 * fabs(p->mean_r - q->mean_r) + 1e-6;
     const fst_special *best = NULL;
-    for (size_t i = 0; i < b->special_count; i++) {
+    for (size_t i = 0; i < b->special_count; ++i) {
         const fst_special *s = &b->specials[i];
         if (s->type != FST_SPECIAL_ORIGIN_CROSSING && fabs(s->value - x) < reach &&
             fabs(s->at.mean_r - r) < reach_r && (!best || fabs(s->value - x) < fabs(best->value - x)))
@@ -87,21 +88,21 @@ static void put_border(columns *c, const fst_branch *b, const fst_branch_point *
         put(c, x, 0.5 * (value_of(p, what) + value_of(q, what)));
 }
 
-/* Whether a branch would be drawn over the one whose image under S2 it is: <n_z> and Phi tell them apart. */
+/* Whether a branch would be drawn exactly over its image under S2; only <n_z> and Phi tell the two apart. */
 static int is_hidden(const fst_branch *b, const struct observable *what, int branch)
 {
     if (strcmp(what->name, "mean_nz") == 0 || strcmp(what->name, "phi_deg") == 0)
         return 0;
-    for (size_t i = 0; i < b->end_count; i++)
+    for (size_t i = 0; i < b->end_count; ++i)
         if (b->ends[i].branch == branch && b->ends[i].image >= 0 && b->ends[i].image < branch)
             return 1;
     return 0;
 }
 
-/* The pieces of one stability, a gap between them. */
+/* Write the pieces of one stability, with a gap between them. */
 static void put_pieces(columns *c, const fst_branch *b, const struct observable *what, int stable)
 {
-    for (size_t i = 0; i < b->point_count; i++) {
+    for (size_t i = 0; i < b->point_count; ++i) {
         const fst_branch_point *p = &b->points[i];
         const int joined = i > 0 && p[-1].branch == p->branch;
         const int goes_on = i + 1 < b->point_count && p[1].branch == p->branch;
@@ -119,8 +120,8 @@ static void put_pieces(columns *c, const fst_branch *b, const struct observable 
 
 static void put_multipliers(columns *c, const fst_branch *b, int stable)
 {
-    for (size_t i = 0; i < b->point_count; i++)
-        for (int k = 0; k < b->points[i].multipliers; k++)
+    for (size_t i = 0; i < b->point_count; ++i)
+        for (int k = 0; k < b->points[i].multipliers; ++k)
             if (b->points[i].stable == stable &&
                 (b->kind == FST_BRANCH_LOCKED || b->points[i].multipliers == FST_MULTIPLIER_COUNT))
                 put(c, b->points[i].multiplier_re[k], b->points[i].multiplier_im[k]);
@@ -146,9 +147,9 @@ static int add_diagram(const fst_branch *b, const struct observable *what, colum
                 FST_CURVE_LINE);
     style_curve(&curves[count++], &c[1], over_two ? "of an unstable state" : "unstable", FST_COLOUR_GREY,
                 FST_CURVE_DASHED);
-    for (int type = 0; type < SPECIAL_TYPES; type++) {
+    for (int type = 0; type < SPECIAL_TYPES; ++type) {
         columns *special = &c[2 + type];
-        for (size_t i = 0; i < b->special_count; i++)
+        for (size_t i = 0; i < b->special_count; ++i)
             if ((int)b->specials[i].type == type)
                 put(special, b->specials[i].value, value_of(&b->specials[i].at, what));
         if (special->count > 0)
@@ -160,7 +161,7 @@ static int add_diagram(const fst_branch *b, const struct observable *what, colum
 
 static int add_circle(const fst_branch *b, columns *c, fst_chart_curve *curves)
 {
-    for (int i = 0; i < CIRCLE && b->kind != FST_BRANCH_LOCKED; i++)
+    for (int i = 0; i < CIRCLE && b->kind != FST_BRANCH_LOCKED; ++i)
         put(&c[2], cos(2.0 * 3.14159265358979323846 * i / (CIRCLE - 1)),
             sin(2.0 * 3.14159265358979323846 * i / (CIRCLE - 1)));
     put_multipliers(&c[0], b, 1);
@@ -174,7 +175,7 @@ static int add_circle(const fst_branch *b, columns *c, fst_chart_curve *curves)
 static fst_status unknown_observable(const char *name, fst_error *error)
 {
     char names[256] = "multipliers", nearest[32];
-    for (size_t i = 0; i < sizeof OBSERVABLES / sizeof *OBSERVABLES; i++) {
+    for (size_t i = 0; i < sizeof OBSERVABLES / sizeof *OBSERVABLES; ++i) {
         const size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|%s", OBSERVABLES[i].name);
     }
@@ -199,12 +200,12 @@ fst_status fst_figure_branch(const fst_branch *branch, const char *observable, c
     const size_t most =
         branch->point_count * (circle ? FST_EIGENVALUE_COUNT : 3) + branch->special_count + CIRCLE;
     fst_status status = FST_OK;
-    for (int i = 0; i < CURVES; i++)
+    for (int i = 0; i < CURVES; ++i)
         if (!make_columns(&c[i], most + dot_count))
             status = fst_fail(error, FST_NO_MEMORY, out, "out of memory");
     if (status == FST_OK) {
         int count = circle ? add_circle(branch, c, curves) : add_diagram(branch, what, c, curves);
-        for (size_t i = 0; i < dot_count && !circle; i++)
+        for (size_t i = 0; i < dot_count && !circle; ++i)
             put(&c[CURVES - 1], dots[2 * i], dots[2 * i + 1]);
         if (c[CURVES - 1].count > 0)
             style_curve(&curves[count++], &c[CURVES - 1], "simulated", FST_COLOUR_BLACK, FST_CURVE_OPEN_POINTS);
@@ -234,7 +235,7 @@ fst_status fst_figure_branch(const fst_branch *branch, const char *observable, c
                                  .panel_count = 1};
         status = fst_figure_chart(out, &chart, error);
     }
-    for (int i = 0; i < CURVES; i++) {
+    for (int i = 0; i < CURVES; ++i) {
         free(c[i].x);
         free(c[i].y);
     }

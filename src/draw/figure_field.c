@@ -1,4 +1,4 @@
-/* figure_field.c - the magnet's field on the plane of the bead's centre (the paper's Fig. portrait). */
+/* figure_field.c - the magnet's field on the plane of the bead's centre (the paper's Fig. 5). */
 #include "base/error.h"
 #include "draw/style.h"
 
@@ -15,8 +15,8 @@ enum {
     BOTTOM = 112,
     COLUMNS = 181, /* of the map */
     ROWS = 145,
-    ARROW_STEP = 9, /* an arrow every so many map points */
-    MAXIMA = 8      /* at most so many are marked */
+    ARROW_STEP = 9, /* map points from one arrow to the next */
+    MAXIMA = 8      /* the most maxima that are marked */
 };
 
 typedef struct field_map {
@@ -46,14 +46,14 @@ static double row_y(const field_map *map, int row)
 
 /* ------------------------------------------------------------------ maxima */
 
-/* Climb from a map point to the maximum: steps along both axes, halved where none leads up. */
+/* Climb from a map point to the maximum: step along both axes, and halve the step where none leads up. */
 static void climb(const fst_model *model, double step, double place[2])
 {
     double here = strength(model, place[0], place[1]);
     while (step > 1e-9) {
         static const double ways[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
         int moved = 0;
-        for (int i = 0; i < 4 && !moved; i++) {
+        for (int i = 0; i < 4 && !moved; ++i) {
             double x = place[0] + step * ways[i][0], y = place[1] + step * ways[i][1];
             double there = strength(model, x, y);
             if (there > here) {
@@ -71,11 +71,11 @@ static void climb(const fst_model *model, double step, double place[2])
 /* Every map point that is not lower than its eight neighbours leads to a maximum. */
 static void find_maxima(field_map *map)
 {
-    for (int row = 1; row < ROWS - 1; row++) {
-        for (int column = 1; column < COLUMNS - 1; column++) {
+    for (int row = 1; row < ROWS - 1; ++row) {
+        for (int column = 1; column < COLUMNS - 1; ++column) {
             double here = strength(map->model, column_x(map, column), row_y(map, row));
             int highest = 1;
-            for (int i = 0; i < 9 && highest; i++)
+            for (int i = 0; i < 9 && highest; ++i)
                 highest = here >=
                           strength(map->model, column_x(map, column + i % 3 - 1), row_y(map, row + i / 3 - 1));
             if (!highest || map->maximum_count == MAXIMA)
@@ -83,13 +83,13 @@ static void find_maxima(field_map *map)
             double place[2] = {column_x(map, column), row_y(map, row)};
             climb(map->model, column_x(map, 1) - column_x(map, 0), place);
             int known = 0;
-            for (int m = 0; m < map->maximum_count; m++)
+            for (int m = 0; m < map->maximum_count; ++m)
                 known = known || hypot(place[0] - map->maxima[m][0], place[1] - map->maxima[m][1]) < 1e-4;
             if (known)
                 continue;
             map->maxima[map->maximum_count][0] = place[0];
             map->maxima[map->maximum_count][1] = place[1];
-            map->maximum_count++;
+            ++map->maximum_count;
         }
     }
 }
@@ -99,8 +99,8 @@ static void find_maxima(field_map *map)
 static void write_map(fst_figure_file *figure, const field_map *map)
 {
     fst_figure_block(figure, "map", "X/l Y/l |B|/B0");
-    for (int row = 0; row < ROWS; row++) {
-        for (int column = 0; column < COLUMNS; column++) {
+    for (int row = 0; row < ROWS; ++row) {
+        for (int column = 0; column < COLUMNS; ++column) {
             double x = column_x(map, column), y = row_y(map, row);
             (void)fprintf(figure->data, "%.5g %.5g %.5g\n", x, y, strength(map->model, x, y));
         }
@@ -108,7 +108,8 @@ static void write_map(fst_figure_file *figure, const field_map *map)
     }
 }
 
-/* In-plane arrows: the length goes with the square root of the strength, so that weak fields show too. */
+/* Arrows of the field in the plane.  Their length goes with the square root of the strength, so that weak
+ * fields show too. */
 static void write_arrows(fst_figure_file *figure, const field_map *map)
 {
     double greatest = 0.0;
@@ -134,12 +135,12 @@ static void write_arrows(fst_figure_file *figure, const field_map *map)
 static void write_marks(fst_figure_file *figure, const field_map *map)
 {
     fst_figure_block(figure, "lines", "X/l Y/l: the magnet's lines");
-    for (int line = 0; line < map->groups.lines; line++) {
+    for (int line = 0; line < map->groups.lines; ++line) {
         double y = (line - 0.5 * (map->groups.lines - 1)) * map->groups.lambda;
         (void)fprintf(figure->data, "-1 %.6g\n1 %.6g\n\n", y, y);
     }
     fst_figure_block(figure, "maxima", "X/l Y/l: maxima of |B|");
-    for (int m = 0; m < map->maximum_count; m++)
+    for (int m = 0; m < map->maximum_count; ++m)
         (void)fprintf(figure->data, "%.8g %.8g\n", map->maxima[m][0], map->maxima[m][1]);
 }
 
@@ -207,7 +208,7 @@ fst_status fst_figure_field(const fst_params *params, const char *out, fst_error
     if (status != FST_OK)
         return status;
     field_map map = {.model = model, .groups = fst_model_groups(model)};
-    /* The poles and the magnet's corners with room about them, whatever its shape. */
+    /* The map shows the poles and the magnet's corners, with room about them, whatever the magnet's shape. */
     double half_lines = 0.5 * (map.groups.lines - 1) * map.groups.lambda;
     map.half_width = 1.0 + 0.9 * map.groups.h + 0.3;
     map.half_height = half_lines + 0.9 * map.groups.h;

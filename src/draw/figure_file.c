@@ -1,3 +1,9 @@
+/* figure_file.c - the way of a figure from a script in memory to three files.
+ *
+ *  drawing functions --> script, data (memory) --> OUT.gp, OUT.dat under temporary names --> gnuplot
+ *                                                                                              |  a pipe
+ *               OUT.gp, OUT.dat, OUT.svg  <-- renamed together, once all are synced  <-- OUT.svg, checked
+ */
 #include "draw/figure_file.h"
 
 #include "base/error.h"
@@ -31,12 +37,12 @@ static int is_tame(const char *name)
     return same;
 }
 
-/* Take OUT apart into directory, stem and ending. */
+/* Split OUT into directory, stem and ending. */
 static fst_status take_apart(fst_figure_file *figure, const char *out, fst_error *error)
 {
     const char *slash = strrchr(out, '/');
     const char *name = slash ? slash + 1 : out;
-    if (!is_tame(name)) /* it stands in the script */
+    if (!is_tame(name)) /* the name stands in the script */
         return fst_fail(error, FST_BAD_INPUT, out,
                         "a figure's name may hold neither control characters nor bytes that are no UTF-8");
     const char *point = strrchr(name, '.');
@@ -72,7 +78,7 @@ void fst_figure_quote(fst_figure_file *figure, const char *text)
     fst_gnuplot_quote(figure->script, text);
 }
 
-/* A file beside the script, by a name that means no more than a file. */
+/* Name a file beside the script so that gnuplot takes it for a file and nothing else. */
 static void quote_name(fst_figure_file *figure, const char *ending)
 {
     (void)fputs("'./'.", figure->script);
@@ -80,8 +86,8 @@ static void quote_name(fst_figure_file *figure, const char *ending)
     (void)fprintf(figure->script, ".'.%s'", ending);
 }
 
-/* Font sizes differ because SVG counts them in pixels, Cairo in points; a PNG is drawn at twice the size, for
- * fine screens. */
+/* Font sizes differ, because SVG counts them in pixels and Cairo in points.  A PNG is drawn at twice the size,
+ * for fine screens. */
 static void write_terminal(fst_figure_file *figure, int width, int height)
 {
     FILE *script = figure->script;
@@ -164,15 +170,15 @@ static void write_comment(FILE *out, const char *text)
 
 void fst_figure_block(fst_figure_file *figure, const char *name, const char *columns)
 {
-    /* Two empty lines end a block; the comment right before a block is the name that `index` looks for. */
+    /* Two empty lines end a block.  `index` finds a block by the comment line right before it. */
     if (ftell(figure->data) > 0)
         (void)fputs("\n\n", figure->data);
     write_comment(figure->data, name);
     write_comment(figure->data, columns);
 }
 
-/* A gnuplot that was stopped half way may still say that all is well: the figure's last bytes tell whether it
- * is complete. */
+/* A gnuplot that was stopped half way may still report success; the last bytes of the figure tell whether it is
+ * complete. */
 static int is_complete(const fst_whole_file *file, const char *ending)
 {
     char tail[64];
@@ -184,13 +190,13 @@ static int is_complete(const fst_whole_file *file, const char *ending)
     while (got < 0 && errno == EINTR);
     const char *mark = !strcmp(ending, "svg") ? "</svg>" : !strcmp(ending, "pdf") ? "%%EOF" : "IEND";
     const size_t length = strlen(mark);
-    for (size_t i = 0; got > 0 && i + length <= (size_t)got; i++)
+    for (size_t i = 0; got > 0 && i + length <= (size_t)got; ++i)
         if (memcmp(tail + i, mark, length) == 0)
             return 1;
     return 0;
 }
 
-/* The script, its data and the figure, each under a temporary name until all of them are on the disk. */
+/* Script, data and figure are written under temporary names, and renamed once all of them are on the disk. */
 enum { DATA, SCRIPT, FIGURE, FILES };
 
 /* How gnuplot, which runs in the figure's directory, calls a temporary file. */
@@ -210,7 +216,7 @@ static fst_status draw(const fst_figure_file *figure, fst_whole_file files[FILES
     if (status == FST_OK)
         status = fst_gnuplot_run(figure->directory, name_there(&files[SCRIPT]), name_there(&files[DATA]),
                                  files[FIGURE].stream, error);
-    if (status != FST_OK && error) { /* the script's temporary name tells nobody anything */
+    if (status != FST_OK && error) { /* the script's temporary name would tell the reader nothing */
         (void)snprintf(error->where, sizeof error->where, "%s", figure->out);
         fst_text_tame(error->where);
     }
@@ -232,14 +238,14 @@ static fst_status write_files(const fst_figure_file *figure, const char *const p
     }
     if (status == FST_OK)
         status = draw(figure, files, error);
-    for (; committed < FILES && status == FST_OK; committed++)
+    for (; committed < FILES && status == FST_OK; ++committed)
         status = fst_whole_file_commit(&files[committed], error);
-    for (int i = committed; i < opened; i++)
+    for (int i = committed; i < opened; ++i)
         fst_whole_file_discard(&files[i]);
     return status;
 }
 
-/* Close a memory stream; 1 if everything went into it. */
+/* Close a memory stream; 1 if everything was written into it. */
 static int closed(FILE **stream)
 {
     int good = !ferror(*stream);

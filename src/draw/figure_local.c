@@ -1,4 +1,4 @@
-/* figure_local.c - the path of the moment n in the local frame (inset of the paper's Fig. om04). */
+/* figure_local.c - the path of the moment n in the local frame (inset of the paper's Fig. 9). */
 #include "draw/figure_trajectory.h"
 
 #include "draw/style.h"
@@ -6,7 +6,7 @@
 
 enum { WIDTH = 760, HEIGHT = 460 };
 
-/* One view of the unit sphere: the path's projection on two of the local axes. */
+/* One view of the unit sphere: the path projected on two of the local axes. */
 static void write_panel(fst_figure_file *figure, double left, const char *title, const char *label, int column)
 {
     (void)fprintf(figure->script,
@@ -37,7 +37,7 @@ fst_status fst_figure_local_n(const fst_table *table, const char *out, const fst
         return status;
 
     fst_figure_block(&figure, "n", "n_r n_alpha n_z");
-    for (size_t row = view.first; row < view.last; row++)
+    for (size_t row = view.first; row < view.last; ++row)
         (void)fprintf(figure.data, "%.7g %.7g %.7g\n", n_r[row], n_alpha[row], n_z[row]);
     fst_figure_block(&figure, "circle", "the unit circle, for scale");
     for (int degrees = 0; degrees <= 360; degrees += 3)

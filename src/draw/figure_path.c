@@ -1,4 +1,4 @@
-/* figure_path.c - the bead's path over the plate (the paper's Figs. f4, f4detail, om04). */
+/* figure_path.c - the bead's path over the plate (the paper's Figs. 7, 8, 9). */
 #include "draw/figure_trajectory.h"
 
 #include "base/error.h"
@@ -8,17 +8,17 @@
 #include <string.h>
 
 enum {
-    WIDTH = 690, /* pixels of the whole and of the square of plate in it */
+    WIDTH = 690, /* width of the figure, and of the square of plate in it, in pixels */
     HEIGHT = 705,
     SIDE = 510,
     LEFT = 70,
     TOP = 45,
-    ARROWS = 170,        /* about as many arrows as a picture bears */
-    MOST_SAMPLES = 6000, /* more would only make the file larger */
-    MOST_PARTS = 8       /* of the path between two samples */
+    ARROWS = 170,        /* about as many arrows as a picture can bear */
+    MOST_SAMPLES = 6000, /* more samples would only make the file larger */
+    MOST_PARTS = 8       /* pieces of the path between two samples */
 };
 
-/* What a colour means, for columns that people look at most; others are labelled by name and unit. */
+/* What a colour means, for the columns that people look at most.  Others are labelled by name and unit. */
 static const struct {
     const char *column, *label;
 } colour_labels[] = {
@@ -48,21 +48,21 @@ static fst_status find_columns(const fst_view *view, const char *colour, path_co
 
 /* ------------------------------------------------------------------ frame */
 
-/* A zoom beside everything that there is would show an empty frame. */
+/* Refuse a zoom outside of everything there is: it would show an empty frame. */
 static fst_status check_zoom(const fst_view *view, const path_columns *columns, const double *zoom,
                              fst_error *error)
 {
     double least[2], greatest[2];
     const double *where[2] = {columns->x, columns->y};
     int beside = 0;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         fst_view_range(view, where[i], &least[i], &greatest[i]);
         least[i] *= view->millimetres;
         greatest[i] *= view->millimetres;
         beside = beside || zoom[2 * i] > greatest[i] || zoom[2 * i + 1] < least[i];
     }
     return beside ? fst_fail(error, FST_BAD_INPUT, "figure",
-                             "the zoom is beside the path, which lies within %.4g,%.4g,%.4g,%.4g (mm)",
+                             "the zoom lies outside of the path, which is within %.4g,%.4g,%.4g,%.4g (mm)",
                              least[0], greatest[0], least[1], greatest[1])
                   : FST_OK;
 }
@@ -83,14 +83,15 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
     reach = fmax(reach, fmax(-least, greatest));
     fst_view_range(view, columns->y, &least, &greatest);
     reach = fmax(reach, fmax(-least, greatest));
-    /* The magnet's outline should have room too. */
+    /* Leave room for the magnet's outline too. */
     reach = fmax(1.12 * reach, 1.12) * view->millimetres;
     box[0] = box[2] = -reach;
     box[1] = box[3] = reach;
     return FST_OK;
 }
 
-/* The magnet where it is when the path begins: a faint rectangle, its lines, and the turning's sense. */
+/* Draw the magnet where it is when the path begins: a faint rectangle, its lines, and an arrow for
+ * its turning. */
 static void draw_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
 {
     double turned = columns->alpha[view->first] - columns->phi[view->first];
@@ -98,7 +99,7 @@ static void draw_magnet(fst_figure_file *figure, const fst_view *view, const pat
     double cosine = cos(turned), sine = sin(turned);
     static const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     fst_figure_block(figure, "magnet", "x/mm y/mm: the magnet when the path begins");
-    for (int i = 0; i <= 4; i++) {
+    for (int i = 0; i <= 4; ++i) {
         double along = corners[i % 4][0] * length, across = corners[i % 4][1] * width;
         (void)fprintf(figure->data, "%.6g %.6g\n", along * cosine - across * sine,
                       along * sine + across * cosine);
@@ -156,7 +157,7 @@ static void write_colour(fst_figure_file *figure, const fst_view *view, const pa
                   "set cbrange [%.9g:%.9g]\nset colorbox user origin %.4f,%.4f size %.4f,%.4f\n", least,
                   greatest, (LEFT + SIDE + 14.0) / WIDTH, 1.0 - (TOP + SIDE) / (double)HEIGHT, 16.0 / WIDTH,
                   SIDE / (double)HEIGHT);
-    for (size_t i = 0; i < sizeof colour_labels / sizeof colour_labels[0]; i++) {
+    for (size_t i = 0; i < sizeof colour_labels / sizeof colour_labels[0]; ++i) {
         if (!strcmp(name, colour_labels[i].column)) {
             (void)fprintf(figure->script, "set cblabel '%s'\n", colour_labels[i].label);
             return;
@@ -169,7 +170,8 @@ static void write_colour(fst_figure_file *figure, const fst_view *view, const pa
 
 /* ------------------------------------------------------------------ data */
 
-/* Few samples are joined by smooth curves, for which the velocities are there; many are thinned out. */
+/* Where samples are few, join them by smooth curves through their velocities; where they are many,
+ * skip some. */
 static void write_path(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
 {
     size_t rows = view->last - view->first, stride = rows / MOST_SAMPLES + 1, parts = MOST_SAMPLES / rows;
@@ -178,7 +180,7 @@ static void write_path(fst_figure_file *figure, const fst_view *view, const path
     for (size_t row = view->first; row < view->last; row += stride) {
         size_t next = row + 1 < view->last ? row + 1 : row;
         double h = columns->t[next] - columns->t[row];
-        for (size_t i = 0; i < (next > row ? parts : 1); i++) {
+        for (size_t i = 0; i < (next > row ? parts : 1); ++i) {
             double part = (double)i / (double)parts;
             double x = fst_view_between(columns->x[row], columns->vx[row], columns->x[next], columns->vx[next],
                                         h, part);
@@ -191,14 +193,14 @@ static void write_path(fst_figure_file *figure, const fst_view *view, const path
     }
 }
 
-/* The moment in the local frame, seen from outside along -e_r, in the middle of the picture. */
+/* Draw the moment in the local frame, seen from outside along -e_r, in the middle of the picture. */
 static void write_inset(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
 {
-    static const double side = 0.36; /* of the square of plate */
+    static const double side = 0.36; /* in parts of the square of plate */
     double middle_x = (LEFT + 0.5 * SIDE) / WIDTH, middle_y = 1.0 - (TOP + 0.5 * SIDE) / HEIGHT;
     double wide = 0.5 * side * SIDE / WIDTH, tall = 0.5 * side * SIDE / HEIGHT;
     fst_figure_block(figure, "local", "n_alpha n_z: the moment in the local frame");
-    for (size_t row = view->first; row < view->last; row++)
+    for (size_t row = view->first; row < view->last; ++row)
         (void)fprintf(figure->data, "%.6g %.6g\n", columns->n_alpha[row], columns->n_z[row]);
     (void)fprintf(figure->script,
                   "unset title\nunset colorbox\nunset key\n"
@@ -214,13 +216,13 @@ static void write_inset(fst_figure_file *figure, const fst_view *view, const pat
                   fst_colour_code(FST_COLOUR_BLUE));
 }
 
-/* Arrows of the moment's horizontal part, as long as it is relative to the others; in a zoom there are as many
- * per length of path as the picture bears. */
+/* Arrows of the moment's horizontal part, each as long as that part.  A zoom has as many arrows per length of
+ * path as the picture can bear. */
 static void write_arrows(fst_figure_file *figure, const fst_view *view, const path_columns *columns,
                          const double box[4])
 {
     size_t inside = 0;
-    for (size_t row = view->first; row < view->last; row++) {
+    for (size_t row = view->first; row < view->last; ++row) {
         double x = columns->x[row] * view->millimetres, y = columns->y[row] * view->millimetres;
         inside += x >= box[0] && x <= box[1] && y >= box[2] && y <= box[3];
     }

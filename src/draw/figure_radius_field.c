@@ -1,4 +1,4 @@
-/* figure_radius_field.c - r and |B| while the magnet passes under the bead (the paper's Fig. magint). */
+/* figure_radius_field.c - r and |B| while the magnet passes under the bead (the paper's Fig. 13). */
 #include "draw/figure_trajectory.h"
 
 #include "base/error.h"
@@ -9,7 +9,8 @@
 
 #define PI 3.14159265358979323846
 
-/* Phi folded into half a revolution of the magnet; a fold gets a NAN row, so that the line breaks there. */
+/* Fold Phi into half a revolution of the magnet.  Each fold gets a row of NAN, so that the line
+ * breaks there. */
 typedef struct folded {
     double *phi, *r, *b;
     size_t count;
@@ -18,12 +19,12 @@ typedef struct folded {
 static void fold(const fst_view *view, const double *phi, const double *r, const double *b, folded *curve)
 {
     double previous = NAN;
-    for (size_t row = view->first; row < view->last; row++) {
+    for (size_t row = view->first; row < view->last; ++row) {
         double half_turn = floor(phi[row] / PI);
         size_t i = curve->count;
         if (!isnan(previous) && half_turn != previous) {
             curve->phi[i] = curve->r[i] = curve->b[i] = NAN;
-            i++;
+            ++i;
         }
         previous = half_turn;
         curve->phi[i] = phi[row] - half_turn * PI;

@@ -1,17 +1,18 @@
+/* figure_setup.c - the sketch of the experiment, and the path as the paper's camera would see it. */
 #include "draw/figure_setup.h"
 
 #include "draw/style.h"
 
 #include <math.h>
 
-#define FRAMES_A_SECOND 200.0 /* the paper's camera (section 3) */
+#define FRAMES_A_SECOND 200.0 /* the paper's camera (section III) */
 #define PIXELS_A_MM 10.0      /* the paper gives no scale */
-#define MAGNET_THICKNESS 9.0  /* mm, the paper's magnet (section 1) */
+#define MAGNET_THICKNESS 9.0  /* mm, the paper's magnet (section II) */
 
 enum { CAMERA_SECONDS = 2, CAMERA_WIDTH = 690, CAMERA_HEIGHT = 640, SKETCH_WIDTH = 760, SKETCH_HEIGHT = 430 };
 
 static const double degree = 0.017453292519943295;
-static const double MOMENT_ANGLE = 110.0; /* of the sketched moment against e_r */
+static const double MOMENT_ANGLE = 110.0; /* the angle of the sketched moment against e_r */
 
 /* ------------------------------------------------------------------ the sketch */
 
@@ -22,35 +23,36 @@ static void write_circle(fst_figure_file *figure, const char *name, double x, do
         (void)fprintf(figure->data, "%.6g %.6g\n", x + radius * cos(i * degree), y + radius * sin(i * degree));
 }
 
-/* From the angle `from` to `to`, in degrees, about (x, y). */
+/* Draw an arc from the angle `from` to `to`, in degrees, about (x, y). */
 static void write_arc(fst_figure_file *figure, const char *name, double x, double y, double radius, double from,
                       double to)
 {
     fst_figure_block(figure, name, "x/mm y/mm");
-    for (int i = 0; i <= 20; i++) {
+    for (int i = 0; i <= 20; ++i) {
         double angle = (from + (to - from) * i / 20.0) * degree;
         (void)fprintf(figure->data, "%.6g %.6g\n", x + radius * cos(angle), y + radius * sin(angle));
     }
 }
 
-/* Short vectors along an arc about the axis, the last with the sense of the turning: anticlockwise. */
+/* Draw an arc about the axis by short vectors; the head of the last one shows the sense of turning,
+ * anticlockwise. */
 static void write_turning(fst_figure_file *figure)
 {
     fst_figure_block(figure, "turning", "x/mm y/mm dx dy: the sense of the magnet's turning");
-    for (int side = 0; side < 2; side++) {
+    for (int side = 0; side < 2; ++side) {
         double at = (205.0 + 180.0 * side) * degree, reach = 33.0, step = 9.0;
         (void)fprintf(figure->data, "%.6g %.6g %.6g %.6g\n", reach * cos(at), reach * sin(at), -step * sin(at),
                       step * cos(at));
     }
 }
 
-/* A rectangle of half sides a, b about (x, y), turned by `angle` degrees. */
+/* Draw a rectangle of half sides a, b about (x, y), turned by `angle` degrees. */
 static void write_box(fst_figure_file *figure, const char *name, const double box[4], double angle)
 {
     static const double corners[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
     double c = cos(angle * degree), s = sin(angle * degree);
     fst_figure_block(figure, name, "x/mm y/mm");
-    for (int i = 0; i < 5; i++) {
+    for (int i = 0; i < 5; ++i) {
         double a = box[2] * corners[i][0], b = box[3] * corners[i][1];
         (void)fprintf(figure->data, "%.6g %.6g\n", box[0] + a * c - b * s, box[1] + a * s + b * c);
     }
@@ -69,7 +71,7 @@ static void write_sketch_data(fst_figure_file *figure, const fst_params *p)
     write_circle(figure, "bead-beside", r, radius, radius);
     write_arc(figure, "theta", r, radius, 6.0, 0.0, MOMENT_ANGLE);
     fst_figure_block(figure, "lines", "x/mm y/mm dx dy: the model's lines of dipoles");
-    for (int k = 0; k < p->magnet_lines; k++) {
+    for (int k = 0; k < p->magnet_lines; ++k) {
         double across = p->magnet_lines > 1 ? width * (k / (p->magnet_lines - 1.0) - 0.5) : 0.0;
         double c = cos(25 * degree), s = sin(25 * degree);
         (void)fprintf(figure->data, "%.6g %.6g %.6g %.6g\n", -l * c - across * s, -l * s + across * c,
@@ -157,10 +159,10 @@ fst_status fst_figure_camera(const double *t, const double *x, const double *y, 
     double pixels = 1e3 * params->magnet_half_length * PIXELS_A_MM, gamma = params->friction_gamma;
     fst_figure_block(&figure, "frames", "x/pixels y/pixels: one line a frame of the camera");
     size_t row = 0;
-    for (int frame = 0; frame < CAMERA_SECONDS * (int)FRAMES_A_SECOND && rows > 1; frame++) {
+    for (int frame = 0; frame < CAMERA_SECONDS * (int)FRAMES_A_SECOND && rows > 1; ++frame) {
         double moment = t[0] + frame / FRAMES_A_SECOND * gamma;
         while (row + 2 < rows && t[row + 1] < moment)
-            row++;
+            ++row;
         if (t[row + 1] < moment)
             break;
         double part = (moment - t[row]) / (t[row + 1] - t[row]);

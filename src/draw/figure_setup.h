@@ -4,11 +4,11 @@
 
 #include <festoon/festoon.h>
 
-/* Plate, bead and magnet to scale, from above and from the side (the paper's Fig. 0). */
+/* Plate, bead and magnet to scale, from above and from the side (the paper's Fig. 1). */
 fst_status fst_figure_sketch(const fst_params *params, const char *out, fst_error *error);
 
-/* The bead's path as a camera of 200 frames a second sees it, a point a frame, for two seconds (the paper's
- * Fig. blender): `rows` samples of t (1/gamma), x and y (l). */
+/* The bead's path as a camera of 200 frames a second sees it: a point a frame, for two seconds (the paper's
+ * Fig. 2).  `rows` samples of t (1/gamma), x and y (l). */
 fst_status fst_figure_camera(const double *t, const double *x, const double *y, size_t rows,
                              const fst_params *params, const char *out, fst_error *error);
 

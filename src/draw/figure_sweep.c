@@ -1,11 +1,11 @@
-/* figure_sweep.c - fst_figure_sweep(): which keys of a sweep are shown, as curves or as a map. */
+/* figure_sweep.c - fst_figure_sweep(): choosing which keys of a sweep are shown, as curves or as a map. */
 #include "draw/figure_sweep.h"
 
 #include "base/error.h"
 
 enum { MOST_KEYS = 8 };
 
-/* The axes that are varied, one or two. */
+/* The axes that vary, one or two. */
 static fst_status axes_of(const fst_grid *grid, const char *path, fst_shown_units units,
                           fst_sweep_axis axes[FST_AXIS_LIMIT], int *varied, fst_error *error)
 {
@@ -18,7 +18,7 @@ static fst_status axes_of(const fst_grid *grid, const char *path, fst_shown_unit
         }
     if (*varied < 1 || *varied > 2)
         return fst_fail(error, FST_BAD_INPUT, path,
-                        "a figure shows a sweep over one or two axes; this one has %d: festoon export it",
+                        "a figure shows a sweep over one or two axes; this one has %d: use festoon export",
                         *varied);
     return FST_OK;
 }

@@ -1,3 +1,4 @@
+/* figure_sweep_axes.c - axes and keys of a sweep, converted into the units that the figure shows. */
 #include "draw/figure_sweep_axes.h"
 
 #include "base/error.h"
@@ -16,7 +17,7 @@ static void words_of(const char *key, char *words, size_t size)
             *c = ' ';
 }
 
-/* Length in metres and time in seconds of the scaled units, which must be the same at all points. */
+/* The scaled units' length in metres and time in seconds, which must be the same at all points. */
 static fst_status units_of(const fst_grid *grid, const char *what, double *length, double *time,
                            fst_error *error)
 {
@@ -38,7 +39,7 @@ static fst_status units_of(const fst_grid *grid, const char *what, double *lengt
 
 static const double TWO_PI = 6.283185307179586;
 
-/* The drive by its frequency in Hz or by its scaled angular velocity. */
+/* The drive, by its frequency in Hz or by its scaled angular velocity. */
 static fst_status drive_axis(const fst_grid *grid, fst_shown_units units, fst_sweep_axis *axis,
                              fst_error *error)
 {
@@ -53,7 +54,7 @@ static fst_status drive_axis(const fst_grid *grid, fst_shown_units units, fst_sw
     return status;
 }
 
-/* A length, given in metres or, start.r, in l. */
+/* A length, given in metres or (start.r) in l. */
 static fst_status length_axis(const fst_grid *grid, fst_shown_units units, int in_metres, fst_sweep_axis *axis,
                               fst_error *error)
 {
@@ -112,7 +113,7 @@ void fst_sweep_choice_tics(const fst_param_info *choice, char *tics, size_t size
 fst_status fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units,
                                  fst_sweep_quantity *quantity, fst_error *error)
 {
-    /* Units of results that have a counterpart in the laboratory: powers of l and of gamma in them. */
+    /* Units of results that have a counterpart in the laboratory, as powers of l and of gamma. */
     static const struct {
         const char *scaled, *lab;
         int length, time;

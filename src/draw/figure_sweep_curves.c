@@ -1,4 +1,4 @@
-/* figure_sweep_curves.c - keys of a sweep against its one axis, in the style of the paper's Fig. comparison. */
+/* figure_sweep_curves.c - keys of a sweep against its one axis, in the style of the paper's Fig. 6. */
 #include "draw/figure_sweep.h"
 
 #include "base/error.h"
@@ -14,7 +14,7 @@ typedef struct drawing {
     fst_chart_curve curves[MOST_KEYS * REGIMES];
     fst_chart_panel panels[MOST_KEYS];
     int curve_count, panel_count;
-    size_t points, step; /* that are drawn: every `step`-th one of the sweep */
+    size_t points, step; /* how many are drawn: every `step`-th point of the sweep */
     char title[256];
 } drawing;
 
@@ -26,7 +26,7 @@ static int any_value(const double *values, size_t count)
     return 0;
 }
 
-/* A key without any value gets no panel, but a word in the title. */
+/* A key without any value gets no panel; the title says so. */
 static void mention_empty(drawing *d, const char *label)
 {
     const size_t used = strlen(d->title);
@@ -34,7 +34,8 @@ static void mention_empty(drawing *d, const char *label)
                    strchr(d->title, ':') ? ", " : "; no value of: ", label);
 }
 
-/* One curve of a panel for each regime that occurs, at the height of `values`: who does what where. */
+/* Add a curve to a panel for each regime that occurs, at the heights `values`, so that the points show their
+ * regimes. */
 static void add_regimes(drawing *d, int panel, const double *regime, const double *values)
 {
     for (int r = 0; r < REGIMES; ++r) {
@@ -54,8 +55,9 @@ static void add_regimes(drawing *d, int panel, const double *regime, const doubl
     }
 }
 
-/* A panel a key.  The regime, where it is asked for beside others, has none: it colours the points of every
- * panel, because a colour that means a regime in one panel must not mean nothing in the next. */
+/* One panel for each key.  The regime, where it is asked for beside other keys, has no panel: it colours the
+ * points of all panels.  (A colour that means a regime in one panel must not mean anything else in the next.)
+ */
 static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep_quantity *quantities,
                        int count)
 {
@@ -95,8 +97,7 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep
         d->panels[d->panel_count - 1].key = "top right";
 }
 
-/* The abscissa, and where the drawing ends: at the outermost values, or half a unit beyond those of a choice.
- */
+/* Set the abscissa and its range: from the least value to the greatest, or half a unit beyond for a choice. */
 static void lay_abscissa(drawing *d, const fst_grid *grid, const fst_sweep_axis *axis, double *low,
                          double *high)
 {
@@ -112,7 +113,7 @@ static void lay_abscissa(drawing *d, const fst_grid *grid, const fst_sweep_axis 
     *high += wider;
 }
 
-/* What one unit of a drive in Hz is as scaled angular velocity; 0 for other axes. */
+/* The scaled angular velocity of a drive of 1 Hz; 0 for other axes. */
 static double scale_of_drive(const fst_grid *grid, const fst_sweep_axis *axis)
 {
     const char *key = fst_grid_key(grid, axis->index);

@@ -11,21 +11,22 @@ enum { WIDTH = 780, HEIGHT = 620, REGIMES = FST_REGIME_LIFTED + 1, MOST_CELLS = 
 /* A value of an axis and the points that have it. */
 typedef struct place {
     double value;
-    int64_t offset; /* added to the point's number */
+    int64_t offset; /* what is added to the point's number */
 } place;
 
-/* An axis with its values in rising order, each once; cell i reaches from edges[i] to edges[i + 1]. */
+/* An axis with its values in rising order, each once.  Cell i reaches from edges[i] to edges[i + 1]. */
 typedef struct side {
     place *places;
     double *edges;
-    int64_t count, step; /* of every `step` values one is drawn: more cells than pixels show nothing more */
+    int64_t count,
+        step; /* one of every `step` values is drawn: more cells than pixels would show nothing more */
 } side;
 
 typedef struct map {
     const fst_sweep_table *table;
-    const fst_sweep_axis *axes; /* the first one upward, the second one to the right */
+    const fst_sweep_axis *axes; /* the first one goes upward, the second one to the right */
     side up, right;
-    int regimes; /* colours stand for regimes */
+    int regimes; /* colours mean regimes */
     double factor;
 } map;
 
@@ -39,19 +40,19 @@ static int by_value(const void *a, const void *b)
     return (left->offset > right->offset) - (left->offset < right->offset);
 }
 
-/* Halfway between neighbours, on the scale that is drawn. */
+/* The middle between two neighbours, on the scale of the figure. */
 static double between(const fst_sweep_axis *axis, double a, double b)
 {
     return axis->logarithmic ? sqrt(a * b) : 0.5 * (a + b);
 }
 
-/* The outermost cells are as wide to both sides of their values. */
+/* The outermost cells reach equally far to both sides of their values. */
 static double mirrored(const fst_sweep_axis *axis, double value, double edge)
 {
     return axis->logarithmic ? value * (value / edge) : value + (value - edge);
 }
 
-/* How far two values lie from each other on that scale. */
+/* The distance of two values on that scale. */
 static double axis_length(const fst_sweep_axis *axis, double low, double high)
 {
     return axis->logarithmic ? log(high / low) : high - low;
@@ -62,7 +63,7 @@ static void lay_edges(side *s, const fst_sweep_axis *axis)
     const int64_t n = s->count;
     for (int64_t i = 1; i < n; ++i)
         s->edges[i] = between(axis, s->places[i - 1].value, s->places[i].value);
-    const double lone = s->places[0].value; /* a list of one value, given more than once */
+    const double lone = s->places[0].value; /* a list of one value, which was given more than once */
     s->edges[0] = n > 1 ? mirrored(axis, lone, s->edges[1]) : lone - fmax(0.1 * fabs(lone), 1e-9);
     s->edges[n] = mirrored(axis, s->places[n - 1].value, s->edges[n - 1]);
 }
@@ -97,8 +98,7 @@ static double value_at(const map *m, int64_t row, int64_t column)
 
 /* ------------------------------------------------------------------ drawing */
 
-/* The upper end of a box that ends with cell `last`: boxes overlap by a pixel or so, so that no seams show
- * between them. */
+/* The upper end of a box that ends with cell `last`.  Boxes overlap by about a pixel, so that no seams show. */
 static double upper_end(const side *s, const fst_sweep_axis *axis, int64_t last)
 {
     const double edge = s->edges[last + 1];
@@ -109,8 +109,8 @@ static double upper_end(const side *s, const fst_sweep_axis *axis, int64_t last)
     return axis->logarithmic ? edge * exp(beyond) : edge + beyond;
 }
 
-/* The cells of one regime, or all of them (regime < 0).  Cells of one row that follow each other with the same
- * regime become one box: maps stay small as files. */
+/* Draw the cells of one regime, or all of them (regime < 0).  Neighbouring cells of a row with the same regime
+ * become one box, which keeps the file small. */
 static void write_cells(fst_figure_file *figure, const map *m, int regime)
 {
     char name[24];
@@ -166,7 +166,7 @@ static void write_regimes(fst_figure_file *figure, const map *m)
     (void)fputs("NaN notitle\n", figure->script);
 }
 
-/* Quantities of both signs get a palette whose middle is zero. */
+/* A quantity of both signs gets a palette whose middle is zero. */
 static void write_heat(fst_figure_file *figure, const map *m, const char *label)
 {
     double least = INFINITY, greatest = -INFINITY;
@@ -187,7 +187,7 @@ static void write_heat(fst_figure_file *figure, const map *m, const char *label)
                 figure->script);
 }
 
-/* Points without a value: they have no row yet, failed, or it is undefined there. */
+/* Count points without a value: they have no row yet, their run failed, or it is undefined there. */
 static int64_t blank_points(const map *m)
 {
     int64_t blank = 0;
@@ -196,7 +196,7 @@ static int64_t blank_points(const map *m)
     return blank;
 }
 
-/* What is shown, and how many points have no value. */
+/* Write what is shown, and how many points have no value. */
 static void write_title(fst_figure_file *figure, const map *m)
 {
     const int64_t points = fst_grid_points(m->table->grid);
@@ -247,7 +247,7 @@ fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_qu
              .regimes = strcmp(quantity->key, "regime") == 0,
              .factor = quantity->factor};
     if (fst_grid_axis_stride(table->grid, axes[0].index) == fst_grid_axis_stride(table->grid, axes[1].index))
-        return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: festoon export them");
+        return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: use festoon export");
     const fst_status status = draw(&m, quantity, out, error);
     free(m.up.places);
     free(m.up.edges);

@@ -1,3 +1,4 @@
+/* figure_trajectory.c - fst_figure_trajectory(): a figure of a trajectory by its kind. */
 #include "draw/figure_trajectory.h"
 
 #include "base/error.h"

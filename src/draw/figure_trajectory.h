@@ -1,5 +1,4 @@
-/* figure_trajectory.h - the kinds of figure that a trajectory gives, one function each (see fst_figure_kind).
- */
+/* figure_trajectory.h - the kinds of figure of a trajectory (fst_figure_kind), a function each. */
 #ifndef FST_DRAW_FIGURE_TRAJECTORY_H
 #define FST_DRAW_FIGURE_TRAJECTORY_H
 

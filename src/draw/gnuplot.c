@@ -1,3 +1,4 @@
+/* gnuplot.c - running gnuplot: its figure and its words come back through pipes, and it has a time limit. */
 #define _GNU_SOURCE /* pipe2, strsignal */
 
 #include "draw/gnuplot.h"
@@ -20,7 +21,7 @@
 
 enum { PATIENCE = 60 /* seconds */, WORDS_SIZE = 512 };
 
-/* What gnuplot says: its beginning, on one line. */
+/* The beginning of what gnuplot says, on one line. */
 typedef struct last_words {
     char text[WORDS_SIZE];
     size_t kept;
@@ -28,16 +29,17 @@ typedef struct last_words {
 
 static void keep_words(last_words *words, const char *piece, size_t size)
 {
-    for (size_t i = 0; i < size && words->kept + 1 < sizeof words->text; i++) {
+    for (size_t i = 0; i < size && words->kept + 1 < sizeof words->text; ++i) {
         const char c = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
-        /* gnuplot underlines the error's place with white space: one blank says enough. */
+        /* gnuplot underlines the place of an error with white space: keep one blank of it. */
         if (c != ' ' || (words->kept > 0 && words->text[words->kept - 1] != ' '))
             words->text[words->kept++] = c;
     }
     words->text[words->kept] = '\0';
 }
 
-/* Take the figure from ends[0] and the words from ends[1] until both are closed or the deadline passes. */
+/* Read the figure from ends[0] and gnuplot's words from ends[1], until both are closed or the
+ * deadline passes. */
 static void listen_to(const int ends[2], double deadline, FILE *figure, last_words *words)
 {
     struct pollfd waiting[2] = {{.fd = ends[0], .events = POLLIN}, {.fd = ends[1], .events = POLLIN}};
@@ -48,13 +50,13 @@ static void listen_to(const int ends[2], double deadline, FILE *figure, last_wor
         const int ready = poll(waiting, 2, 1 + (int)(1e3 * left));
         if (ready < 0 && errno != EINTR)
             return;
-        for (int i = 0; i < 2 && ready > 0; i++) {
+        for (int i = 0; i < 2 && ready > 0; ++i) {
             char piece[16384];
             if (!waiting[i].revents)
                 continue;
             const ssize_t got = read(ends[i], piece, sizeof piece);
             if (got > 0 && i == 0)
-                (void)fwrite(piece, 1, (size_t)got, figure); /* a failure shows when the file is synced */
+                (void)fwrite(piece, 1, (size_t)got, figure); /* a failure is seen when the file is synced */
             else if (got > 0)
                 keep_words(words, piece, (size_t)got);
             else if (got == 0 || errno != EINTR)
@@ -63,7 +65,7 @@ static void listen_to(const int ends[2], double deadline, FILE *figure, last_wor
     }
 }
 
-/* Wait for the child, and end it at the deadline; 1 if it had to be ended. */
+/* Wait for gnuplot, and end it at the deadline; 1 if it had to be ended. */
 static int wait_for(pid_t child, double deadline, int *outcome)
 {
     int ended = 0;
@@ -71,7 +73,9 @@ static int wait_for(pid_t child, double deadline, int *outcome)
         pid_t done = waitpid(child, outcome, ended ? 0 : WNOHANG);
         if (done == child)
             return ended;
-        if (done < 0 && errno != EINTR) { /* the caller ignores SIGCHLD: the figure itself will tell */
+        if (done < 0 &&
+            errno !=
+                EINTR) { /* the caller ignores SIGCHLD, so its status is lost; the figure itself will tell */
             *outcome = 0;
             return ended;
         }
@@ -90,7 +94,7 @@ void fst_gnuplot_quote(FILE *out, const char *text)
     (void)fputc('\'', out);
     if (tame)
         fst_text_tame(tame);
-    for (const char *c = tame; c && *c; c++) {
+    for (const char *c = tame; c && *c; ++c) {
         if (*c == '\'')
             (void)fputc('\'', out);
         (void)fputc(*c, out);
@@ -99,8 +103,8 @@ void fst_gnuplot_quote(FILE *out, const char *text)
     free(tame);
 }
 
-/* What gnuplot is told before the script: an empty name of the figure is the standard output.  "./" keeps a
- * name from meaning more than a file ("< command" does); free() it. */
+/* What gnuplot is told before the script.  An empty name for the figure means standard output. "./" before the
+ * data's name keeps gnuplot from taking it for a command ("< command"). free() it. */
 static char *settings(const char *data)
 {
     char *text = NULL;
@@ -120,7 +124,7 @@ static char *settings(const char *data)
     return text;
 }
 
-/* Start it, with its outputs at the writing ends of the two pipes, which are closed here; 0 or an errno. */
+/* Start gnuplot with its outputs at the writing ends of two pipes, which are closed here. 0, or an errno. */
 static int start(const char *directory, char *setting, char *script, int pipes[2][2], pid_t *child)
 {
     char name[] = "gnuplot", defaults[] = "--default-settings", execute[] = "-e";
@@ -180,7 +184,7 @@ static fst_status run_on(const char *directory, char *setting, char *path, const
 fst_status fst_gnuplot_run(const char *directory, const char *script, const char *data, FILE *figure,
                            fst_error *error)
 {
-    /* "./" keeps a script that begins with a minus from being an option. */
+    /* "./" keeps gnuplot from taking a name that begins with a minus for an option. */
     char *setting = settings(data), *path = malloc(strlen(script) + sizeof "./");
     fst_status status = FST_OK;
     if (setting && path) {

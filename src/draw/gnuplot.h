@@ -1,4 +1,4 @@
-/* gnuplot.h - gnuplot, run as a process. */
+/* gnuplot.h - running gnuplot as a process. */
 #ifndef FST_DRAW_GNUPLOT_H
 #define FST_DRAW_GNUPLOT_H
 
@@ -6,16 +6,16 @@
 
 #include <stdio.h>
 
-/* Write `text` as a gnuplot string: within single quotes nothing is replaced or run, and a quote is doubled.  A
- * line ends a string, so that no control character may pass: each becomes '?'.  Every text that is not written
- * out in this program's sources reaches gnuplot through here. */
+/* Write `text` as a gnuplot string.  Within single quotes gnuplot replaces and runs nothing; a quote is
+ * doubled.  A line end would end the string, so each control character becomes '?'.  Every text that does not
+ * stand in this program's sources must reach gnuplot through this function. */
 void fst_gnuplot_quote(FILE *out, const char *text);
 
-/* Run gnuplot in `directory` on the file `script` there.  Its variable `data` is set to the name of the data
- * file, and the figure goes into `figure`: gnuplot itself never opens a file for writing, because it would not
- * tell of a full disk.  No shell is involved, the user's gnuplot start-up files are not read, and a gnuplot
- * that does not end is ended after a minute. FST_UNAVAILABLE: no gnuplot on this machine; FST_IO: it failed,
- * and the sentence has its own words. */
+/* Run gnuplot in `directory` on the file `script` there.  Its variable `data` becomes the name of the data
+ * file.  The figure comes back through a pipe and is written to `figure` here: gnuplot itself would not tell of
+ * a full disk.  No shell is involved, the user's start-up files are not read, and a gnuplot that does not end
+ * is ended after a minute.  FST_UNAVAILABLE: there is no gnuplot; FST_IO: it failed, and the sentence quotes
+ * it. */
 fst_status fst_gnuplot_run(const char *directory, const char *script, const char *data, FILE *figure,
                            fst_error *error);
 

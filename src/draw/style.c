@@ -1,3 +1,4 @@
+/* style.c - colours, palettes and logarithmic axes of all figures. */
 #include "draw/style.h"
 
 #include <math.h>
@@ -24,7 +25,7 @@ void fst_unit_symbols(const char *unit, char *text, size_t size)
     while (*unit && used + 1 < size) {
         int i = 0;
         while (i < COUNT && strncmp(unit, symbols[i].word, strlen(symbols[i].word)) != 0)
-            i++;
+            ++i;
         used += (size_t)(i < COUNT ? snprintf(text + used, size - used, "%s", symbols[i].symbol)
                                    : snprintf(text + used, size - used, "%c", *unit));
         unit += i < COUNT ? strlen(symbols[i].word) : 1;
@@ -33,7 +34,7 @@ void fst_unit_symbols(const char *unit, char *text, size_t size)
 
 void fst_figure_palette(fst_figure_file *figure, fst_palette palette)
 {
-    /* "line" is viridis turned round, without its yellow end, which is lost on white. */
+    /* "line" is viridis in reverse order, without its yellow end, which cannot be seen on white. */
     static const char *const definitions[] = {
         [FST_PALETTE_DIVERGING] = "-1 '#123f8c', -0.5 '#4f86cf', 0 '#bdbdbd', 0.5 '#e8894a', 1 '#b03000'",
         [FST_PALETTE_LINE] =
@@ -48,8 +49,8 @@ void fst_figure_logarithmic(fst_figure_file *figure, const char *axis, double lo
     const int first = (int)floor(log10(low)), last = (int)floor(log10(high));
     (void)fprintf(figure->script, "set logscale %s\nset %stics (", axis, axis);
     const char *separator = "";
-    for (int decade = first; decade <= last; decade++)
-        for (int i = 0; i < (last - first > 3 ? 1 : 3); i++) {
+    for (int decade = first; decade <= last; ++decade)
+        for (int i = 0; i < (last - first > 3 ? 1 : 3); ++i) {
             const double tic = mantissas[i] * pow(10.0, decade);
             if (tic < 0.999999 * low || tic > 1.000001 * high)
                 continue;

@@ -1,4 +1,4 @@
-/* style.h - the colours that all figures share, chosen so that colour-blind readers can tell them apart. */
+/* style.h - the colours that all figures share; colour-blind readers can tell them apart. */
 #ifndef FST_DRAW_STYLE_H
 #define FST_DRAW_STYLE_H
 
@@ -22,13 +22,13 @@ const char *fst_colour_code(fst_colour colour);
 /* A unit as figures print it: "ℓ²γ²" for "l^2 gamma^2". */
 void fst_unit_symbols(const char *unit, char *text, size_t size);
 
-/* Define the palette for a quantity of both signs (blue, grey, vermilion), or of one sign: `line` runs from a
- * light green to dark violet, for lines on white where much should be dark; `map` from nearly white to blue,
- * for areas with dark lines on them. */
+/* Define the palette: for a quantity of both signs from blue over grey to vermilion; for one sign by its use.
+ * `line`, from light green to dark violet, is for lines on white; `map`, from nearly white to blue, is for
+ * areas with dark lines on them. */
 typedef enum { FST_PALETTE_DIVERGING, FST_PALETTE_LINE, FST_PALETTE_MAP } fst_palette;
 void fst_figure_palette(fst_figure_file *figure, fst_palette palette);
 
-/* Make an axis ("x", "x2", "y") logarithmic, with tics at 1, 2 and 5 times the powers of ten. */
+/* Make an axis ("x", "x2", "y") logarithmic, with tics at 1, 2 and 5 times powers of ten. */
 void fst_figure_logarithmic(fst_figure_file *figure, const char *axis, double low, double high);
 
 #endif

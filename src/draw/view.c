@@ -1,3 +1,4 @@
+/* view.c - finding the part of a trajectory that a figure shows, and its columns. */
 #include "draw/view.h"
 
 #include "base/error.h"
@@ -11,13 +12,13 @@
 static fst_status no_such_column(const char *name, fst_error *error)
 {
     size_t room = 1;
-    for (int i = 0; i < fst_column_count(); i++)
+    for (int i = 0; i < fst_column_count(); ++i)
         room += strlen(fst_column_at(i)->name) + 1;
     char *names = malloc(room);
     if (!names)
         return fst_fail(error, FST_NO_MEMORY, name, "no memory for a list of names");
     size_t used = 0;
-    for (int i = 0; i < fst_column_count(); i++)
+    for (int i = 0; i < fst_column_count(); ++i)
         used += (size_t)snprintf(names + used, room - used, "%s%s", i ? "|" : "", fst_column_at(i)->name);
     char nearest[64] = "";
     (void)fst_nearest_name(name, names, nearest, sizeof nearest);
@@ -29,7 +30,7 @@ static fst_status no_such_column(const char *name, fst_error *error)
 fst_status fst_view_column(const fst_view *view, const char *name, const double **column,
                            const fst_column_info **info, fst_error *error)
 {
-    for (int i = 0; i < fst_column_count(); i++) {
+    for (int i = 0; i < fst_column_count(); ++i) {
         if (strcmp(fst_column_at(i)->name, name) != 0)
             continue;
         *column = view->table->columns[i];
@@ -55,7 +56,7 @@ void fst_view_range(const fst_view *view, const double *column, double *least, d
 {
     *least = INFINITY;
     *greatest = -INFINITY;
-    for (size_t row = view->first; row < view->last; row++) {
+    for (size_t row = view->first; row < view->last; ++row) {
         if (!isfinite(column[row]))
             continue;
         *least = fmin(*least, column[row]);
@@ -72,7 +73,8 @@ double fst_view_between(double x0, double v0, double x1, double v1, double h, do
            part * part * ((1.0 + 2.0 * rest) * x1 - rest * h * v1);
 }
 
-/* Find the rows; `turns` of the bead or `periods` of the drive end an open view. */
+/* Find the rows that are shown; where the options leave the end open, `turns` of the bead or `periods` of the
+ * drive end the view. */
 static fst_status choose_rows(fst_view *view, const fst_figure_options *options, double turns, double periods,
                               fst_error *error)
 {
@@ -86,14 +88,14 @@ static fst_status choose_rows(fst_view *view, const fst_figure_options *options,
         from =
             rows > 0 && drive[rows - 1] > view->table->params.run_discard ? view->table->params.run_discard : 0;
     while (first < rows && drive[first] < from - 1e-9)
-        first++;
+        ++first;
     size_t last = first;
     while (last < rows) {
         if (!isnan(options->to)
                 ? drive[last] > options->to + 1e-9
                 : drive[last] - drive[first] > periods || fabs(alpha[last] - alpha[first]) > 2.0 * PI * turns)
             break;
-        last++;
+        ++last;
     }
     if (last - first < 2)
         return fst_fail(

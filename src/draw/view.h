@@ -9,33 +9,32 @@
 typedef struct fst_view {
     const fst_table *table;
     size_t first, last; /* rows shown: first <= row < last */
-    double omega;       /* drive at the last row */
+    double omega;       /* the drive at the last row */
     double gamma;       /* 1/s */
-    double millimetres; /* of the unit of length */
+    double millimetres; /* of a unit of length */
     const char *dynamics;
     char title[256];
 } fst_view;
 
-/* The rows from options->from to options->to drive periods; where that is open, from the discard on, for
- * `turns` revolutions of the bead about the axis or `periods` drive periods, whichever ends first.  The title
- * is options->title, or made from the scene.
- * FST_BAD_INPUT: no rows there. */
+/* Find the rows from options->from to options->to drive periods.  Open ends: the view begins at the discard,
+ * and lasts for `turns` revolutions of the bead about the axis or `periods` drive periods, whichever ends
+ * first.  The title is options->title, or made from the scene.  FST_BAD_INPUT: there are no rows. */
 fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options, double turns,
                        double periods, fst_error *error);
 
-/* The column called `name`.  FST_BAD_INPUT: none; the sentence has the nearest one. */
+/* The column called `name`.  FST_BAD_INPUT: there is none; the sentence names the nearest one. */
 fst_status fst_view_column(const fst_view *view, const char *name, const double **column,
                            const fst_column_info **info, fst_error *error);
 
-/* Several columns at once, for names that are known to exist; ends with NULL pairs:
- * fst_view_columns(view, error, "t", &t, "r", &r, NULL). */
+/* Several columns at once, by names that are known to exist; a NULL ends the list: fst_view_columns(view,
+ * error, "t", &t, "r", &r, NULL). */
 fst_status fst_view_columns(const fst_view *view, fst_error *error, ...);
 
-/* Least and greatest finite value of a column in the view (0, 0 where none is finite). */
+/* The least and the greatest finite value of a column in the view (0, 0: no value is finite). */
 void fst_view_range(const fst_view *view, const double *column, double *least, double *greatest);
 
-/* Between two samples, `part` of the way: the cubic that has the positions x0, x1 and, over the time step h,
- * the velocities v0, v1 there (Hermite's interpolation; its error falls as h^4). */
+/* Interpolate between two samples, `part` of the way from the first: the cubic with the positions x0, x1 and,
+ * over the time step h, the velocities v0, v1 there (Hermite's; its error falls as h^4). */
 double fst_view_between(double x0, double v0, double x1, double v1, double h, double part);
 
 #endif

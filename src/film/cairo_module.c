@@ -1,4 +1,4 @@
-/* cairo_module.c - festoon-cairo.so: paints the frames of films. */
+/* cairo_module.c - festoon-cairo.so: painting one frame of a film with Cairo. */
 #include <cairo.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,8 +14,7 @@ struct fst_film_canvas {
     cairo_t *pen;
 };
 
-/* Colours as the figures have them (style.c): from light green to violet, and from blue over grey to vermilion.
- */
+/* The colours of the figures (style.c): from light green to violet, and from blue over grey to vermilion. */
 static const double line_palette[][4] = {{0.0, 0.659, 0.859, 0.204}, {0.2, 0.290, 0.757, 0.427},
                                          {0.4, 0.122, 0.631, 0.529}, {0.6, 0.176, 0.439, 0.557},
                                          {0.8, 0.255, 0.267, 0.529}, {1.0, 0.267, 0.004, 0.329}};
@@ -32,9 +31,9 @@ static void set_shade(cairo_t *pen, int both_signs, double shade)
     int last = both_signs ? 4 : 5, i = 0;
     shade = shade > 0.0 ? (shade < 1.0 ? shade : 1.0) : 0.0;
     while (i < last - 1 && shade > palette[i + 1][0])
-        i++;
+        ++i;
     double part = (shade - palette[i][0]) / (palette[i + 1][0] - palette[i][0]), c[3];
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; ++k)
         c[k] = palette[i][k + 1] + part * (palette[i + 1][k + 1] - palette[i][k + 1]);
     cairo_set_source_rgb(pen, c[0], c[1], c[2]);
 }
@@ -46,8 +45,8 @@ static void write_at(cairo_t *pen, double x, double y, double size, const char *
     cairo_show_text(pen, text);
 }
 
-/* ------------------------------------------------------------------ from above; the pen works in mm, y upwards
- */
+/* ------------------------------------------------------------------ from above; the pen works in
+ * mm, y upwards */
 
 static void paint_magnet(cairo_t *pen, const fst_film_stage *stage, double angle)
 {
@@ -71,7 +70,7 @@ static void paint_trail(cairo_t *pen, const fst_film_stage *stage, const fst_fil
 {
     cairo_set_line_width(pen, stage->reach / 90.0);
     cairo_set_line_cap(pen, CAIRO_LINE_CAP_ROUND);
-    for (int i = 0; i + 1 < frame->trail; i++) {
+    for (int i = 0; i + 1 < frame->trail; ++i) {
         set_shade(pen, stage->both_signs, frame->trail_shade[i]);
         cairo_move_to(pen, frame->trail_x[i], frame->trail_y[i]);
         cairo_line_to(pen, frame->trail_x[i + 1], frame->trail_y[i + 1]);
@@ -79,19 +78,20 @@ static void paint_trail(cairo_t *pen, const fst_film_stage *stage, const fst_fil
     }
 }
 
-/* A vector of the bead's body as seen along the third axis of `turn`; `view` 0: from above, 1: from the front
- * (against y, z upwards). */
+/* A vector of the bead's body as seen along the third axis of `turn`; `view` is 0 from above, 1 from the front
+ * (along y, with z upwards). */
 static void seen(const double turn[3][3], const double body[3], int view, double *x, double *y, double *towards)
 {
     double v[3];
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         v[i] = turn[i][0] * body[0] + turn[i][1] * body[1] + turn[i][2] * body[2];
     *x = v[0];
     *y = view == 0 ? v[1] : v[2];
     *towards = view == 0 ? v[2] : -v[1];
 }
 
-/* The poles as caps, the equator as a line, and marks that lie at no symmetric place, where they face us. */
+/* The poles as caps, the equator as a line, and marks at places without symmetry; each is drawn where it faces
+ * the viewer. */
 static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, int view)
 {
     static const double marks[][3] = {{0.85, 0.0, 0.527}, {-0.5, 0.7, 0.51},   {0.1, -0.9, 0.424},
@@ -100,7 +100,7 @@ static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, in
     cairo_set_source_rgba(pen, 0.15, 0.15, 0.15, 0.8);
     cairo_set_line_width(pen, 0.07 * radius);
     int drawing = 0;
-    for (int i = 0; i <= 72; i++) {
+    for (int i = 0; i <= 72; ++i) {
         double angle = 2.0 * PI * i / 72, body[3] = {cos(angle), sin(angle), 0.0};
         seen(turn, body, view, &x, &y, &towards);
         if (towards <= 0.0)
@@ -113,7 +113,7 @@ static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, in
         }
     }
     cairo_stroke(pen);
-    for (size_t i = 0; i < sizeof marks / sizeof marks[0]; i++) {
+    for (size_t i = 0; i < sizeof marks / sizeof marks[0]; ++i) {
         seen(turn, marks[i], view, &x, &y, &towards);
         if (towards <= 0.05)
             continue;
@@ -176,7 +176,7 @@ static void paint_plate(cairo_t *pen, const fst_film_stage *stage, const fst_fil
 
 /* ------------------------------------------------------------------ around it, in pixels */
 
-/* From the front: the plate, the magnet's slab below it, and the bead on it. */
+/* The view from the front: the plate, the magnet's slab below it, and the bead on it. */
 static void paint_side(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame)
 {
     double width = 0.30 * stage->width, scale = width / (2.0 * stage->reach);
@@ -231,7 +231,7 @@ static void paint_colour_bar(cairo_t *pen, const fst_film_stage *stage)
 {
     enum { STEPS = 64 };
     double width = 0.3 * stage->width, x = stage->width - width - 24.0, y = 16.0, size = 0.020 * stage->height;
-    for (int i = 0; i < STEPS; i++) {
+    for (int i = 0; i < STEPS; ++i) {
         set_shade(pen, stage->both_signs, (i + 0.5) / STEPS);
         cairo_rectangle(pen, x + i * width / STEPS, y, width / STEPS + 1.0, 10.0);
         cairo_fill(pen);
@@ -280,7 +280,7 @@ static void paint(fst_film_canvas *canvas, const fst_film_stage *stage, const fs
 {
     cairo_t *pen = canvas->pen;
     int side = stage->width < stage->height ? stage->width : stage->height;
-    /* So small that the bead passes the view from the front without being hidden by it. */
+    /* It is small enough for the bead to pass it without being hidden. */
     double scale = 0.84 * side / (2.0 * stage->reach);
     cairo_set_source_rgb(pen, 1.0, 1.0, 1.0);
     cairo_paint(pen);

@@ -1,3 +1,4 @@
+/* ffmpeg.c - an ffmpeg process: starting it, handing it frames, and finding out whether it failed. */
 #define _GNU_SOURCE /* pipe2, strsignal */
 
 #include "film/ffmpeg.h"
@@ -23,7 +24,7 @@ fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps,
     film->name = name;
     film->said_size = 0;
     film->said[0] = '\0';
-    /* posix_spawn wants writable words, and touches none of them. */
+    /* posix_spawn() wants writable arguments, but does not change them. */
     char size[32], rate[32], file[4096], kind[8];
     (void)snprintf(size, sizeof size, "%dx%d", width, height);
     (void)snprintf(rate, sizeof rate, "%.6g", fps);
@@ -38,13 +39,13 @@ fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps,
         "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f",     "rawvideo", "-pix_fmt",
         "bgr0",   "-s",       size,           "-r",        rate,    "-i", "pipe:0", "-threads", "2"};
     int count = 18;
-    for (const char *const *word = strcmp(format, "gif") ? mp4 : gif; *word; word++)
+    for (const char *const *word = strcmp(format, "gif") ? mp4 : gif; *word; ++word)
         arguments[count++] = *word;
     arguments[count++] = "-f";
     arguments[count++] = kind;
     arguments[count] = file;
     int input[2], words[2];
-    /* A socket, because send() can be told to raise no SIGPIPE when ffmpeg dies. */
+    /* A socket instead of a pipe, because send() can be told to raise no SIGPIPE when ffmpeg ends early. */
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0)
         return fst_fail(error, FST_IO, name, "no socket to ffmpeg: %s", strerror(errno));
     if (pipe2(words, O_CLOEXEC) != 0) {
@@ -70,12 +71,12 @@ fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps,
     return fst_fail(error, FST_IO, name, "cannot start ffmpeg: %s", strerror(failed));
 }
 
-/* Keep the beginning of what it says, on one line; 0 once it says no more. */
+/* Keep the beginning of what ffmpeg says, on one line; 0 once it says no more. */
 static int hear(fst_ffmpeg *film)
 {
     char piece[512];
     const ssize_t got = read(film->words, piece, sizeof piece);
-    for (ssize_t i = 0; i < got && film->said_size + 1 < sizeof film->said; i++)
+    for (ssize_t i = 0; i < got && film->said_size + 1 < sizeof film->said; ++i)
         film->said[film->said_size++] = (unsigned char)piece[i] < ' ' ? ' ' : piece[i];
     film->said[film->said_size] = '\0';
     return got > 0 || (got < 0 && errno == EINTR);
@@ -83,7 +84,7 @@ static int hear(fst_ffmpeg *film)
 
 fst_status fst_ffmpeg_frame(fst_ffmpeg *film, const unsigned char *bytes, size_t size, fst_error *error)
 {
-    /* It must be heard meanwhile: a process whose complaints nobody takes waits for ever. */
+    /* Read what ffmpeg says while it works: if nobody does, its pipe fills up and it waits for ever. */
     struct pollfd ends[2] = {{.fd = film->frames, .events = POLLOUT}, {.fd = film->words, .events = POLLIN}};
     while (size > 0) {
         if (poll(ends, 2, -1) < 0 && errno != EINTR)
@@ -117,7 +118,8 @@ fst_status fst_ffmpeg_end(fst_ffmpeg *film, int abandon, fst_error *error)
     while (done < 0 && errno == EINTR);
     if (abandon)
         return FST_OK;
-    /* Told to speak of errors only, it is silent when all is well; its status is 0 even on a full disk. */
+    /* ffmpeg is told to report errors only, so any word is an error.  Its status does not tell: it is 0 even on
+     * a full disk. */
     if (done == film->child && WIFEXITED(outcome) && WEXITSTATUS(outcome) == 0 && !words[0])
         return FST_OK;
     if (done == film->child && WIFSIGNALED(outcome))

@@ -1,10 +1,10 @@
-/* file.c - a film's structure, box by box or block by block.
+/* file.c - checking the structure of a film, because ffmpeg may report success on a full disk.
  *
- * An mp4 is a row of boxes, [size][type][contents], that fill the file exactly.  `moov` says where in `mdat`
- * each picture lies and how long it is, and is written last: a film cut short has none, or one that speaks of
- * more than there is.
+ * An mp4 is a row of boxes, [size][type][contents], that fill the file exactly.  The box `moov` says where in
+ * `mdat` each picture lies and how long it is.  It is written last, so a film that was cut short has none, or
+ * one that counts more than there is.
  *
- *     ftyp | moov { trak { mdia { minf { stbl { stsz: sizes of pictures } } } } } | free | mdat: pictures
+ *      ftyp | moov { trak { mdia { minf { stbl { stsz: sizes of pictures } } } } } | free | mdat: pictures
  *
  * A GIF is a row of blocks that ends with the byte 0x3B.
  */
@@ -23,12 +23,12 @@ enum { MOST_MOOV = 1 << 28 };
 /* ------------------------------------------------------------------ mp4 */
 
 typedef struct mp4 {
-    uint64_t size; /* of the file */
+    uint64_t size; /* the size of the file */
     int has_ftyp;
-    uint64_t mdat; /* bytes of pictures; 0: none */
+    uint64_t mdat; /* bytes of pictures; 0: there are none */
     unsigned char *moov;
     uint64_t moov_size;
-    int64_t pictures; /* -1: no table */
+    int64_t pictures; /* -1: there is no table of them */
     uint64_t picture_bytes;
 } mp4;
 
@@ -37,8 +37,7 @@ static uint32_t number32(const unsigned char *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* Read the next box's head at `at`: its type, its whole size, and the size of the head; 0 where there is none.
- */
+/* Read the head of the box at `at`: its type, its whole size, and the size of the head; 0: there is no box. */
 static int read_head(FILE *in, uint64_t at, uint64_t end, char type[5], uint64_t *size, uint64_t *head)
 {
     unsigned char bytes[16];
@@ -57,7 +56,7 @@ static int read_head(FILE *in, uint64_t at, uint64_t end, char type[5], uint64_t
     return *size >= *head && *size <= end - at;
 }
 
-/* The boxes of the file; what is wrong, or NULL. */
+/* Walk through the boxes of the file.  Returns what is wrong, or NULL. */
 static const char *read_boxes(FILE *in, mp4 *film)
 {
     char type[5];
@@ -79,7 +78,7 @@ static const char *read_boxes(FILE *in, mp4 *film)
     return !film->has_ftyp ? "it has no head" : !film->moov ? "it has no index" : NULL;
 }
 
-/* Find the table of the pictures' sizes in the boxes that contain it. */
+/* Find the table of the sizes of pictures, within the boxes that contain it. */
 static void find_table(mp4 *film, const unsigned char *bytes, uint64_t size)
 {
     static const char *const holders[] = {"trak", "mdia", "minf", "stbl"};
@@ -88,14 +87,14 @@ static void find_table(mp4 *film, const unsigned char *bytes, uint64_t size)
         const unsigned char *inside = bytes + at + 8;
         if (box < 8 || box > size - at)
             return;
-        for (size_t i = 0; i < sizeof holders / sizeof *holders; i++)
+        for (size_t i = 0; i < sizeof holders / sizeof *holders; ++i)
             if (memcmp(bytes + at + 4, holders[i], 4) == 0)
                 find_table(film, inside, box - 8);
         if (memcmp(bytes + at + 4, "stsz", 4) == 0 && box >= 20) {
             const uint32_t each = number32(inside + 4), count = number32(inside + 8);
             film->pictures = count;
             film->picture_bytes = (uint64_t)each * count;
-            for (uint64_t i = 0; each == 0 && i < count && 20 + 4 * (i + 1) <= box; i++)
+            for (uint64_t i = 0; each == 0 && i < count && 20 + 4 * (i + 1) <= box; ++i)
                 film->picture_bytes += number32(inside + 12 + 4 * i);
         }
         at += box;
@@ -111,7 +110,7 @@ static const char *check_mp4(FILE *in, uint64_t size, int frames)
         if (film.pictures != frames)
             problem = "pictures are missing";
         else if (film.picture_bytes == 0 || film.picture_bytes > film.mdat)
-            problem = "the contents of pictures are missing";
+            problem = "the pictures themselves are missing";
     }
     free(film.moov);
     return problem;
@@ -124,13 +123,13 @@ static int skip(FILE *in, long bytes)
     return fseek(in, bytes, SEEK_CUR) == 0;
 }
 
-/* Bytes of the colour table that a packed field announces. */
+/* The bytes of the colour table that a packed field announces. */
 static long table_size(int packed)
 {
     return packed & 0x80 ? 3L << ((packed & 7) + 1) : 0;
 }
 
-/* Sub-blocks up to the empty one; 0 where the file ends before. */
+/* Skip sub-blocks up to the empty one; 0 where the file ends before. */
 static int skip_blocks(FILE *in)
 {
     for (int size = fgetc(in); size != 0; size = fgetc(in))
@@ -155,12 +154,12 @@ static const char *check_gif(FILE *in)
             if (fread(image, 1, sizeof image, in) != sizeof image || !skip(in, table_size(image[8]) + 1) ||
                 !skip_blocks(in))
                 return cut;
-            images++;
+            ++images;
         } else {
             return cut;
         }
     }
-    return images == 0 ? "it has no picture" : fgetc(in) != EOF ? "something stands behind its end" : NULL;
+    return images == 0 ? "it has no picture" : fgetc(in) != EOF ? "there is something after its end" : NULL;
 }
 
 /* ------------------------------------------------------------------ */

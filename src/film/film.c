@@ -1,6 +1,17 @@
-/* film.c - fst_film(): a trajectory as a film, frame by frame. */
+/* film.c - fst_film(): a trajectory as a film, frame by frame.
+ *
+ *  samples --> motion.c --> frame.h --> cairo_module.c --> ffmpeg --> file.c --> OUT.mp4, OUT.gif
+ *  (a table)   where all    what is     pixels               |        is it      renamed into
+ *              is at t      drawn                            |        whole?     its place
+ *                                                            `--> or OUT/frame-00001.png, ...
+ *
+ * Frame i shows the moment i/(fps seconds_per_turn) turns of the drive after the first one.  Frames are painted
+ * in order and given away at once, so memory does not grow with the film.  If ffmpeg is missing, the frames are
+ * kept in a folder beside the place of the film, and the error names that folder.
+ */
 #include "base/error.h"
 #include "base/number.h"
+#include "base/watch.h"
 #include "draw/style.h"
 #include "film/ffmpeg.h"
 #include "film/file.h"
@@ -16,7 +27,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define MAGNET_THICKNESS 9.0 /* mm; the paper's magnet (section 2): the model's lines have none */
+#define MAGNET_THICKNESS 9.0 /* mm, of the paper's magnet (section II); the model's lines have no thickness */
 
 enum {
     OPTIONS_COOKIE = 0x46494c4d,
@@ -38,7 +49,7 @@ fst_film_options fst_default_film_options(void)
                               .seconds_per_turn = 1.0};
 }
 
-/* A film being made: painted frames go into a process, or into a folder. */
+/* A film being made. */
 typedef struct film {
     const fst_film_options *options;
     const fst_film_module_table *module;
@@ -46,11 +57,11 @@ typedef struct film {
     fst_film_stage stage;
     fst_film_motion motion;
     fst_ffmpeg process;
-    char folder[4096]; /* of frames; "" where they go into the process */
-    double *trail;     /* x, y and shade of the trail's points, one after another */
+    char folder[4096]; /* the folder for the frames; "": they go to ffmpeg */
+    double *trail;     /* the x of all its points, then their y, then their shades */
     size_t trail_room;
     char title[192], label[64];
-    double slower; /* than the motion itself */
+    double slower; /* how many times slower than the motion the film is */
     int frames;
 } film;
 
@@ -97,7 +108,7 @@ static void set_stage(film *f, const fst_table *table)
     const fst_params *p = &table->params;
     const fst_film_motion *m = &f->motion;
     double reach = 0.0, omega = fst_collected(table, "omega")[m->first];
-    for (size_t row = m->first; row <= m->last; row++)
+    for (size_t row = m->first; row <= m->last; ++row)
         reach = fmax(reach, fmax(fabs(m->x[row]), fabs(m->y[row])));
     double hertz = omega * p->friction_gamma / 6.283185307179586;
     (void)snprintf(f->title, sizeof f->title, "%.3g Hz (ω = %.4g), %s", hertz, omega,
@@ -123,19 +134,20 @@ static void set_stage(film *f, const fst_table *table)
 
 /* ------------------------------------------------------------------ frames */
 
-/* The trail: the samples up to now, as far back as two of the bead's turns about the axis at most. */
+/* The trail: the samples up to now, at most as far back as two turns of the bead about the axis. */
 static void set_trail(film *f, fst_film_frame *frame)
 {
     const fst_film_motion *m = &f->motion;
     const double *alpha = fst_collected(m->table, "alpha");
     size_t from = m->row;
     while (from > m->first && fabs(alpha[m->row] - alpha[from - 1]) < 12.57)
-        from--;
-    /* Samples closer than a pixel or so add nothing; what is left out does not change from frame to frame. */
+        --from;
+    /* Skip samples closer than a pixel or so.  The skipped ones are the same in every frame, so the trail does
+     * not flicker. */
     double least = 1.5 * 2.0 * f->stage.reach / f->stage.height;
     double *x = f->trail, *y = x + f->trail_room, *shade = y + f->trail_room;
     int count = 0;
-    for (size_t row = from; row <= m->row; row++) {
+    for (size_t row = from; row <= m->row; ++row) {
         x[count] = m->millimetres * m->x[row];
         y[count] = m->millimetres * m->y[row];
         if (count > 0 && hypot(x[count] - x[count - 1], y[count] - y[count - 1]) < least)
@@ -144,7 +156,7 @@ static void set_trail(film *f, fst_film_frame *frame)
     }
     x[count] = frame->x;
     y[count] = frame->y;
-    shade[count] = shade[count - 1]; /* the first row is always there */
+    shade[count] = shade[count - 1]; /* the first row is never skipped */
     frame->trail_x = x;
     frame->trail_y = y;
     frame->trail_shade = shade;
@@ -177,7 +189,7 @@ static fst_status give_frame(film *f, int index, fst_error *error)
     size_t row = 4 * (size_t)f->stage.width;
     if ((size_t)stride == row)
         return fst_ffmpeg_frame(&f->process, pixels, row * (size_t)f->stage.height, error);
-    for (int y = 0; y < f->stage.height && status == FST_OK; y++)
+    for (int y = 0; y < f->stage.height && status == FST_OK; ++y)
         status = fst_ffmpeg_frame(&f->process, pixels + (size_t)y * (size_t)stride, row, error);
     return status;
 }
@@ -192,7 +204,7 @@ static fst_status make_frames(film *f, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, "film",
                         "%.6g frames are too many: at most %d; take a shorter part", count, MOST_FRAMES);
     f->frames = (int)count;
-    for (int i = 0; i < f->frames; i++) {
+    for (int i = 0; i < f->frames; ++i) {
         fst_film_frame frame = {.clock = NULL};
         char clock[64];
         double now = begin + i / (o->fps * o->seconds_per_turn);
@@ -205,8 +217,8 @@ static fst_status make_frames(film *f, fst_error *error)
         frame.clock = clock;
         f->module->paint(f->canvas, &f->stage, &frame);
         fst_status status = give_frame(f, i, error);
-        if (status == FST_OK && o->progress)
-            status = o->progress(o->user, (i + 1.0) / f->frames, error);
+        if (status == FST_OK)
+            status = fst_tell(o->progress, (i + 1.0) / f->frames, "frames", error);
         if (status != FST_OK)
             return status;
     }
@@ -215,11 +227,11 @@ static fst_status make_frames(film *f, fst_error *error)
 
 /* ------------------------------------------------------------------ where they go */
 
-/* An earlier, longer film's further frames would be shown after this one's. */
+/* Remove the further frames of an earlier, longer film: they would be shown after this one's. */
 static fst_status remove_further_frames(const film *f, fst_error *error)
 {
     char path[FRAME_PATH];
-    for (int index = f->frames;; index++) {
+    for (int index = f->frames;; ++index) {
         name_frame(f, index, path);
         if (unlink(path) == 0)
             continue;
@@ -252,7 +264,7 @@ static fst_status frames_into_process(film *f, const char *out, const char *form
                               file.temporary, out, error);
     if (status == FST_OK) {
         status = make_frames(f, error);
-        /* Where the process failed, its words say more than that it took no frames. */
+        /* Where ffmpeg failed, its own words say more than that it took no more frames. */
         fst_status ended = fst_ffmpeg_end(&f->process, status != FST_OK && status != FST_IO, error);
         if (status == FST_OK)
             status = ended;
@@ -265,7 +277,7 @@ static fst_status frames_into_process(film *f, const char *out, const char *form
     return status;
 }
 
-/* Without ffmpeg the frames are kept, in a folder beside the place of the film. */
+/* Without ffmpeg: keep the frames, in a folder beside the place of the film. */
 static fst_status frames_kept(film *f, const char *out, fst_error *error)
 {
     char folder[4096];

@@ -1,6 +1,5 @@
-/* frame.h - one frame of a film, and the module that paints it (Cairo is heavy to load, so that only a
- * film loads the module).
- */
+/* frame.h - one frame of a film, and the module that paints it.  Cairo takes long to load, so only a film loads
+ * the module. */
 #ifndef FST_FILM_FRAME_H
 #define FST_FILM_FRAME_H
 
@@ -8,26 +7,26 @@
 
 #include <stdio.h>
 
-/* What the whole film has in common.  Lengths are in mm. */
+/* What is the same in all frames of a film.  Lengths are in mm. */
 typedef struct fst_film_stage {
     int width, height;        /* pixels, both even */
     double reach;             /* half the side of the square of plate that is shown */
     double magnet[3];         /* length, width, thickness */
-    double depth;             /* of the magnet's mid-plane below the plate */
+    double depth;             /* of the magnet's middle plane below the plate */
     double radius;            /* of the bead */
     const char *title;        /* frequency and dynamics */
     const char *colour_label; /* of the trail */
     double colour_low, colour_high;
-    int both_signs; /* the diverging palette */
+    int both_signs; /* use the palette for both signs */
 } fst_film_stage;
 
-/* What changes.  The trail runs from its oldest point to the bead; `shade` in [0, 1] picks the palette's
- * colour. */
+/* What changes from frame to frame.  The trail runs from its oldest point to the bead; `shade`, from 0 to 1,
+ * picks a colour of the palette. */
 typedef struct fst_film_frame {
     double x, y;         /* the bead */
     double magnet_angle; /* rad */
-    double turn[3][3];   /* rotation of the bead: body to laboratory; the moment is the body's third axis */
-    const char *clock;   /* "t = 12.3 ms" */
+    double turn[3][3]; /* rotation of the bead, from body to laboratory; the moment is the body's third axis */
+    const char *clock; /* "t = 12.3 ms" */
     const double *trail_x, *trail_y, *trail_shade;
     int trail;
 } fst_film_frame;
@@ -37,13 +36,13 @@ typedef struct fst_film_canvas fst_film_canvas;
 /* The module's one symbol is a table of this type, named FST_FILM_MODULE_SYMBOL. */
 #define FST_FILM_MODULE_SYMBOL "fst_film_module"
 typedef struct fst_film_module_table {
-    const char *version; /* FST_VERSION_STRING at the module's build: another version is refused */
+    const char *version; /* FST_VERSION_STRING at the module's build; a module of another version is refused */
     fst_status (*open)(const fst_film_stage *stage, fst_film_canvas **canvas, fst_error *error);
     void (*paint)(fst_film_canvas *canvas, const fst_film_stage *stage, const fst_film_frame *frame);
-    /* Rows of pixels from the top, four bytes each in the order blue, green, red, unused, `*stride` bytes a
-     * row. */
+    /* Rows of pixels from the top, four bytes a pixel in the order blue, green, red, unused, and `*stride`
+     * bytes a row. */
     const unsigned char *(*pixels)(fst_film_canvas *canvas, int *stride);
-    /* A failed write shows at the stream. */
+    /* A failed write is seen at the stream. */
     fst_status (*write_png)(fst_film_canvas *canvas, FILE *out, fst_error *error);
     void (*close)(fst_film_canvas *canvas);
 } fst_film_module_table;

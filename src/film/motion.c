@@ -1,3 +1,10 @@
+/* motion.c - where bead and magnet are at any moment between the samples of a trajectory.
+ *
+ * Positions and the magnet's angle are interpolated linearly.  The bead's rotation is not a part of the state:
+ * it is integrated from W, sample by sample, and after each step its third axis is put on the n of the
+ * trajectory, so that the poles in the film are always right.  The spin about n has no such reference and may
+ * drift a little.
+ */
 #include "film/motion.h"
 
 #include "base/error.h"
@@ -11,7 +18,7 @@
 static fst_status find_colour(fst_film_motion *motion, const char *colour, fst_error *error)
 {
     char names[1024] = "", nearest[32];
-    for (int i = 0; i < fst_column_count(); i++) {
+    for (int i = 0; i < fst_column_count(); ++i) {
         const char *name = fst_column_at(i)->name;
         if (!strcmp(name, colour)) {
             motion->colour = motion->table->columns[i];
@@ -25,12 +32,12 @@ static fst_status find_colour(fst_film_motion *motion, const char *colour, fst_e
     return fst_fail(error, FST_BAD_INPUT, "film", "no column \"%.60s\"; the nearest is %s", colour, nearest);
 }
 
-/* The same ranges as in figures: n_z from -1 to 1, both signs alike, and from 0 where the least is close to it.
- */
+/* The same ranges as in figures: from -1 to 1 for n_z, symmetric for both signs, and from 0 where the least
+ * value is close to 0. */
 static void find_range(fst_film_motion *motion)
 {
     double low = INFINITY, high = -INFINITY;
-    for (size_t row = motion->first; row <= motion->last; row++) {
+    for (size_t row = motion->first; row <= motion->last; ++row) {
         if (!isfinite(motion->colour[row]))
             continue;
         low = fmin(low, motion->colour[row]);
@@ -49,21 +56,21 @@ static void find_range(fst_film_motion *motion)
     motion->high = high;
 }
 
-/* The rotation whose third axis is n and whose first is as near to its former one as that allows: what
- * integrating W has lost against the n of the trajectory is put right. */
+/* The rotation whose third axis is n and whose first axis is as near as possible to its former place.  It puts
+ * right what integrating W has lost against the n of the trajectory. */
 static void straighten(double turn[3][3], const double n[3])
 {
     double first[3], along = 0.0, length = 0.0;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         along += turn[i][0] * n[i];
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; ++i) {
         first[i] = turn[i][0] - along * n[i];
         length += first[i] * first[i];
     }
     length = sqrt(length);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         first[i] /= length;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; ++i) {
         int j = (i + 1) % 3, k = (i + 2) % 3;
         turn[i][0] = first[i];
         turn[i][1] = n[j] * first[k] - n[k] * first[j];
@@ -71,32 +78,32 @@ static void straighten(double turn[3][3], const double n[3])
     }
 }
 
-/* Turn the columns by the rotation vector `angle` (Rodrigues). */
+/* Turn the columns by the rotation vector `angle` (Rodrigues' formula). */
 static void rotate(double turn[3][3], const double angle[3])
 {
     double size = sqrt(angle[0] * angle[0] + angle[1] * angle[1] + angle[2] * angle[2]);
     if (!(size > 0.0))
         return;
     double a[3] = {angle[0] / size, angle[1] / size, angle[2] / size}, c = cos(size), s = sin(size);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; ++k) {
         double v[3] = {turn[0][k], turn[1][k], turn[2][k]}, along = a[0] * v[0] + a[1] * v[1] + a[2] * v[2];
-        for (int i = 0; i < 3; i++) {
+        for (int i = 0; i < 3; ++i) {
             int j = (i + 1) % 3, m = (i + 2) % 3;
             turn[i][k] = c * v[i] + s * (a[j] * v[m] - a[m] * v[j]) + (1.0 - c) * along * a[i];
         }
     }
 }
 
-/* From a row, by `part` of the way to the next. */
+/* Turn the bead from a row by `part` of the way to the next. */
 static void roll(const fst_film_motion *motion, size_t row, double part, double turn[3][3])
 {
     double step = part * (motion->t[row + 1] - motion->t[row]), angle[3], n[3], length = 0.0;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; ++i) {
         angle[i] = step * (motion->w[i][row] + 0.5 * part * (motion->w[i][row + 1] - motion->w[i][row]));
         n[i] = motion->n[i][row] + part * (motion->n[i][row + 1] - motion->n[i][row]);
         length += n[i] * n[i];
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         n[i] /= sqrt(length);
     rotate(turn, angle);
     straighten(turn, n);
@@ -111,17 +118,17 @@ fst_status fst_film_motion_begin(fst_film_motion *motion, const fst_table *table
     motion->x = fst_collected(table, "x");
     motion->y = fst_collected(table, "y");
     static const char *const names[6] = {"n_x", "n_y", "n_z", "w_x", "w_y", "w_z"};
-    for (int i = 0; i < 6; i++)
+    for (int i = 0; i < 6; ++i)
         *(i < 3 ? &motion->n[i] : &motion->w[i - 3]) = fst_collected(table, names[i]);
     fst_status status = find_colour(motion, colour ? colour : "slip", error);
     if (status != FST_OK)
         return status;
     size_t first = 0, end = table->rows;
-    const double slack = 1e-9; /* samples lie on their turn but for rounding */
+    const double slack = 1e-9; /* samples lie on their turn except for rounding */
     while (first < end && !isnan(from) && motion->drive_turns[first] < from - slack)
-        first++;
+        ++first;
     while (end > first && !isnan(to) && motion->drive_turns[end - 1] > to + slack)
-        end--;
+        --end;
     if (end < first + 2)
         return fst_fail(error, FST_BAD_INPUT, "film",
                         "the trajectory has no samples there: it covers the drive periods %.6g to %.6g",
@@ -141,7 +148,7 @@ void fst_film_motion_to(fst_film_motion *motion, double turns)
 {
     while (motion->row + 1 < motion->last && motion->drive_turns[motion->row + 1] <= turns) {
         roll(motion, motion->row, 1.0, motion->turn);
-        motion->row++;
+        ++motion->row;
     }
     double low = motion->drive_turns[motion->row], high = motion->drive_turns[motion->row + 1];
     motion->part = fmax(0.0, fmin(1.0, (turns - low) / (high - low)));

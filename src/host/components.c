@@ -1,4 +1,5 @@
-/* components.c - the optional parts of festoon, as `festoon --version` lists them. */
+/* components.c - which optional parts of festoon this build and machine have, as `festoon --version` lists
+ * them. */
 #include <festoon/festoon_tools.h>
 
 #include <stdio.h>
@@ -8,7 +9,7 @@
 
 #include "host/module.h"
 
-/* Whether a program is found along PATH. */
+/* Whether a program is found on PATH. */
 static int program_present(const char *name)
 {
     const char *path = getenv("PATH");

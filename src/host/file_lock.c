@@ -1,3 +1,4 @@
+/* file_lock.c - locks of the kernel on single bytes, by F_OFD_SETLK. */
 #define _GNU_SOURCE /* F_OFD_SETLK */
 #include "host/file_lock.h"
 

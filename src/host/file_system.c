@@ -1,3 +1,4 @@
+/* file_system.c - whether a file lies on a network, by the type of its file system. */
 #include "host/file_system.h"
 
 #include <stddef.h>
@@ -5,7 +6,7 @@
 
 int fst_on_network(const char *path)
 {
-    /* statfs(2); FUSE stands for sshfs and its like. */
+    /* The types that statfs(2) reports.  FUSE is the type of sshfs and similar. */
     static const unsigned long kinds[] = {
         0x6969 /* NFS */,      0xff534d42 /* CIFS */,   0xfe534d42 /* SMB2 */,         0x517b /* SMB */,
         0x65735546 /* FUSE */, 0x0bd00bd0 /* Lustre */, 0x47504653 /* GPFS */,         0x19830326 /* BeeGFS */,

@@ -1,9 +1,9 @@
-/* file_system.h - what the file system under a file can do. */
+/* file_system.h - what the file system of a file can do. */
 #ifndef FST_HOST_FILE_SYSTEM_H
 #define FST_HOST_FILE_SYSTEM_H
 
-/* Whether `path` lies on a network file system, where processes share no memory and a write-ahead log of SQLite
- * is not safe. */
+/* Whether `path` lies on a network file system.  There processes share no memory, so a write-ahead log of
+ * SQLite is unsafe. */
 int fst_on_network(const char *path);
 
 #endif

@@ -1,3 +1,4 @@
+/* module.c - loading a module, and finding out whether it could be loaded. */
 /* dladdr() is an extension of the C library. */
 #define _GNU_SOURCE
 #include "host/module.h"
@@ -7,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Where modules lie, seen from this library: in the build tree, and installed. */
+/* Where modules lie relative to this library: in the build tree, and installed. */
 static const char *const places[] = {"/", "/festoon/"};
 
 const void *fst_module_table(const char *file, const char *symbol, int *found)
@@ -28,7 +29,7 @@ int fst_module_present(const char *file)
         return 0;
     const char *slash = strrchr(here.dli_fname, '/');
     int directory = slash ? (int)(slash - here.dli_fname) : 1;
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; ++i) {
         int length =
             snprintf(path, sizeof path, "%.*s%s%s", directory, slash ? here.dli_fname : ".", places[i], file);
         if (length > 0 && (size_t)length < sizeof path && access(path, R_OK) == 0)

@@ -1,19 +1,19 @@
-/* module.h - modules beside this library: heavy libraries that only some commands need are linked to a module,
- * which is loaded when one is met, for linking them would cost every start of the program their loading.
- */
+/* module.h - modules: shared objects beside this library, loaded only when a command needs them.  A heavy
+ * library such as HDF5 is linked to a module, because linking it to festoon would slow down every start of the
+ * program. */
 #ifndef FST_HOST_MODULE_H
 #define FST_HOST_MODULE_H
 
-/* Their files.  festoon-lapack.so is not among them: libfestoon loads that one itself (orbit/lapack.c). */
+/* The files of the modules. festoon-lapack.so is not here: libfestoon loads it itself (orbit/lapack.c). */
 #define FST_CAIRO_MODULE "festoon-cairo.so"
 #define FST_HDF5_MODULE "festoon-hdf5.so"
 #define FST_MPI_MODULE "festoon-mpi.so"
 
-/* The table called `symbol` of the module `file`, found along the RUNPATH of this library; NULL if the module
- * cannot be loaded or has no such table (*found tells which).  It stays loaded. */
+/* The table called `symbol` of the module `file`, which is found along the RUNPATH of this library and stays
+ * loaded.  NULL: the module cannot be loaded (*found is 0) or has no such table (*found is 1). */
 const void *fst_module_table(const char *file, const char *symbol, int *found);
 
-/* Whether it would be found; it is not loaded, for asking must not cost the time of loading. */
+/* Whether the module would be found.  It is not loaded, because loading takes time. */
 int fst_module_present(const char *file);
 
 #endif

@@ -1,17 +1,20 @@
+/* parallel.c - independent pieces of work on several threads; the calling thread tells the caller how far they
+ * are. */
 #include "host/parallel.h"
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "host/threads.h"
 
-static const double ASK_SECONDS = 0.02; /* between two calls of progress() */
+static const double ASK_SECONDS = 0.02; /* between two calls of the caller's tell() */
 
 typedef struct pool {
     const fst_work *work;
     pthread_mutex_t lock; /* guards everything below */
     pthread_cond_t changed;
     int next, done, busy;
-    int stopped;      /* no new pieces */
-    int failed_piece; /* lowest index that failed, or work->count */
+    int stopped;      /* no new piece begins */
+    int failed_piece; /* the lowest index of a piece that failed, or work->count */
     fst_status status;
     fst_error error;
 } pool;
@@ -26,7 +29,7 @@ static void *labour(void *argument)
         fst_error error = {.code = FST_OK};
         fst_status status = all->work->piece(all->work->user, index, &error);
         pthread_mutex_lock(&all->lock);
-        all->done++;
+        ++all->done;
         if (status != FST_OK) {
             all->stopped = 1;
             if (index < all->failed_piece) {
@@ -37,13 +40,13 @@ static void *labour(void *argument)
         }
         pthread_cond_signal(&all->changed);
     }
-    all->busy--;
+    --all->busy;
     pthread_cond_signal(&all->changed);
     pthread_mutex_unlock(&all->lock);
     return NULL;
 }
 
-/* Watch the threads and report, until none of them works any more; called with the lock held. */
+/* Tell the caller how far the work is, until no thread works any more.  Called with the lock held. */
 static fst_status watch(pool *all, fst_error *error)
 {
     fst_status status = FST_OK;
@@ -51,12 +54,12 @@ static fst_status watch(pool *all, fst_error *error)
         const int told = all->done;
         if (all->work->progress && status == FST_OK) {
             pthread_mutex_unlock(&all->lock);
-            status = all->work->progress(all->work->user, told, error);
+            status = fst_tell(all->work->progress, (double)told / all->work->count, NULL, error);
             pthread_mutex_lock(&all->lock);
             if (status != FST_OK)
                 all->stopped = 1;
         }
-        if (all->busy > 0 && all->done == told) /* else it changed in the meantime */
+        if (all->busy > 0 && all->done == told) /* else another piece ended meanwhile: tell of it at once */
             fst_condition_wait(&all->changed, &all->lock, ASK_SECONDS);
     }
     return status;

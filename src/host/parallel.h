@@ -7,16 +7,17 @@
 typedef struct fst_work {
     void *user;
     int count;
-    /* Do piece `index`.  Pieces may run at the same time and in any order, so each writes into its own place;
-     * then the results do not depend on the threads. */
+    /* Do piece `index`.  Pieces may run at the same time and in any order.  If each writes only into its own
+     * place, the results do not depend on the threads. */
     fst_status (*piece)(void *user, int index, fst_error *error);
-    /* Called by the calling thread alone, every 20 ms and oftener, with the number of pieces done; may be NULL.
-     * Another status than FST_OK ends the work: no new pieces begin, and those at work should be told. */
-    fst_status (*progress)(void *user, int done, fst_error *error);
+    /* Told every 20 ms or more often, by the calling thread alone, which fraction of the pieces is done; NULL:
+     * nobody is told.  A status other than FST_OK ends the work: no new piece begins.  A piece at work is not
+     * broken off, so a long piece must ask the caller by itself. */
+    const fst_progress *progress;
 } fst_work;
 
-/* Do all pieces on as many threads as there are processors for this process, and wait for them.  If pieces
- * fail, no new ones begin, and the status and error are those of the failed piece with the lowest index. */
+/* Do all pieces on as many threads as this process has processors, and wait for them.  If a piece fails, no new
+ * one begins; the status and error are those of the failed piece with the lowest index. */
 fst_status fst_parallel(const fst_work *work, fst_error *error);
 
 #endif

@@ -1,3 +1,4 @@
+/* process.c - starting a program by posix_spawn(). */
 #define _GNU_SOURCE /* posix_spawn_file_actions_addchdir_np */
 
 #include "host/process.h"
@@ -40,12 +41,13 @@ int fst_process_start(const fst_process *process, pid_t *child)
         (void)posix_spawn_file_actions_destroy(&actions);
         return failed;
     }
-    /* The caller's thread may have signals blocked or ignored; the program starts with a clean slate. */
+    /* The caller's thread may have blocked or ignored signals; the program must not inherit that. */
     sigset_t none, restored;
     (void)sigemptyset(&none);
     (void)sigemptyset(&restored);
     (void)sigaddset(&restored, SIGPIPE);
-    (void)sigaddset(&restored, SIGXFSZ); /* a helper that ends by it cannot go on over a file cut off */
+    (void)sigaddset(&restored, SIGXFSZ); /* a helper that ignores it could go on after its file was cut off at
+                                            the limit of ulimit -f */
     (void)posix_spawnattr_setsigmask(&attributes, &none);
     (void)posix_spawnattr_setsigdefault(&attributes, &restored);
     (void)posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);

@@ -1,3 +1,4 @@
+/* regular_file.c - reading input files: whole, in pieces, or as a stream. */
 #define _GNU_SOURCE /* fopencookie */
 #include "host/regular_file.h"
 
@@ -10,7 +11,7 @@
 
 #include "base/error.h"
 
-/* Whether opening failed because of the name that was given, and not because of the machine. */
+/* Whether opening failed because of the name that the user gave, and not because of the machine. */
 static int is_users(int reason)
 {
     return reason == ENOENT || reason == EACCES || reason == EPERM || reason == ENOTDIR || reason == ELOOP ||
@@ -45,7 +46,7 @@ fst_status fst_open_regular(const char *path, int *descriptor, fst_error *error)
 
 /* ---------------------------------------------------------------- as one text */
 
-/* read(2), again where a signal interrupted it. */
+/* read(2), repeated where a signal interrupts it. */
 static ssize_t read_on(int descriptor, char *bytes, size_t size)
 {
     ssize_t got;
@@ -67,7 +68,7 @@ ssize_t fst_read_at(int descriptor, void *bytes, size_t size, off_t place)
     return (ssize_t)have;
 }
 
-/* Everything, or as much as is needed to see that it is more than `most`; 0, or an errno. */
+/* Read everything, or just enough to see that there is more than `most`.  Returns 0, or an errno. */
 static int read_all(int descriptor, size_t most, char **text, size_t *size)
 {
     size_t room = 1 << 16;

@@ -1,3 +1,4 @@
+/* threads.c - how many threads a process should have, starting them, and waiting for them. */
 #define _GNU_SOURCE /* sched_getaffinity() */
 #include "host/threads.h"
 

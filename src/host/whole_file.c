@@ -1,3 +1,22 @@
+/* whole_file.c - output files that appear whole or not at all.
+ *
+ * A reader of NAME sees the old file or the new one, never a part, whenever the writer is killed or the power
+ * fails:
+ *
+ *  1. open      .NAME.HOST-PROCESS-NUMBER.part   a new file in the same directory, locked by the kernel
+ *  2. write     into it; the first failure is noted, and nothing is written after it
+ *  3. sync      fsync(): its bytes are on the disk ...
+ *  4. rename    ... before it takes the name NAME
+ *  5. sync      the directory, so that the new name is on the disk too
+ *
+ * Where a step fails, the temporary file is removed and NAME stays as it was.  A killed writer leaves its
+ * temporary file behind, but the kernel ends its lock.  The next command that writes NAME therefore removes
+ * each temporary file that it can lock, and leaves alone what another living writer holds and what another host
+ * made.
+ *
+ * The stream that the caller writes into is one of fopencookie(): so a write that a signal interrupts goes on,
+ * and the errno of the first failure is kept for the message.
+ */
 /* fopencookie() and realpath() are extensions of the C library. */
 #define _GNU_SOURCE
 #include "host/whole_file.h"
@@ -14,15 +33,16 @@
 #include "host/file_lock.h"
 
 enum {
-    DECORATION = 64,    /* room in a temporary name beside the directory and the file's own name */
-    LONGEST_NAME = 200, /* file names end at 255 bytes; a long one is cut to leave room for the decoration */
+    DECORATION = 64, /* room in a temporary name for what is added to the directory and the file's own name */
+    LONGEST_NAME =
+        200, /* a file name has 255 bytes at most: a long one is cut to leave room for what is added */
     BUFFER = 1 << 16
 };
 
 #define ENDING ".part"
 
 struct fst_whole_file_hold {
-    int descriptor; /* of the temporary file, locked */
+    int descriptor; /* of the temporary file, which is locked */
     int reason;     /* errno of the first write that failed; 0: none did */
 };
 
@@ -38,7 +58,7 @@ static void forget(fst_whole_file *file)
     *file = (fst_whole_file){NULL, NULL, NULL, NULL};
 }
 
-/* Where the name begins in a path. */
+/* The length of the directory part of a path, with the last slash. */
 static size_t directory_length(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -47,20 +67,20 @@ static size_t directory_length(const char *path)
 
 /* ---------------------------------------------------------------- names and leftovers */
 
-/* Locks of other hosts may be invisible on a network file system, so that names tell the hosts apart (FNV-1a).
- */
+/* A hash of this host's name (FNV-1a).  Temporary names contain it, because on a network file system the locks
+ * of other hosts may be invisible: their files are left alone. */
 static unsigned host_number(void)
 {
     char name[256] = "";
     unsigned number = 2166136261U;
     (void)gethostname(name, sizeof name - 1);
-    for (const char *c = name; *c; c++)
+    for (const char *c = name; *c; ++c)
         number = (number ^ (unsigned char)*c) * 16777619U;
     return number;
 }
 
-/* Where in `entry` the mark "HOST-PROCESS-NUMBER.part" of a temporary file of this host begins; 0: there is
- * none. */
+/* Where in `entry` the mark "HOST-PROCESS-NUMBER.part" of a temporary file of this host begins; 0: there is no
+ * such mark. */
 static size_t mark_of(const char *entry)
 {
     char host[16];
@@ -70,15 +90,15 @@ static size_t mark_of(const char *entry)
     const size_t end = length - strlen(ENDING);
     size_t mark = end;
     while (mark > 0 && entry[mark - 1] != '.')
-        mark--;
+        --mark;
     (void)snprintf(host, sizeof host, "%08x-", host_number());
     const size_t skipped = mark + strlen(host);
     const int ours = mark > 0 && skipped < end && strncmp(entry + mark, host, strlen(host)) == 0;
     return ours && strspn(entry + skipped, "0123456789-") == end - skipped ? mark : 0;
 }
 
-/* Remove a temporary file whose writer is gone.  The lock is taken first, so that nobody can begin with it in
- * between. */
+/* Remove a temporary file whose writer has ended.  Taking its lock first shows that, and keeps others from
+ * taking the file meanwhile. */
 static void remove_if_abandoned(int directory, const char *entry)
 {
     struct stat there;
@@ -91,8 +111,8 @@ static void remove_if_abandoned(int directory, const char *entry)
     (void)close(descriptor);
 }
 
-/* Remove the temporary files of dead writers whose names begin with `prefix`; with `whole`, the mark follows
- * it. */
+/* Remove the temporary files whose writers have ended and whose names begin with `prefix`.  With `whole` the
+ * mark must follow the prefix at once. */
 static void remove_leftovers(const char *place, const char *prefix, int whole)
 {
     DIR *directory = opendir(place);
@@ -135,15 +155,17 @@ void fst_whole_file_tidy_beside(const char *path)
     free(place);
 }
 
-/* A new locked file at file->temporary; -1: errno tells why.  Between making and locking it another command may
- * have taken it for a leftover: then it has no name any more, and the next one is tried. */
+/* Make and lock a new file at file->temporary; -1: errno tells why.  Between the two steps another command may
+ * have taken the file for a leftover and removed it.  Then it has no name any more, and the caller tries the
+ * next name. */
 static int create_locked(const fst_whole_file *file)
 {
     struct stat here;
     const int descriptor = open(file->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0)
         return -1;
-    /* On a file system without locks this fails: then nobody takes the file for a leftover either. */
+    /* On a file system without locks this fails.  There no other command can lock it either, so nobody takes it
+     * for a leftover. */
     (void)fst_lock_byte(descriptor, FST_LOCK_WRITING, 1);
     if (fstat(descriptor, &here) == 0 && here.st_nlink > 0)
         return descriptor;
@@ -166,7 +188,7 @@ static int create_temporary(fst_whole_file *file, int tidy)
         return -1;
     }
     int descriptor = -1;
-    for (int attempt = 0; attempt < 100 && descriptor < 0; attempt++) {
+    for (int attempt = 0; attempt < 100 && descriptor < 0; ++attempt) {
         (void)snprintf(file->temporary, size, "%.*s%s%08x-%ld-%d" ENDING, (int)start, file->path, prefix,
                        host_number(), (long)getpid(), attempt);
         descriptor = create_locked(file);
@@ -178,7 +200,8 @@ static int create_temporary(fst_whole_file *file, int tidy)
 
 /* ---------------------------------------------------------------- the stream */
 
-/* Everything, or as much as there is room for: signals interrupt a write, and disks take part of one. */
+/* Write everything, or as much as there is room for.  A signal may interrupt a write, and a full disk takes a
+ * part of one. */
 static ssize_t write_on(void *cookie, const char *bytes, size_t size)
 {
     struct fst_whole_file_hold *hold = cookie;
@@ -276,8 +299,8 @@ int fst_sync_directory_of(const char *path)
     return reason == EINVAL || reason == ENOSYS || reason == EOPNOTSUPP || reason == EBADF ? 0 : reason;
 }
 
-/* Whether the temporary name still means the file that was written: cleaners of old files may have removed it.
- */
+/* Whether the temporary name still leads to the file that was written: a program that removes old files may
+ * have removed it. */
 static int is_ours(const fst_whole_file *file)
 {
     struct stat held, named;
@@ -322,7 +345,7 @@ fst_status fst_whole_file_commit(fst_whole_file *file, fst_error *error)
     } else if ((reason = fst_sync_directory_of(file->path)) != 0) {
         status = fst_fail(
             error, FST_IO, file->path,
-            "this file is complete, but may be lost with the power: its directory cannot be synced: %s",
+            "this file is complete, but a loss of power may undo it: its directory cannot be synced: %s",
             strerror(reason));
     }
     forget(file);

@@ -1,8 +1,8 @@
-/* branch_read.c - branches read back from the files that fst_branch_write() makes.
+/* branch_read.c - reading back the branches that fst_branch_write() wrote.
  *
- * Such a file may have been edited, cut short or made by something else: every member is checked against what
- * it may be, and the first that is anything else is refused by its name.  Nothing is guessed, for most members
- * have a value (0, a fold) that a guess would turn into a wrong result.
+ * The file may have been edited, cut short, or made by another program.  So every member is checked against the
+ * values that it may have, and the first wrong one ends the reading with a sentence that names it.  Nothing is
+ * guessed: most members have a value (0, a fold) that a guess would turn into a wrong result.
  */
 #include <festoon/festoon_tools.h>
 
@@ -17,12 +17,12 @@
 
 enum { MOST_BRANCHES = 1000000 };
 
-/* A file being read; once something was refused, nothing more is. */
+/* A file being read.  After the first wrong member nothing more is read. */
 typedef struct reader {
     const char *path;
-    const char *key; /* of the branch: the parameter of its special points */
-    char place[48];  /* of the object that is read, as in "points[3]." */
-    int branches;    /* numbers of branches are less */
+    const char *key; /* the branch's parameter, which is also that of its special points */
+    char place[48];  /* the object that is being read, as in "points[3]." */
+    int branches;    /* every number of a branch is less */
     fst_status status;
     fst_error *error;
 } reader;
@@ -87,13 +87,13 @@ static int read_flag(reader *r, const json_t *object, const char *key)
     return json_is_true(found);
 }
 
-/* The number of a branch; null: none, -1. */
+/* The number of a branch; -1 for null, which means none. */
 static int read_branch_or_none(reader *r, const json_t *object, const char *key)
 {
     return json_is_null(json_object_get(object, key)) ? -1 : read_integer(r, object, key, 0, r->branches - 1);
 }
 
-/* The index of a text among names; the first where it is none of them. */
+/* The index of a text among names; the first name where it is none of them (the reading has then ended). */
 static int read_name(reader *r, const json_t *object, const char *key, const char *(*name_of)(int index),
                      int count)
 {
@@ -123,7 +123,7 @@ static const char *kind_name(int index)
     return fst_branch_kind_name((fst_branch_kind)index);
 }
 
-/* A parameter with real values, whose name goes into figures. */
+/* The key of a parameter with real values.  Its name goes into figures. */
 static void read_parameter(reader *r, const json_t *object, const char *key, char out[64])
 {
     const json_t *found = json_object_get(object, key);
@@ -136,7 +136,7 @@ static void read_parameter(reader *r, const json_t *object, const char *key, cha
         refuse(r, key, found, "a key of the scene with real values, as \"drive.omega\"");
 }
 
-/* Text that goes into messages: no control characters. */
+/* A text that goes into messages, without control characters. */
 static void read_text(reader *r, const json_t *object, const char *key, char *out, size_t size)
 {
     const json_t *found = json_object_get(object, key);
@@ -270,7 +270,7 @@ static void read_end(reader *r, const json_t *object, fst_branch_end *end, int o
 
 /* ---------------------------------------------------------------- the whole file */
 
-/* Files written before they held the number of branches: as many as their points and ends name. */
+/* Older files do not hold the number of branches: take it from their points and ends. */
 static int count_branches(const json_t *document)
 {
     static const char *const lists[] = {"points", "ends", "specials", "crossings"};
@@ -309,7 +309,7 @@ static void read_head(reader *r, const json_t *document, fst_branch *branch)
     r->branches = branch->branches;
 }
 
-/* A list of the document; *count of its elements. */
+/* A list of the document, and the number of its elements in *count. */
 static const json_t *list_of(reader *r, const json_t *document, const char *key, size_t *count)
 {
     const json_t *list = json_object_get(document, key);
@@ -350,7 +350,7 @@ static void read_lists(reader *r, const json_t *document, fst_branch *branch)
     }
 }
 
-/* The document in a file; NULL: r->status says why. */
+/* The document in a file; NULL: r->status says why there is none. */
 static json_t *load(reader *r)
 {
     char *text;

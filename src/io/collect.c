@@ -1,3 +1,4 @@
+/* collect.c - a run whose samples are collected in memory, as a table like that of a trajectory file. */
 #include "io/collect.h"
 
 #include "base/error.h"
@@ -9,13 +10,12 @@
 typedef struct collector {
     fst_table *table;
     size_t room;
-    const fst_progress *progress;
 } collector;
 
 static fst_status grow(collector *collected, fst_error *error)
 {
     size_t room = collected->room ? 2 * collected->room : 4096;
-    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
         double *column = realloc(collected->table->columns[i], room * sizeof *column);
         if (!column)
             return fst_fail(error, FST_NO_MEMORY, "trajectory", "no memory for %zu samples", room);
@@ -36,16 +36,10 @@ static fst_status take(void *user, const fst_sample *sample, fst_error *error)
     }
     double values[FST_COLUMN_COUNT];
     fst_column_values(sample, values);
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         table->columns[i][table->rows] = values[i];
-    table->rows++;
+    ++table->rows;
     return FST_OK;
-}
-
-static fst_status ask(void *user, double fraction, fst_error *error)
-{
-    const fst_progress *progress = ((const collector *)user)->progress;
-    return progress->tell(progress->user, fraction, error);
 }
 
 fst_status fst_collect_run(const fst_params *params, const fst_progress *progress, fst_run_result *result,
@@ -55,11 +49,11 @@ fst_status fst_collect_run(const fst_params *params, const fst_progress *progres
     table->columns = calloc(FST_COLUMN_COUNT, sizeof *table->columns);
     if (!table->columns)
         return fst_fail(error, FST_NO_MEMORY, "trajectory", "no memory for a table");
-    collector collected = {.table = table, .progress = progress};
+    collector collected = {.table = table};
     fst_run_options options = fst_default_run_options();
     options.sink.user = &collected;
     options.sink.sample = take;
-    options.sink.progress = progress ? ask : NULL;
+    options.progress = progress;
     options.sample_from = params->run_discard;
     fst_status status = fst_run(params, &options, result, error);
     table->complete = status == FST_OK;
@@ -68,7 +62,7 @@ fst_status fst_collect_run(const fst_params *params, const fst_progress *progres
 
 const double *fst_collected(const fst_table *table, const char *name)
 {
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         if (!strcmp(fst_column_at(i)->name, name))
             return table->columns[i];
     return NULL;

@@ -1,4 +1,4 @@
-/* collect.h - a trajectory in memory: a run's samples as the table that figures are drawn from. */
+/* collect.h - a trajectory in memory instead of a file, for figures, films and the paper. */
 #ifndef FST_IO_COLLECT_H
 #define FST_IO_COLLECT_H
 
@@ -9,7 +9,7 @@
 fst_status fst_collect_run(const fst_params *params, const fst_progress *progress, fst_run_result *result,
                            fst_table *table, fst_error *error);
 
-/* The column called `name`, which must be one of columns.def's. */
+/* The column called `name`, which must be one of those in columns.def. */
 const double *fst_collected(const fst_table *table, const char *name);
 
 #endif

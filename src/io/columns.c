@@ -1,3 +1,4 @@
+/* columns.c - the table of the columns of a trajectory, and a sample as a row of numbers. */
 #include "io/columns.h"
 
 #define DEGREES (180.0 / 3.14159265358979323846)

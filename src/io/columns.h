@@ -11,7 +11,7 @@ enum {
     FST_COLUMN_COUNT
 };
 
-/* The sample's values, in the order of the columns. */
+/* The values of a sample, in the order of the columns. */
 void fst_column_values(const fst_sample *sample, double values[FST_COLUMN_COUNT]);
 
 #endif

@@ -1,3 +1,4 @@
+/* csv.c - trajectories as text: writing them, and reading them back. */
 #include "io/csv.h"
 
 #include <math.h>
@@ -7,7 +8,7 @@
 #include "base/error.h"
 #include "base/number.h"
 
-/* The lines that the reader looks for. */
+/* The lines that the reader recognises. */
 #define FIRST_LINE "# festoon trajectory"
 #define SCENE_LINE "# scene:"
 #define SCENE_INDENT "#   "
@@ -24,7 +25,7 @@ void fst_csv_begin(FILE *out, const char *scene)
         scene += length;
         scene += *scene == '\n';
     }
-    for (int i = 0; i < fst_column_count(); i++) {
+    for (int i = 0; i < fst_column_count(); ++i) {
         const fst_column_info *info = fst_column_at(i);
         (void)fprintf(out, "%s%s [%s]", i ? "," : "", info->name, info->unit);
     }
@@ -34,7 +35,7 @@ void fst_csv_begin(FILE *out, const char *scene)
 void fst_csv_row(FILE *out, const double values[FST_COLUMN_COUNT])
 {
     fst_c_locale locale = fst_c_locale_enter();
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         (void)fprintf(out, "%s%.17g", i ? "," : "", values[i]);
     fst_c_locale_leave(locale);
     (void)fputc('\n', out);
@@ -53,15 +54,15 @@ typedef struct csv_reader {
     FILE *in;
     const char *path;
     char *line; /* LONGEST_LINE bytes, without the newline */
-    int number; /* of the line, from 1 */
+    int number; /* of the present line, from 1 */
     char *scene;
     size_t scene_length;
-    size_t room; /* rows allocated */
+    size_t room; /* rows for which there is memory */
     fst_table *table;
     fst_error *error;
 } csv_reader;
 
-/* Rows take about 1000 bytes and the result about 5000. */
+/* Longer than any line: a row takes about 1000 bytes, the result about 5000. */
 #define LONGEST_LINE 65536
 
 static fst_status fail_line(csv_reader *reader, const char *sentence)
@@ -71,12 +72,12 @@ static fst_status fail_line(csv_reader *reader, const char *sentence)
     return fst_fail(reader->error, FST_BAD_INPUT, where, "%s", sentence);
 }
 
-/* 1 with the next line, 0 at the end of the file or where no whole line is left. */
+/* Read the next line: 1, or 0 at the end of the file or where its last line has no newline. */
 static int next_line(csv_reader *reader)
 {
     if (!fgets(reader->line, LONGEST_LINE, reader->in))
         return 0;
-    reader->number++;
+    ++reader->number;
     size_t length = strlen(reader->line);
     if (length == 0 || reader->line[length - 1] != '\n')
         return 0;
@@ -122,18 +123,18 @@ static fst_status read_head(csv_reader *reader)
                            &reader->table->params, reader->error);
 }
 
-/* The line of column names, which read_head() has left in reader->line. */
+/* Check the line of column names, which read_head() has left in reader->line. */
 static fst_status check_names(csv_reader *reader)
 {
     const char *at = reader->line;
-    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
         char expected[96], sentence[160];
         const fst_column_info *info = fst_column_at(i);
         (void)snprintf(expected, sizeof expected, "%s [%s]%s", info->name, info->unit,
                        i + 1 < FST_COLUMN_COUNT ? "," : "");
         if (strncmp(at, expected, strlen(expected)) != 0) {
-            (void)snprintf(sentence, sizeof sentence, "the column \"%s [%s]\" is missing in its place",
-                           info->name, info->unit);
+            (void)snprintf(sentence, sizeof sentence, "the column \"%s [%s]\" is missing here", info->name,
+                           info->unit);
             return fail_line(reader, sentence);
         }
         at += strlen(expected);
@@ -146,7 +147,7 @@ static fst_status make_room(csv_reader *reader)
     if (reader->table->rows < reader->room)
         return FST_OK;
     size_t room = reader->room ? 2 * reader->room : 1024;
-    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
         double *longer = realloc(reader->table->columns[i], room * sizeof *longer);
         if (!longer)
             return fst_fail(reader->error, FST_NO_MEMORY, reader->path, "out of memory after %zu rows",
@@ -163,7 +164,7 @@ static fst_status read_row(csv_reader *reader)
     if (status != FST_OK)
         return status;
     const char *at = reader->line;
-    for (int i = 0; i < FST_COLUMN_COUNT; i++) {
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
         char *end, sentence[160];
         const double value = strtod(at, &end);
         if (end == at || *end != (i + 1 < FST_COLUMN_COUNT ? ',' : '\0')) {
@@ -172,26 +173,27 @@ static fst_status read_row(csv_reader *reader)
             return fail_line(reader, sentence);
         }
         if (!isfinite(value)) {
-            (void)snprintf(sentence, sizeof sentence,
-                           "the column %s holds \"%.*s\", which is not finite: every number of a trajectory is",
-                           fst_column_at(i)->name, (int)(end - at < 24 ? end - at : 24), at);
+            (void)snprintf(
+                sentence, sizeof sentence,
+                "the column %s holds \"%.*s\", which is not finite, as every number of a trajectory must be",
+                fst_column_at(i)->name, (int)(end - at < 24 ? end - at : 24), at);
             return fail_line(reader, sentence);
         }
         reader->table->columns[i][reader->table->rows] = value;
         at = end + 1;
     }
-    reader->table->rows++;
+    ++reader->table->rows;
     return FST_OK;
 }
 
-/* Rows, then the commented end with the line that says whether the run was complete. */
+/* Read the rows, then the commented end, which says whether the run was complete. */
 static fst_status read_rows(csv_reader *reader)
 {
     int ended = 0;
     while (next_line(reader)) {
         if (reader->line[0] != '#') {
-            fst_status status = ended ? fail_line(reader, "there is a row behind the end of this trajectory")
-                                      : read_row(reader);
+            fst_status status =
+                ended ? fail_line(reader, "there is a row after the end of this trajectory") : read_row(reader);
             if (status != FST_OK)
                 return status;
         } else if (strncmp(reader->line, COMPLETE_LINE, strlen(COMPLETE_LINE)) == 0) {

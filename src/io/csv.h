@@ -1,4 +1,4 @@
-/* csv.h - trajectories as text: a commented head with the scene, a line of column names, rows, and a
+/* csv.h - trajectories as text: a commented head with the scene, a line of column names, rows, a
  * commented end. */
 #ifndef FST_IO_CSV_H
 #define FST_IO_CSV_H
@@ -9,7 +9,7 @@
 
 #include "io/columns.h"
 
-/* Write to `out`; failures show in ferror(out). */
+/* Write to `out`.  A failure is seen by ferror(out). */
 void fst_csv_begin(FILE *out, const char *scene);
 void fst_csv_row(FILE *out, const double values[FST_COLUMN_COUNT]);
 /* `result` is JSON on one line, or NULL. */

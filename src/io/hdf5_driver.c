@@ -1,3 +1,18 @@
+/* hdf5_driver.c - the functions through which HDF5 reads and writes a file, made so that none of them ever
+ * fails.
+ *
+ * HDF5 cannot stand a disk that fails.  It keeps data in memory until the file is closed; if writing fails
+ * then, it cannot close the file, leaves it open, and crashes over it when the program ends.  After a failed
+ * read it leaves objects open too.  So the driver hides every failure from HDF5 and tells our side:
+ *
+ *  writing    HDF5 --> write_file() --> disk              until a write fails: note its errno
+ *                            `--------> list of blocks    all later writes, a few MiB that HDF5 held back
+ *  reading    HDF5 <-- read_file() <--- disk, then blocks over it, the newest last
+ *
+ * HDF5 reads back what it wrote and closes the file in peace.  Afterwards the noted errno says that the file is
+ * worth nothing, and whole_file.c removes it.  A file that is only read is loaded into one block before HDF5
+ * sees it, so that no read can fail later.
+ */
 #include "io/hdf5_driver.h"
 
 #include <errno.h>
@@ -9,7 +24,7 @@
 #include <H5FDdevelop.h>
 #endif
 
-/* What was written after a failure. */
+/* What HDF5 wrote after a failure, kept in memory in the order of writing. */
 struct fst_hdf5_block {
     fst_hdf5_block *next;
     haddr_t begin;
@@ -17,12 +32,12 @@ struct fst_hdf5_block {
     unsigned char bytes[];
 };
 
-/* An open file, as HDF5 knows it: its own part comes first. */
+/* An open file.  HDF5's own part must come first. */
 typedef struct open_file {
     H5FD_t of_hdf5;
     fst_hdf5_disk *disk;
-    haddr_t allocated; /* end of the addresses that HDF5 has given out */
-    haddr_t end;       /* of what was written */
+    haddr_t allocated; /* the end of the addresses that HDF5 has given out */
+    haddr_t end;       /* the end of what was written */
 } open_file;
 
 static void note(fst_hdf5_disk *disk, int reason)
@@ -33,7 +48,7 @@ static void note(fst_hdf5_disk *disk, int reason)
 
 /* ---------------------------------------------------------------- reading and writing */
 
-/* As much as the disk has: the number of bytes, or -1. */
+/* Read what the disk has, which may be less than `size`: the number of bytes, or -1. */
 static ssize_t read_disk(const fst_hdf5_disk *disk, haddr_t begin, size_t size, unsigned char *bytes)
 {
     size_t done = 0;
@@ -50,7 +65,7 @@ static ssize_t read_disk(const fst_hdf5_disk *disk, haddr_t begin, size_t size, 
     return (ssize_t)done;
 }
 
-/* Lay a block over what was read, where the two overlap. */
+/* Copy a block over what was read, where the two overlap. */
 static void lay_over(const fst_hdf5_block *block, haddr_t begin, size_t size, unsigned char *bytes)
 {
     const haddr_t from = block->begin > begin ? block->begin : begin;
@@ -65,7 +80,7 @@ static herr_t read_file(H5FD_t *file, H5FD_mem_t type, hid_t transfer, haddr_t b
     fst_hdf5_disk *disk = ((open_file *)file)->disk;
     (void)type;
     (void)transfer;
-    memset(bytes, 0, size); /* beyond the end there are zeros */
+    memset(bytes, 0, size); /* behind the end of the file there are zeros */
     if (disk->descriptor >= 0 && read_disk(disk, begin, size, bytes) < 0)
         note(disk, errno);
     for (const fst_hdf5_block *block = disk->oldest; block; block = block->next)
@@ -130,12 +145,12 @@ int fst_hdf5_load(fst_hdf5_disk *disk)
     const ssize_t got = read_disk(disk, 0, block->size, block->bytes);
     if (got < 0)
         return errno;
-    block->size = (size_t)got; /* it may have been cut meanwhile */
+    block->size = (size_t)got; /* the file may have become shorter meanwhile */
     disk->descriptor = -1;
     return 0;
 }
 
-/* HDF5 gives the file the length that it has allocated. */
+/* Give the file the length that HDF5 has allocated. */
 static herr_t set_length(H5FD_t *file, hid_t transfer, hbool_t closing)
 {
     open_file *f = (open_file *)file;
@@ -208,7 +223,8 @@ static haddr_t get_end(const H5FD_t *file, H5FD_mem_t type)
 static const H5FD_class_t driver = {
 #ifdef H5FD_CLASS_VERSION
     .version = H5FD_CLASS_VERSION,
-    .value = (H5FD_class_value_t)512, /* from here on numbers are nobody's */
+    .value = (H5FD_class_value_t)512, /* HDF5 leaves the numbers from 512 on to drivers that are not registered
+                                         with it */
 #endif
     .name = "festoon",
     .maxaddr = (haddr_t)INT64_MAX,

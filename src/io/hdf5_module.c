@@ -16,7 +16,7 @@
 #include "base/error.h"
 #include "io/hdf5_driver.h"
 
-/* Rows in a chunk: also what is held in memory, so that a trajectory's length does not matter. */
+/* Rows in a chunk.  One chunk is held in memory, so memory does not grow with the trajectory. */
 #define CHUNK 4096
 
 #define PROGRAM "festoon"
@@ -34,18 +34,18 @@
 struct fst_hdf5_writer {
     hid_t file;
     fst_hdf5_disk disk;
-    hid_t *sets; /* data set of each column */
+    hid_t *sets; /* the data set of each column */
     const fst_column_info *const *columns;
     int count;
     hsize_t written;  /* rows in the file */
     size_t pending;   /* rows in the buffer */
     double *buffer;   /* count columns of CHUNK rows */
-    const char *name; /* of the file that it will become, for messages */
+    const char *name; /* the name that the file will have, for messages */
 };
 
-/* HDF5 prints its errors unless told not to; the caller's setting is put back.  Where it is used for the first
- * time, it is also told to do nothing at the end of the program: we close what we open, and objects that it
- * failed to close in a damaged file would make it print and crash there. */
+/* HDF5 prints its errors unless told not to; the caller's setting is restored.  The first time, HDF5 is also
+ * told to do nothing at the end of the program: we close what we open, and HDF5 would print and crash there
+ * over objects that it failed to close in a damaged file. */
 typedef struct quiet {
     H5E_auto2_t function;
     void *data;
@@ -150,15 +150,15 @@ static int read_boolean(hid_t object, const char *name)
 static fst_status fail_write(const fst_hdf5_writer *writer, fst_error *error)
 {
     return fst_fail(error, FST_IO, writer->name, "writing this file failed: %s",
-                    writer->disk.reason ? strerror(writer->disk.reason) : "HDF5 refuses, and does not say why");
+                    writer->disk.reason ? strerror(writer->disk.reason) : "HDF5 refused, and did not say why");
 }
 
-/* Chunked, checksummed, and compressed where this HDF5 can. */
+/* Chunked, with checksums, and compressed where this HDF5 can. */
 static hid_t storage_of_column(void)
 {
     const hsize_t chunk = CHUNK;
     hid_t storage = H5Pcreate(H5P_DATASET_CREATE);
-    (void)H5Pset_obj_track_times(storage, 0); /* the same run gives the same bytes */
+    (void)H5Pset_obj_track_times(storage, 0); /* without times the same run gives the same bytes */
     (void)H5Pset_chunk(storage, 1, &chunk);
     (void)H5Pset_shuffle(storage);
     if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0)
@@ -172,11 +172,11 @@ static int create_columns(fst_hdf5_writer *writer)
     const hsize_t none = 0, unlimited = H5S_UNLIMITED;
     hid_t space = H5Screate_simple(1, &none, &unlimited);
     hid_t storage = storage_of_column();
-    /* Whole chunks are written at once: a cache would only hold copies of them. */
+    /* Whole chunks are written at once, so a cache would only hold copies of them. */
     hid_t access = H5Pcreate(H5P_DATASET_ACCESS);
     (void)H5Pset_chunk_cache(access, 1, 0, 1.0);
     int failed = 0;
-    for (int i = 0; i < writer->count && !failed; i++) {
+    for (int i = 0; i < writer->count && !failed; ++i) {
         const fst_column_info *column = writer->columns[i];
         hid_t set = H5Dcreate2(writer->file, column->name, H5T_IEEE_F64LE, space, H5P_DEFAULT, storage, access);
         writer->sets[i] = set;
@@ -189,11 +189,11 @@ static int create_columns(fst_hdf5_writer *writer)
     return failed;
 }
 
-/* Close everything and free the writer; an errno if not everything is in the file. */
+/* Close everything and free the writer.  Returns an errno if not everything is in the file. */
 static int close_writer(fst_hdf5_writer *writer)
 {
     int failed = 0;
-    for (int i = 0; i < writer->count; i++)
+    for (int i = 0; i < writer->count; ++i)
         if (writer->sets && writer->sets[i] >= 0)
             failed = H5Dclose(writer->sets[i]) < 0 || failed;
     if (writer->file >= 0)
@@ -217,8 +217,8 @@ static int open_file(fst_hdf5_writer *writer, const char *path)
         return 1;
     }
     const hid_t access = fst_hdf5_access(&writer->disk), root = H5Pcreate(H5P_FILE_CREATE);
-    /* From this format on everything in a file has a checksum: what rots is found, and does not mislead HDF5.
-     */
+    /* From this format on HDF5 keeps a checksum of everything in a file, so it notices damage instead of
+     * following it. */
     if (access >= 0 && root >= 0 && H5Pset_libver_bounds(access, FORMAT, FORMAT) >= 0 &&
         H5Pset_obj_track_times(root, 0) >= 0)
         writer->file = H5Fcreate(path, H5F_ACC_TRUNC, root, access);
@@ -248,7 +248,7 @@ static fst_status create(const char *path, const char *name, const fst_column_in
         (void)close_writer(writer);
         return fst_fail(error, FST_NO_MEMORY, name, "out of memory");
     }
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; ++i)
         writer->sets[i] = -1;
     quiet before = be_quiet();
     int failed = open_file(writer, path) || write_text(writer->file, "program", PROGRAM) ||
@@ -274,7 +274,7 @@ static int flush_rows(fst_hdf5_writer *writer)
     const hsize_t start = writer->written, added = writer->pending, total = start + added;
     hid_t memory = H5Screate_simple(1, &added, NULL);
     int failed = 0;
-    for (int i = 0; i < writer->count && !failed; i++) {
+    for (int i = 0; i < writer->count && !failed; ++i) {
         failed = H5Dset_extent(writer->sets[i], &total) < 0;
         hid_t space = failed ? -1 : H5Dget_space(writer->sets[i]);
         failed = space < 0 || H5Sselect_hyperslab(space, H5S_SELECT_SET, &start, NULL, &added, NULL) < 0 ||
@@ -291,7 +291,7 @@ static int flush_rows(fst_hdf5_writer *writer)
 
 static fst_status row(fst_hdf5_writer *writer, const double *values, fst_error *error)
 {
-    for (int i = 0; i < writer->count; i++)
+    for (int i = 0; i < writer->count; ++i)
         writer->buffer[(size_t)i * CHUNK + writer->pending] = values[i];
     if (++writer->pending < CHUNK)
         return FST_OK;
@@ -324,7 +324,7 @@ static void abandon(fst_hdf5_writer *writer)
 
 /* ---------------------------------------------------------------- reading */
 
-/* Read one column; the first one sets the number of rows. */
+/* Read one column.  The first one sets the number of rows. */
 static fst_status read_column(hid_t file, const char *path, const char *name, int first, double **data,
                               size_t *rows, fst_error *error)
 {
@@ -385,7 +385,7 @@ static fst_status read_file(hid_t file, const char *path, const fst_column_info 
         status = fst_fail(error, FST_BAD_INPUT, path, "HDF5 cannot open this file: it is damaged or cut off");
     else
         status = read_root(file, path, scene, complete, error);
-    for (int i = 0; i < count && status == FST_OK; i++)
+    for (int i = 0; i < count && status == FST_OK; ++i)
         status = read_column(file, path, columns[i]->name, i == 0, &data[i], rows, error);
     return status;
 }

@@ -1,5 +1,5 @@
-/* hdf5_module.h - what festoon-hdf5.so offers.  HDF5 is heavy to load, so that only a trajectory that needs it
- * loads the module. */
+/* hdf5_module.h - what festoon-hdf5.so offers.  HDF5 takes long to load, so the module is loaded only for a
+ * trajectory that needs it. */
 #ifndef FST_IO_HDF5_MODULE_H
 #define FST_IO_HDF5_MODULE_H
 
@@ -10,9 +10,9 @@ typedef struct fst_hdf5_writer fst_hdf5_writer;
 /* The module's one symbol is a table of this type, named FST_HDF5_MODULE_SYMBOL. */
 #define FST_HDF5_MODULE_SYMBOL "fst_hdf5_module"
 typedef struct fst_hdf5_module_table {
-    const char *version; /* FST_VERSION_STRING at the module's build: another version is refused */
+    const char *version; /* FST_VERSION_STRING at the module's build; a module of another version is refused */
 
-    /* Write a trajectory to `path`, over what is there; `name` stands for it in messages.  The name and the
+    /* Begin a trajectory at `path`, over any file there; `name` stands for it in messages.  The name and the
      * columns are kept, not copied. */
     fst_status (*create)(const char *path, const char *name, const fst_column_info *const *columns, int count,
                          const char *scene, fst_hdf5_writer **writer, fst_error *error);
@@ -22,8 +22,7 @@ typedef struct fst_hdf5_module_table {
     fst_status (*finish)(fst_hdf5_writer *writer, const char *result, int complete, fst_error *error);
     void (*abandon)(fst_hdf5_writer *writer);
 
-    /* Read all columns; columns[i] are allocated, `scene` is to be freed.  On failure the caller frees what is
-     * not NULL. */
+    /* Read all columns.  The caller frees columns[i] and `scene`, also on failure where they are not NULL. */
     fst_status (*read)(const char *path, const fst_column_info *const *columns, int count, double **data,
                        size_t *rows, char **scene, int *complete, fst_error *error);
 } fst_hdf5_module_table;

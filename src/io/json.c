@@ -26,7 +26,7 @@ static json_t *count_of(uint64_t value)
 json_t *fst_json_scene(const fst_params *params)
 {
     json_t *scene = json_object();
-    for (int i = 0; i < fst_param_count(); i++) {
+    for (int i = 0; i < fst_param_count(); ++i) {
         const fst_param_info *info = fst_param_at(i);
         char text[64];
         json_t *value = NULL;
@@ -72,7 +72,7 @@ static json_t *groups_object(const fst_params *params)
         {"mass_kg", g.mass},
         {"field_unit_t", g.field_unit},
     };
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; ++i)
         json_object_set_new(groups, numbers[i].name, fst_json_number(numbers[i].value));
     json_object_set_new(groups, "lines", json_integer(g.lines));
     return groups;
@@ -81,7 +81,7 @@ static json_t *groups_object(const fst_params *params)
 json_t *fst_json_numbers(const double *values, int count)
 {
     json_t *array = json_array();
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; ++i)
         json_array_append_new(array, fst_json_number(values[i]));
     return array;
 }
@@ -89,7 +89,7 @@ json_t *fst_json_numbers(const double *values, int count)
 static json_t *ramp_array(const fst_ramp_point *ramp, size_t count)
 {
     json_t *array = json_array();
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; ++i) {
         json_t *point = json_object();
         json_object_set_new(point, "omega", fst_json_number(ramp[i].omega));
         json_object_set_new(point, "frequency_hz", fst_json_number(ramp[i].frequency_hz));
@@ -135,7 +135,7 @@ json_t *fst_json_run(const fst_params *params, const fst_run_result *result)
     json_object_set_new(run, "symmetry", text_or_null(fst_symmetry_name(result->symmetry)));
     json_object_set_new(run, "dynamics",
                         text_or_null(choice_text(params, "model.dynamics", dynamics, sizeof dynamics)));
-    for (int i = 0; i < fst_result_count(); i++) {
+    for (int i = 0; i < fst_result_count(); ++i) {
         const fst_result_info *info = fst_result_at(i);
         double value;
         memcpy(&value, (const char *)result + info->offset, sizeof value);
@@ -190,7 +190,7 @@ char *fst_field_json(const fst_model *model, double x, double y)
     json_object_set_new(document, "x", fst_json_number(x));
     json_object_set_new(document, "y", fst_json_number(y));
     json_object_set_new(document, "b", fst_json_numbers(b, 3));
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         json_array_append_new(rows, fst_json_numbers(grad[i], 3));
     json_object_set_new(document, "grad", rows);
     return fst_json_dump(document, JSON_INDENT(2));
@@ -202,7 +202,7 @@ char *fst_schema_json(void)
         [FST_KIND_REAL] = "real", [FST_KIND_INT] = "integer", [FST_KIND_CHOICE] = "choice"};
     fst_params defaults = fst_default_params();
     json_t *schema = json_array();
-    for (int i = 0; i < fst_param_count(); i++) {
+    for (int i = 0; i < fst_param_count(); ++i) {
         const fst_param_info *info = fst_param_at(i);
         char text[64];
         int choice = info->kind == FST_KIND_CHOICE, integer = info->kind == FST_KIND_INT;

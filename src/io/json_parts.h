@@ -1,20 +1,20 @@
-/* json_parts.h - pieces of JSON documents, for the files of this room that make them. */
+/* json_parts.h - pieces of JSON documents, for the files that make or read them. */
 #ifndef FST_IO_JSON_PARTS_H
 #define FST_IO_JSON_PARTS_H
 
 #include <festoon/festoon.h>
 #include <jansson.h>
 
-#define FST_LONGEST_JSON ((size_t)1 << 31) /* bytes of a file that is read */
+#define FST_LONGEST_JSON ((size_t)1 << 31) /* the most bytes of a file that is read */
 
-/* null where the value is not finite: JSON has no NaN and no infinity. */
+/* A number; null where it is not finite, because JSON has no NaN and no infinity. */
 json_t *fst_json_number(double value);
 json_t *fst_json_numbers(const double *values, int count);
 
-/* The parameters by key, in SI; what was not given, or is overridden by its other form, is null. */
+/* The parameters by key, in SI.  Null: it was not given, or another form of the same quantity was. */
 json_t *fst_json_scene(const fst_params *params);
 
-/* The numbers of a point of a branch under their keys, for writing and reading. */
+/* The numbers of a point of a branch under their keys, for writing and for reading. */
 typedef struct fst_point_number {
     const char *key;
     size_t offset; /* in fst_branch_point */
@@ -25,7 +25,7 @@ extern const fst_point_number fst_point_numbers[FST_POINT_NUMBER_COUNT];
 /* The numbers of a run. */
 json_t *fst_json_run(const fst_params *params, const fst_run_result *result);
 
-/* The text of a document, with a newline at its end; takes the reference. */
+/* The text of a document with a newline at its end; takes the reference. */
 char *fst_json_dump(json_t *document, size_t flags);
 
 #endif

@@ -18,7 +18,7 @@ enum { INDENT = 2 };
 static json_t *pairs(const double *re, const double *im, int count)
 {
     json_t *array = json_array();
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; ++i) {
         const double pair[2] = {re[i], im[i]};
         json_array_append_new(array, fst_json_numbers(pair, 2));
     }
@@ -34,14 +34,14 @@ static json_t *symmetry_of(fst_symmetry symmetry)
 static json_t *orbit_object(const fst_params *params, const fst_orbit *orbit)
 {
     json_t *object = fst_json_run(params, &orbit->means);
-    /* What speaks of a run and its length does not apply. */
+    /* Remove what describes a run and its length: an orbit has neither. */
     static const char *const of_runs[] = {"reason",        "returns",          "rhs_calls",
                                           "accepted",      "rejected",         "final_state",
                                           "periods",       "window_periods",   "end_time",
                                           "norm_drift",    "mean_r_error",     "mean_alpha_dot_error",
                                           "mean_nz_error", "largest_exponent", "largest_exponent_error",
                                           "ramp"};
-    for (size_t i = 0; i < sizeof of_runs / sizeof *of_runs; i++)
+    for (size_t i = 0; i < sizeof of_runs / sizeof *of_runs; ++i)
         (void)json_object_del(object, of_runs[i]);
     json_object_set_new(object, "symmetry", symmetry_of(orbit->symmetry));
     json_object_set_new(object, "period", fst_json_number(orbit->means.period));
@@ -62,7 +62,7 @@ char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst
     json_t *object = orbit_object(params, orbit);
     if (others) {
         json_t *array = json_array();
-        for (size_t i = 0; i < count; i++)
+        for (size_t i = 0; i < count; ++i)
             json_array_append_new(array, orbit_object(params, &others[i]));
         json_object_set_new(object, "others", array);
     }
@@ -73,7 +73,7 @@ char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst
 char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list)
 {
     json_t *states = json_array();
-    for (size_t i = 0; i < list->count; i++) {
+    for (size_t i = 0; i < list->count; ++i) {
         const fst_locked *l = &list->states[i];
         json_t *state = json_object();
         json_object_set_new(state, "r", fst_json_number(l->r));
@@ -119,7 +119,7 @@ const fst_point_number fst_point_numbers[FST_POINT_NUMBER_COUNT] = {
 static json_t *point_object(const fst_branch_point *p)
 {
     json_t *object = json_object();
-    for (int i = 0; i < FST_POINT_NUMBER_COUNT; i++) {
+    for (int i = 0; i < FST_POINT_NUMBER_COUNT; ++i) {
         double value;
         memcpy(&value, (const char *)p + fst_point_numbers[i].offset, sizeof value);
         json_object_set_new(object, fst_point_numbers[i].key, fst_json_number(value));
@@ -154,12 +154,13 @@ char *fst_branch_json(const fst_params *params, const fst_branch *branch)
 {
     json_t *object = json_object(), *points = json_array(), *specials = json_array(), *ends = json_array(),
            *crossings = json_array();
-    for (size_t i = 0; i < branch->point_count; i++)
+    for (size_t i = 0; i < branch->point_count; ++i)
         json_array_append_new(points, point_object(&branch->points[i]));
-    for (size_t i = 0; i < branch->special_count; i++) /* nothing is born or lost where families only cross */
+    for (size_t i = 0; i < branch->special_count;
+         i++) /* nothing is born or ends where two families only cross */
         json_array_append_new(branch->specials[i].type == FST_SPECIAL_TRANSCRITICAL ? crossings : specials,
                               special_object(branch, &branch->specials[i]));
-    for (size_t i = 0; i < branch->end_count; i++) {
+    for (size_t i = 0; i < branch->end_count; ++i) {
         const fst_branch_end *e = &branch->ends[i];
         json_t *end = json_object();
         json_object_set_new(end, "branch", json_integer(e->branch));
@@ -220,7 +221,7 @@ char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *l)
                         l->flow_direction >= 0 ? json_integer(l->flow_direction) : json_null());
     json_object_set_new(object, "divergence", fst_json_number(l->divergence));
     json_object_set_new(object, "time", fst_json_number(l->time));
-    for (int i = 0; i < l->trace_count; i++) {
+    for (int i = 0; i < l->trace_count; ++i) {
         json_t *row = json_object();
         json_object_set_new(row, "time", fst_json_number(l->trace_time[i]));
         json_object_set_new(row, "exponents", fst_json_numbers(l->trace[i], FST_EIGENVALUE_COUNT));
@@ -233,7 +234,7 @@ char *fst_lyapunov_json(const fst_params *params, const fst_lyapunov *l)
 
 /* ---------------------------------------------------------------- simulated points */
 
-/* The parameter `key` of a run's document: the drive from its results, the rest from its scene. */
+/* The parameter `key` in the document of a run: the drive from its results, any other from its scene. */
 static const json_t *parameter_of(const json_t *run, const char *key)
 {
     if (strcmp(key, "drive.omega") == 0)
@@ -243,7 +244,7 @@ static const json_t *parameter_of(const json_t *run, const char *key)
     return json_object_get(json_object_get(run, "scene"), key);
 }
 
-/* A point from a run's document, if it has both numbers; 0 where memory is short. */
+/* Take a point from a run's document, if it has both numbers; 0 where memory is short. */
 static int add_dot(const json_t *run, const char *key, const char *observable, double **dots, size_t *count)
 {
     const json_t *x = parameter_of(run, key), *y = json_object_get(run, observable);
@@ -284,7 +285,7 @@ fst_status fst_run_dots_read(const char *path, const char *key, const char *obse
     free(text);
     if (status == FST_OK && *count == 0)
         status = fst_fail(error, FST_BAD_INPUT, path,
-                          "no document of festoon run --json with %s and %s is in it", key, observable);
+                          "it contains no document of festoon run --json that has %s and %s", key, observable);
     if (status != FST_OK) {
         free(*dots);
         *dots = NULL;

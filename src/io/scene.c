@@ -1,5 +1,9 @@
-/* scene.c - scenes in YAML.  The reader goes through libyaml's events, which know their lines, and takes
- * only what a scene may hold: one mapping of groups of keys to scalars. */
+/* scene.c - reading scenes in YAML.
+ *
+ * The reader walks through libyaml's events, which know their lines, and accepts only what a scene may hold:
+ * one mapping of groups of keys to single values.  Values are collected first and applied at the end, because
+ * the order in which they must be applied is not the order in which people write them.
+ */
 #include <festoon/festoon_tools.h>
 
 #include <stdlib.h>
@@ -10,20 +14,19 @@
 #include "base/text.h"
 #include "host/regular_file.h"
 
-/* What a scene said so far.  Values are kept until the end, because the order in which they are applied is
- * not the order in which people write them. */
+/* What the scene said so far: values are applied at the end (see above). */
 typedef struct scene_reader {
     yaml_parser_t parser;
     const char *name; /* of the file, for messages */
     const char *text;
     size_t size;
-    int count;     /* of parameters */
-    char **values; /* by index of the parameter; NULL: not given */
-    int *lines;    /* where it was given */
+    int count;     /* the number of parameters */
+    char **values; /* by the parameter's index; NULL: not given */
+    int *lines;    /* the line on which each was given */
     fst_error *error;
 } scene_reader;
 
-/* A group may be opened once; this many names are enough for the groups of params.def. */
+/* A group may be opened once.  There is room for more names than params.def has groups. */
 #define GROUP_LIMIT 16
 
 /* ---------------------------------------------------------------- messages with FILE:LINE */
@@ -40,7 +43,7 @@ static int line_of(yaml_mark_t mark)
     return (int)mark.line + 1;
 }
 
-/* libyaml's own complaint.  Its reader (encoding, control characters) counts bytes, its scanner lines. */
+/* libyaml's own error.  Its reader (encoding, control characters) gives bytes, its scanner lines. */
 static fst_status fail_yaml(scene_reader *reader)
 {
     const yaml_parser_t *parser = &reader->parser;
@@ -49,7 +52,7 @@ static fst_status fail_yaml(scene_reader *reader)
     char sentence[256];
     if (parser->error == YAML_READER_ERROR) {
         int line = 1;
-        for (size_t i = 0; i < parser->problem_offset && i < reader->size; i++)
+        for (size_t i = 0; i < parser->problem_offset && i < reader->size; ++i)
             line += reader->text[i] == '\n';
         (void)snprintf(sentence, sizeof sentence, "this is no text in UTF-8 (%s, byte %zu): a scene is YAML",
                        parser->problem, parser->problem_offset);
@@ -63,8 +66,8 @@ static fst_status fail_yaml(scene_reader *reader)
 
 /* ---------------------------------------------------------------- events */
 
-/* The next event, without anchors, aliases and tags: a scene that says everything where it stands needs none
- * of them.  The caller deletes the event. */
+/* The next event, which has no anchor, alias or tag: a scene says everything where it stands and needs none.
+ * The caller deletes the event. */
 static fst_status next_event(scene_reader *reader, yaml_event_t *event)
 {
     if (!yaml_parser_parse(&reader->parser, event))
@@ -103,7 +106,7 @@ static fst_status skip_event(scene_reader *reader, yaml_event_type_t *type)
     return FST_OK;
 }
 
-/* A plain scalar that says nothing: `radius:` or `radius: ~`. */
+/* An empty value: `radius:` or `radius: ~`. */
 static int is_null(const yaml_event_t *event)
 {
     const char *text = (const char *)event->data.scalar.value;
@@ -111,7 +114,7 @@ static int is_null(const yaml_event_t *event)
            (text[0] == '\0' || strcmp(text, "~") == 0 || strcmp(text, "null") == 0);
 }
 
-/* The text of a scalar; NULL where a zero byte hides in it. */
+/* The text of a value; NULL where a zero byte hides in it. */
 static const char *scalar_text(const yaml_event_t *event)
 {
     const char *text = (const char *)event->data.scalar.value;
@@ -120,7 +123,7 @@ static const char *scalar_text(const yaml_event_t *event)
 
 /* ---------------------------------------------------------------- keys and values */
 
-/* Note that the scene gives `key`, on this line, the value of this scalar. */
+/* Note that the scene gives `key` this value, on this line. */
 static fst_status note_value(scene_reader *reader, const char *key, int line, const yaml_event_t *event)
 {
     char sentence[512], quoted[FST_QUOTE_SIZE];
@@ -141,7 +144,7 @@ static fst_status note_value(scene_reader *reader, const char *key, int line, co
         (void)snprintf(sentence, sizeof sentence, "%s has no value: give it one, or remove the line", key);
         return fail_at(reader, line, sentence);
     }
-    /* Tried on a copy of the defaults: wrong units and ranges are found with their lines. */
+    /* Try the value on a copy of the defaults, so that a wrong unit or range is reported with its line. */
     fst_params scratch = fst_default_params();
     fst_error why;
     if (fst_params_set(&scratch, key, text, &why) != FST_OK)
@@ -157,7 +160,7 @@ static fst_status note_value(scene_reader *reader, const char *key, int line, co
 static int is_group(const char *name)
 {
     size_t length = strlen(name);
-    for (int i = 0; i < fst_param_count(); i++) {
+    for (int i = 0; i < fst_param_count(); ++i) {
         const char *key = fst_param_at(i)->key;
         if (strncmp(key, name, length) == 0 && key[length] == '.')
             return 1;
@@ -168,7 +171,7 @@ static int is_group(const char *name)
 static fst_status unknown_group(scene_reader *reader, int line, const char *name)
 {
     char names[256] = "", nearest[32], quoted[FST_QUOTE_SIZE], sentence[256];
-    for (int i = 0; i < fst_param_count(); i++) {
+    for (int i = 0; i < fst_param_count(); ++i) {
         char group[32];
         const char *key = fst_param_at(i)->key;
         (void)snprintf(group, sizeof group, "%.*s|", (int)strcspn(key, "."), key);
@@ -183,7 +186,7 @@ static fst_status unknown_group(scene_reader *reader, int line, const char *name
 
 static fst_status read_mapping(scene_reader *reader, const char *group, int start_line);
 
-/* The value behind the key `name`, on this line, of `group` (NULL: top level). */
+/* Read the value behind the key `name`, on this line, in `group` (NULL: top level). */
 static fst_status read_value(scene_reader *reader, const char *group, const char *name, int line,
                              const yaml_event_t *event)
 {
@@ -204,14 +207,14 @@ static fst_status read_value(scene_reader *reader, const char *group, const char
     return note_value(reader, key, line, event);
 }
 
-/* A key that may be a group's name: YAML forbids it twice, and so do we. */
+/* Note a name that may be a group's.  YAML forbids the same key twice, and so do we. */
 static fst_status note_group(scene_reader *reader, char seen[GROUP_LIMIT][32], int *count, const char *name,
                              int line)
 {
     char sentence[128];
     if (!is_group(name))
         return FST_OK;
-    for (int i = 0; i < *count; i++)
+    for (int i = 0; i < *count; ++i)
         if (strcmp(seen[i], name) == 0) {
             (void)snprintf(sentence, sizeof sentence, "the group %s is given twice: put its keys together",
                            name);
@@ -222,12 +225,12 @@ static fst_status note_group(scene_reader *reader, char seen[GROUP_LIMIT][32], i
     return FST_OK;
 }
 
-/* The keys and values of a mapping whose start has been read, to its end. */
+/* Read the keys and values of a mapping whose start was read, to its end. */
 static fst_status read_mapping(scene_reader *reader, const char *group, int start_line)
 {
     char seen[GROUP_LIMIT][32];
     int seen_count = 0, keys = 0;
-    for (;; keys++) {
+    for (;; ++keys) {
         yaml_event_t key, value;
         fst_status status = next_event(reader, &key);
         if (status != FST_OK)
@@ -256,7 +259,7 @@ static fst_status read_mapping(scene_reader *reader, const char *group, int star
     }
 }
 
-/* The whole stream: nothing, or one document that is one mapping. */
+/* Read the whole stream: nothing, or one document that is one mapping. */
 static fst_status read_stream(scene_reader *reader)
 {
     yaml_event_type_t type;
@@ -301,35 +304,36 @@ static int line_given(const scene_reader *reader, const char *key)
     return reader->values[index] ? reader->lines[index] : 0;
 }
 
-/* A quantity said in two ways is an error: which of them was meant?  magnet.b0 says kappa's only together
- * with bead.moment. */
+/* A quantity given in two ways is an error, because nobody knows which was meant.  With magnet.b0 the same
+ * holds for model.kappa, but only where bead.moment is given too. */
 static fst_status check_forms(scene_reader *reader)
 {
-    for (int i = 0; i < reader->count; i++) {
+    for (int i = 0; i < reader->count; ++i) {
         const char *key = fst_param_at(i)->key, *other = fst_param_other_form(key);
         if (!other || !reader->values[i])
             continue;
         int first = line_given(reader, other);
         if (!first || first > reader->lines[i])
-            continue; /* absent, or found again from the other side, where the line is the later one */
+            continue; /* not given, or reported from the later of the two lines */
         int strength = strcmp(key, "model.kappa") == 0 || strcmp(other, "model.kappa") == 0;
         if (strength && !line_given(reader, "bead.moment"))
             continue;
         char sentence[256];
         (void)snprintf(sentence, sizeof sentence,
-                       "%s is given here and %s%s on line %d: they say the same, keep one", key, other,
-                       strength ? " (with bead.moment)" : "", first);
+                       "%s is given here and %s%s on line %d: they give the same quantity, keep one", key,
+                       other, strength ? " (with bead.moment)" : "", first);
         return fail_at(reader, reader->lines[i], sentence);
     }
     return FST_OK;
 }
 
-/* model.kappa goes first: setting it takes back magnet.b0, which may stand beside it as the tesla scale. */
+/* model.kappa is applied first: setting it clears magnet.b0, which may be given beside it to scale
+ * the field. */
 static fst_status apply(const scene_reader *reader, fst_params *params)
 {
     fst_params changed = *params;
     int kappa = fst_param_find("model.kappa");
-    for (int i = -1; i < reader->count; i++) {
+    for (int i = -1; i < reader->count; ++i) {
         int index = i < 0 ? kappa : i;
         if (!reader->values[index] || (i >= 0 && i == kappa))
             continue;
@@ -366,7 +370,7 @@ fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_
     } else {
         fst_fail(error, FST_NO_MEMORY, name, "out of memory");
     }
-    for (int i = 0; reader.values && i < reader.count; i++)
+    for (int i = 0; reader.values && i < reader.count; ++i)
         free(reader.values[i]);
     free(reader.values);
     free(reader.lines);

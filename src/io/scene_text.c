@@ -10,10 +10,10 @@
 #include "base/units.h"
 #include "host/whole_file.h"
 
-/* Columns of a comment line. */
+/* The width of a comment line. */
 #define WIDTH 100
 
-/* A doc as comment lines, broken between words. */
+/* Write a doc as comment lines, broken between words. */
 static void write_comment(FILE *out, const char *text)
 {
     while (*text) {
@@ -21,7 +21,7 @@ static void write_comment(FILE *out, const char *text)
         if (length > WIDTH) {
             length = WIDTH;
             while (length > 0 && text[length] != ' ')
-                length--;
+                --length;
             if (length == 0)
                 length = strcspn(text, " ");
         }
@@ -48,7 +48,7 @@ static void write_limits(FILE *out, const fst_param_info *info)
     (void)fprintf(out, "\n");
 }
 
-/* The value as people write it: numbers with their customary unit. */
+/* Write a value as people write it: numbers in their customary unit. */
 static void value_text(const fst_params *params, int index, char *text, size_t size)
 {
     const fst_param_info *info = fst_param_at(index);
@@ -67,7 +67,7 @@ static void write_scene(FILE *out, const fst_params *params, int commented)
         (void)fprintf(
             out, "# A festoon scene.  A line that is missing keeps its default; --set KEY=VALUE overrides.\n"
                  "# festoon schema lists all keys, festoon check reads a scene without running it.\n");
-    for (int i = 0; i < fst_param_count(); i++) {
+    for (int i = 0; i < fst_param_count(); ++i) {
         const fst_param_info *info = fst_param_at(i);
         size_t group_length = strcspn(info->key, ".");
         value_text(params, i, value, sizeof value);
@@ -116,7 +116,7 @@ fst_status fst_scene_write(const char *path, const fst_params *params, int comme
     fst_whole_file file;
     fst_status status = fst_whole_file_open(&file, path, error);
     if (status == FST_OK) {
-        (void)fputs(text, file.stream); /* a failure shows at the commit */
+        (void)fputs(text, file.stream); /* a failure is seen at the commit */
         status = fst_whole_file_commit(&file, error);
     }
     free(text);

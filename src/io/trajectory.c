@@ -1,4 +1,5 @@
-/* trajectory.c - trajectories in files: choosing the format, the temporary file, and the module for HDF5. */
+/* trajectory.c - files of trajectories: choosing CSV or HDF5 by the ending, the temporary file, and checks that
+ * hold for both. */
 #include <festoon/festoon_tools.h>
 
 #include <math.h>
@@ -19,7 +20,7 @@
 struct fst_trajectory {
     fst_params params;
     fst_whole_file file;
-    fst_hdf5_writer *writer; /* NULL: CSV into file.stream */
+    fst_hdf5_writer *writer; /* NULL: CSV, written to file.stream */
     const fst_hdf5_module_table *module;
     const fst_column_info *columns[FST_COLUMN_COUNT];
 };
@@ -50,13 +51,13 @@ static int ends_in(const char *path, const char *ending)
 
 static void list_columns(const fst_column_info *columns[FST_COLUMN_COUNT])
 {
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         columns[i] = fst_column_at(i);
 }
 
 /* ---------------------------------------------------------------- writing */
 
-/* Begin the file's contents in the format of its ending. */
+/* Begin the file in the format of its ending. */
 static fst_status begin(fst_trajectory *trajectory, const char *path, int hdf5, fst_error *error)
 {
     char *scene = fst_scene_text(&trajectory->params, 0);
@@ -106,8 +107,8 @@ fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *s
 {
     double values[FST_COLUMN_COUNT];
     fst_column_values(sample, values);
-    /* Such a file could not be read back. */
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+    /* The reader below refuses such a number, so it must not be written. */
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
         if (!isfinite(values[i]))
             return fst_fail(error, FST_BAD_INPUT, trajectory->file.path,
                             "this sample is not written: its %s is %g, and a trajectory holds finite numbers",
@@ -152,7 +153,8 @@ void fst_trajectory_discard(fst_trajectory *trajectory)
 
 /* ---------------------------------------------------------------- reading */
 
-/* The first eight bytes of every HDF5 file that HDF5 itself made (others may begin with a user block). */
+/* The first eight bytes of every HDF5 file that HDF5 itself made.  (Other programs may put a block of their own
+ * first.) */
 static int is_hdf5(FILE *in)
 {
     static const char signature[8] = {'\x89', 'H', 'D', 'F', '\r', '\n', '\x1a', '\n'};
@@ -179,12 +181,12 @@ static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error
     return status;
 }
 
-/* Every quantity of a trajectory is a finite number: "nan" and "inf" come from another program, or from damage.
- * (A CSV file was read with a check of its own, which names the line.) */
+/* Every number of a trajectory must be finite: "nan" and "inf" come from another program, or from damage.  (The
+ * CSV reader makes the same check, because it can name the line.) */
 static fst_status check_numbers(const char *path, const fst_table *table, fst_error *error)
 {
-    for (int i = 0; i < FST_COLUMN_COUNT; i++)
-        for (size_t row = 0; row < table->rows; row++)
+    for (int i = 0; i < FST_COLUMN_COUNT; ++i)
+        for (size_t row = 0; row < table->rows; ++row)
             if (!isfinite(table->columns[i][row]))
                 return fst_fail(error, FST_BAD_INPUT, path,
                                 "row %zu: the column %s holds \"%g\", which is not finite: every number of a "
@@ -193,16 +195,16 @@ static fst_status check_numbers(const char *path, const fst_table *table, fst_er
     return FST_OK;
 }
 
-/* Times and turns of the drive rise: figures and films count on it. */
+/* Times and turns of the drive must rise: figures and films count on it. */
 static fst_status check_order(const char *path, const fst_table *table, fst_error *error)
 {
     static const int rising[] = {FST_COLUMN_t, FST_COLUMN_drive_turns};
-    for (size_t i = 0; i < sizeof rising / sizeof *rising; i++) {
+    for (size_t i = 0; i < sizeof rising / sizeof *rising; ++i) {
         const double *values = table->columns[rising[i]];
-        for (size_t row = 0; row < table->rows; row++)
+        for (size_t row = 0; row < table->rows; ++row)
             if (!(fabs(values[row]) < 1e15) || (row > 0 && !(values[row] >= values[row - 1])))
                 return fst_fail(error, FST_BAD_INPUT, path,
-                                "row %zu: the column %s does not rise as in a trajectory", row + 1,
+                                "row %zu: the column %s does not rise, as it must in a trajectory", row + 1,
                                 fst_column_at(rising[i])->name);
     }
     return FST_OK;
@@ -231,7 +233,7 @@ fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *er
     if (in)
         (void)fclose(in);
     (void)close(descriptor);
-    /* A disk that cannot be read says nothing of the file. */
+    /* A disk that cannot be read says nothing about the file. */
     if (reason)
         status = fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason));
     if (status != FST_OK)
@@ -241,7 +243,7 @@ fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *er
 
 void fst_table_free(fst_table *table)
 {
-    for (int i = 0; table->columns && i < FST_COLUMN_COUNT; i++)
+    for (int i = 0; table->columns && i < FST_COLUMN_COUNT; ++i)
         free(table->columns[i]);
     free(table->columns);
     *table = (fst_table){.rows = 0};

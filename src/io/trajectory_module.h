@@ -1,11 +1,11 @@
-/* trajectory_module.h - finding the module that speaks HDF5. */
+/* trajectory_module.h - finding the module for HDF5. */
 #ifndef FST_IO_TRAJECTORY_MODULE_H
 #define FST_IO_TRAJECTORY_MODULE_H
 
 #include "io/hdf5_module.h"
 
-/* Load the module; it is found along the RUNPATH of this library, and stays loaded.  FST_UNAVAILABLE: this
- * build has none; `path` is the file that needs it. */
+/* Load the module, which is found along the RUNPATH of this library and stays loaded.  FST_UNAVAILABLE: this
+ * build has none; `path` is the file that needs it, for the message. */
 fst_status fst_load_hdf5_module(const fst_hdf5_module_table **module, const char *path, fst_error *error);
 
 #endif

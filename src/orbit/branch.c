@@ -538,8 +538,7 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     t->options = options;
     t->out = branch;
     t->follow_hopf = options->kind == FST_BRANCH_ALL;
-    t->caller = (fst_progress){options->user, options->progress};
-    fst_watch_begin(&t->watch, options->progress ? &t->caller : NULL);
+    fst_watch_begin(&t->watch, options->progress);
     fst_watch_part(&t->watch, 0.0, options->second_key ? 0.5 : 1.0);
     branch->kind = options->kind;
     branch->from = options->from;

@@ -24,8 +24,7 @@ typedef struct fst_tracer {
     int branch, depth; /* of the curve being followed */
     int follow_hopf;   /* follow orbits born from equilibria */
     double last_value;
-    fst_watch watch; /* its present part: the branches that are pending */
-    fst_progress caller;
+    fst_watch watch;                       /* its present part: the branches that are pending */
     int done;                              /* of the pending ones */
     int nodes;                             /* on the present one */
     fst_special_start starts[FST_PENDING]; /* of curves over two parameters */

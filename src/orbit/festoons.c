@@ -263,18 +263,6 @@ fst_status fst_festoons_on(const fst_params *params, const fst_branch *branch, d
     return festoons_on(params, branch, festoons, &watch, list, error);
 }
 
-/* The branch takes nearly all of the time. */
-typedef struct first_part {
-    const fst_progress *caller;
-    double end;
-} first_part;
-
-static fst_status tell_first_part(void *user, double fraction, fst_error *error)
-{
-    const first_part *part = user;
-    return part->caller->tell(part->caller->user, part->end * fraction, error);
-}
-
 fst_status fst_festoons_find(const fst_params *params, double festoons, const fst_progress *progress,
                              fst_festoon_list *list, fst_error *error)
 {
@@ -286,12 +274,12 @@ fst_status fst_festoons_find(const fst_params *params, double festoons, const fs
     fst_branch_options o = fst_default_branch_options();
     o.from = 0.02;
     o.to = 10.0;
-    first_part part = {progress, 0.9};
-    o.user = &part;
-    o.progress = progress ? tell_first_part : NULL;
+    fst_part following = {progress, 0.0, 0.9, NULL}; /* the branch takes nearly all of the time */
+    const fst_progress to_caller = {&following, fst_part_tell};
+    o.progress = progress ? &to_caller : NULL;
     fst_watch watch;
     fst_watch_begin(&watch, progress);
-    fst_watch_part(&watch, part.end, 1.0);
+    fst_watch_part(&watch, following.to, 1.0);
     status = fst_branch_follow(params, &o, &branch, error);
     if (status == FST_OK)
         status = festoons_on(params, &branch, festoons, &watch, list, error);

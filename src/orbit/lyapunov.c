@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "ode/flow.h"
 #include "study/growth.h"
 
@@ -80,7 +81,7 @@ static double divergence_at(const spectrum *s)
 /* On for one piece, short enough for the columns to stay apart. */
 static fst_status go_on(spectrum *s, double piece, fst_error *error)
 {
-    fst_status status = fst_tell(s->progress, s->passed / s->whole, error);
+    fst_status status = fst_tell(s->progress, s->passed / s->whole, NULL, error);
     if (status == FST_OK)
         status = fst_carry(&s->setup, s->tolerance, piece, s->y, s->tangent, error);
     if (status != FST_OK)
@@ -220,7 +221,7 @@ static fst_status steps_until(spectrum *s, fst_flow *flow, double end, fst_error
     double x;
     for (uint64_t steps = 0; fst_twofold_difference(until, flow->t) > 0; ++steps) {
         s->passed = DISCARD_WORK * flow->t.high;
-        fst_status status = steps % 64 == 0 ? fst_tell(s->progress, s->passed / s->whole, error) : FST_OK;
+        fst_status status = steps % 64 == 0 ? fst_tell(s->progress, s->passed / s->whole, NULL, error) : FST_OK;
         if (status == FST_OK)
             status = fst_flow_step(flow, end, error);
         if (status != FST_OK)

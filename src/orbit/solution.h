@@ -42,12 +42,6 @@ typedef struct fst_solution {
     double re[FST_MULTIPLIERS], im[FST_MULTIPLIERS];
 } fst_solution;
 
-/* Tell the caller; FST_OK where there is nobody to tell. */
-static inline fst_status fst_tell(const fst_progress *progress, double fraction, fst_error *error)
-{
-    return progress ? progress->tell(progress->user, fraction, error) : FST_OK;
-}
-
 static inline int fst_states_of(const fst_solution *s)
 {
     return s->segments > 0 ? s->segments : 1;

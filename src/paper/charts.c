@@ -1,7 +1,7 @@
-/* charts.c - the paper's figures of curves over the drive. */
+/* charts.c - the paper's figures of curves over the drive (Figs. 3, 4, 6, 11, 12). */
 #include "base/error.h"
 #include "draw/chart.h"
-#include "paper/paper.h"
+#include "paper/figures.h"
 
 #include <stdlib.h>
 
@@ -11,10 +11,10 @@ enum { MOST_CURVES = 16 };
 
 /* ------------------------------------------------------------------ curves out of runs */
 
-/* What a curve shows of a run; NAN breaks the line. */
+/* The number that a curve shows of a run; NAN breaks the line. */
 typedef double (*reading)(const fst_paper_run *run);
 
-/* The curves of one chart, with the memory that they point into. */
+/* The curves of one chart, and the memory that they point into. */
 typedef struct curves {
     fst_chart_curve curve[MOST_CURVES];
     double *memory[MOST_CURVES];
@@ -24,31 +24,31 @@ typedef struct curves {
 
 static void free_curves(curves *all)
 {
-    for (int i = 0; i < all->count; i++)
+    for (int i = 0; i < all->count; ++i)
         free(all->memory[i]);
 }
 
-/* Add the curve of `y` over `x` through the runs of one or two scans (the second may be FST_SCAN_COUNT: none).
- */
+/* Add the curve of `y` over `x` through the runs of one or two scans (FST_SCAN_COUNT: there is no
+ * second one). */
 static void add(curves *all, const fst_paper_state *paper, const fst_scan through[2], fst_dynamics dynamics,
                 reading x, reading y, fst_chart_curve style)
 {
     if (all->status != FST_OK || all->count == MOST_CURVES)
         return;
     size_t room = 0, used = 0;
-    for (int s = 0; s < 2; s++)
+    for (int s = 0; s < 2; ++s)
         room += through[s] < FST_SCAN_COUNT ? (size_t)paper->counts[through[s]] : 0;
     double *memory = malloc((2 * room + 1) * sizeof *memory);
     if (!memory) {
         all->status = FST_NO_MEMORY;
         return;
     }
-    for (int s = 0; s < 2; s++) {
-        for (int i = 0; through[s] < FST_SCAN_COUNT && i < paper->counts[through[s]]; i++) {
+    for (int s = 0; s < 2; ++s) {
+        for (int i = 0; through[s] < FST_SCAN_COUNT && i < paper->counts[through[s]]; ++i) {
             const fst_paper_run *run = &paper->scans[through[s]][dynamics][i];
             memory[used] = x(run);
             memory[room + used] = y(run);
-            used++;
+            ++used;
         }
     }
     style.x = memory;
@@ -87,7 +87,7 @@ static double eps_of(const fst_paper_run *run)
     return run->params.bead_radius / run->params.magnet_half_length;
 }
 
-/* ------------------------------------------------------------------ Fig. comparison */
+/* ------------------------------------------------------------------ Fig. 6 */
 
 REGULAR(mean_r, run->result.mean_r)
 REGULAR(mean_alpha_dot, run->result.mean_alpha_dot)
@@ -102,17 +102,17 @@ static const struct {
 } two_dynamics[FST_PAPER_DYNAMICS] = {{FST_DYNAMICS_FARAGO2020, FST_CURVE_LINE},
                                       {FST_DYNAMICS_RIGID, FST_CURVE_DASHED}};
 
-/* Their names and colours, for add_both(). */
+/* Names and colours of both dynamics, for add_both(). */
 static const char *const both_names[FST_PAPER_DYNAMICS] = {"farago2020 (as printed)", "rigid (exact)"};
 static const fst_colour both_colours[FST_PAPER_DYNAMICS] = {FST_COLOUR_BLUE, FST_COLOUR_VERMILION};
 
-/* The curve of each dynamics through the runs of `through`, in the order of two_dynamics[]. */
+/* Add a curve for each dynamics through the runs of `through`, in the order of two_dynamics[]. */
 static const fst_chart_curve *add_both(curves *all, const fst_paper_state *paper, const fst_scan through[2],
                                        reading x, reading y, const char *const titles[2],
                                        const fst_colour colours[2], int right)
 {
     int first = all->count;
-    for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
+    for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
         add(all, paper, through, two_dynamics[d].dynamics, x, y,
             (fst_chart_curve){.title = titles ? titles[d] : NULL,
                               .colour = colours[d],
@@ -121,7 +121,7 @@ static const fst_chart_curve *add_both(curves *all, const fst_paper_state *paper
     return all->curve + first;
 }
 
-/* As the paper has it: two ordinates, colours for the quantities, and the deviation as an inset. */
+/* As in the paper: two ordinates, colours for the quantities, and the deviation as an inset. */
 fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_paper_figure *figure,
                                      const char *out, fst_error *error)
 {
@@ -176,7 +176,7 @@ fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_pap
     return draw_and_free(&all, out, &chart, error);
 }
 
-/* ------------------------------------------------------------------ Fig. radius */
+/* ------------------------------------------------------------------ Fig. 3 */
 
 static double millimetres_of(const fst_paper_run *run)
 {
@@ -213,7 +213,7 @@ fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_f
     return draw_and_free(&all, out, &chart, error);
 }
 
-/* ------------------------------------------------------------------ Fig. dotal */
+/* ------------------------------------------------------------------ Fig. 4 */
 
 static double bead_hertz(const fst_paper_run *run)
 {
@@ -236,7 +236,7 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
                                                .style = FST_CURVE_LINE};
     const fst_chart_curve *counter =
         add_both(&all, paper, comparison, hertz_of, counter_hertz, both_names, both_colours, 0);
-    for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
+    for (int d = 0; d < FST_PAPER_DYNAMICS; ++d) {
         fst_chart_curve points = {.title = d == 0 ? "released at rest, farago2020" : "the same, rigid",
                                   .colour = both_colours[d],
                                   .style = d == 0 ? FST_CURVE_POINTS : FST_CURVE_OPEN_POINTS};
@@ -276,9 +276,9 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
     return draw_and_free(&all, out, &chart, error);
 }
 
-/* ------------------------------------------------------------------ Fig. test */
+/* ------------------------------------------------------------------ Fig. 11 */
 
-/* At the lowest drives the moment swings without turning over. */
+/* At the lowest drives the moment swings without turning over; such runs are left out. */
 REGULAR(mean_phi_dot, fabs(run->result.mean_phi_dot) > 0.5 * run->result.omega ? run->result.mean_phi_dot : NAN)
 REGULAR(rolling_alpha_dot, -eps_of(run) * run->result.omega / (run->result.mean_r - eps_of(run)))
 REGULAR(rolling_phi_dot, run->result.mean_r * run->result.omega / (run->result.mean_r - eps_of(run)))
@@ -294,9 +294,9 @@ fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_fig
     static const reading measured[] = {mean_alpha_dot, mean_phi_dot};
     static const reading formula[] = {rolling_alpha_dot, rolling_phi_dot};
     static const char *const names[] = {"free rolling, with the ⟨r⟩ of farago2020", "the same, of rigid"};
-    for (int p = 0; p < 2; p++) {
+    for (int p = 0; p < 2; ++p) {
         int first = all.count;
-        for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
+        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d) {
             fst_chart_curve line = {.title = p == 0 ? both_names[d] : NULL, .colour = both_colours[d]};
             add(&all, paper, whole_range, two_dynamics[d].dynamics, omega_of, measured[p], line);
             fst_chart_curve dashes = {
@@ -318,7 +318,7 @@ fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_fig
     return draw_and_free(&all, out, &chart, error);
 }
 
-/* ------------------------------------------------------------------ Fig. evolution */
+/* ------------------------------------------------------------------ Fig. 12 */
 
 REGULAR(centrifugal, run->result.eq21_centrifugal / (eps_of(run) * eps_of(run)))
 REGULAR(magnetic, run->result.eq21_magnetic / (eps_of(run) * eps_of(run)))
@@ -342,7 +342,7 @@ fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_pape
         {spin, "the spin's part of friction", FST_COLOUR_PURPLE, FST_CURVE_DASHED},
     };
     curves all = {.status = FST_OK};
-    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; i++)
+    for (size_t i = 0; i < sizeof terms / sizeof terms[0]; ++i)
         add(&all, paper, whole_range, figure->dynamics, omega_of, terms[i].term,
             (fst_chart_curve){.title = terms[i].title, .colour = terms[i].colour, .style = terms[i].style});
     fst_chart_panel panel = {.left_label = "terms of the radial balance, over ε^2",

@@ -1,20 +1,21 @@
-/* exact.c - what needs no run: the drives at which patterns close, where the period halves and where
- * counter-rotation ends, on the branch of periodic orbits. */
-#include "paper/paper.h"
+/* exact.c - what the branches of periodic orbits and of locked states tell without any run: the drives at which
+ * patterns close, where the period halves, and where counter-rotation ends. */
+#include "paper/runs.h"
+#include "paper/statements.h"
 
 #include "base/error.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Drives between which the branch is followed: the experiment's range and beyond, to the fold at which the
- * orbit ends. */
+/* The branch is followed between these drives: through the experiment's range and beyond, to the fold at which
+ * the orbit ends. */
 static const double BRANCH_FROM = 0.17, BRANCH_TO = 4.0;
 static const double BRANCH_START = 0.3; /* a drive at which the bead counter-rotates */
-/* Drives between which the last locked state loses its stability. */
+/* The last locked state loses its stability between these drives. */
 static const double LOCKED_FROM = 0.14, LOCKED_TO = 0.17;
 static const double LOCKED_AT = 0.02; /* the slowest drive of the runs */
-/* A small kappa, and a drive at which so weakly held a bead stays locked. */
+/* A small kappa, and a drive at which a bead that is held so weakly stays locked. */
 static const double WEAK = 0.015, WEAK_DRIVE = 0.001;
 
 static fst_params params_at(fst_dynamics dynamics, double omega)
@@ -26,25 +27,25 @@ static fst_params params_at(fst_dynamics dynamics, double omega)
     return params;
 }
 
-/* Each row of Table 1 whose pattern closes somewhere on the stable branch. */
+/* Find for each row of Table 1 the drive at which its pattern closes on the stable branch. */
 static fst_status close_patterns(const fst_params *params, const fst_branch *branch,
                                  const fst_progress *progress, fst_paper_exact *exact, fst_error *error)
 {
     fst_status status = FST_OK;
-    for (int row = 0; row < FST_TABLE1_ROWS && status == FST_OK; row++) {
+    for (int row = 0; row < FST_TABLE1_ROWS && status == FST_OK; ++row) {
         fst_festoon_list list;
         status = fst_festoons_on(params, branch, fst_table1[row].count, progress, &list, error);
         if (status == FST_OK)
             exact->closed[row] = (fst_paper_pattern){list.omegas[0], list.orbits[0].means.symmetry};
         fst_festoons_free(&list);
-        status = status == FST_NO_CONVERGENCE ? FST_OK : status; /* it closes nowhere */
+        status = status == FST_NO_CONVERGENCE ? FST_OK : status; /* this pattern closes nowhere */
     }
     return status;
 }
 
 static void read_branch(const fst_branch *branch, fst_paper_exact *exact)
 {
-    for (size_t i = 0; i < branch->special_count; i++) {
+    for (size_t i = 0; i < branch->special_count; ++i) {
         const fst_special *special = &branch->specials[i];
         if (special->type == FST_SPECIAL_PITCHFORK) {
             exact->halving = special->omega;
@@ -55,14 +56,14 @@ static void read_branch(const fst_branch *branch, fst_paper_exact *exact)
             exact->origin = special->omega;
         }
     }
-    for (size_t i = 0; i < branch->point_count; i++) {
+    for (size_t i = 0; i < branch->point_count; ++i) {
         const fst_branch_point *point = &branch->points[i];
         if (point->stable && point->turns < 0 && point->symmetry == FST_SYMMETRY_S1)
             exact->most_s1 = fmax(exact->most_s1, point->festoons);
     }
 }
 
-/* The point at which the stable locked states end that reach highest. */
+/* Find where the stable locked states end that reach the highest drive. */
 static fst_status find_locked_end(const fst_params *params, const fst_progress *progress,
                                   fst_paper_exact *exact, fst_error *error)
 {
@@ -70,15 +71,14 @@ static fst_status find_locked_end(const fst_params *params, const fst_progress *
     options.kind = FST_BRANCH_LOCKED;
     options.from = LOCKED_FROM;
     options.to = LOCKED_TO;
-    options.user = progress->user;
-    options.progress = progress->tell;
+    options.progress = progress;
     fst_branch branch;
     const fst_status status = fst_branch_follow(params, &options, &branch, error);
     double highest = -INFINITY;
-    for (size_t i = 0; status == FST_OK && i < branch.point_count; i++)
+    for (size_t i = 0; status == FST_OK && i < branch.point_count; ++i)
         if (branch.points[i].stable)
             highest = fmax(highest, branch.points[i].omega);
-    for (size_t i = 0; status == FST_OK && i < branch.special_count; i++) {
+    for (size_t i = 0; status == FST_OK && i < branch.special_count; ++i) {
         const fst_special *special = &branch.specials[i];
         if (special->type == FST_SPECIAL_HOPF && special->omega >= highest)
             exact->locked_end = fmin(special->omega, isnan(exact->locked_end) ? INFINITY : exact->locked_end);
@@ -96,13 +96,14 @@ static fst_status count_minima(fst_dynamics dynamics, const fst_progress *progre
     if (status != FST_OK)
         return status;
     exact->locked_minima = 0.0;
-    for (size_t i = 0; i < list.count; i++)
+    for (size_t i = 0; i < list.count; ++i)
         exact->locked_minima += list.states[i].stable;
     fst_locked_free(&list);
     return FST_OK;
 }
 
-/* The damping ratio -Re/|lambda| of the least damped swing about a stable locked state at a small kappa. */
+/* Find the damping ratio -Re/|lambda| of the least damped swing about a stable locked state at a
+ * small kappa. */
 static fst_status find_damping(fst_dynamics dynamics, const fst_progress *progress, fst_paper_exact *exact,
                                fst_error *error)
 {
@@ -112,9 +113,9 @@ static fst_status find_damping(fst_dynamics dynamics, const fst_progress *progre
     fst_status status = fst_locked_find(&params, progress, &list, error);
     if (status != FST_OK)
         return status;
-    for (size_t i = 0; i < list.count; i++) {
+    for (size_t i = 0; i < list.count; ++i) {
         const fst_locked *state = &list.states[i];
-        for (int j = 0; j < FST_EIGENVALUE_COUNT && state->stable; j++) {
+        for (int j = 0; j < FST_EIGENVALUE_COUNT && state->stable; ++j) {
             double re = state->eigenvalue_re[j], im = state->eigenvalue_im[j];
             if (im > 0.0)
                 exact->damping = fmin(exact->damping, -re / hypot(re, im));
@@ -128,13 +129,12 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
 {
     fst_dynamics dynamics = (fst_dynamics)index;
     fst_paper_exact *exact = &paper->exact[dynamics];
-    const fst_progress *progress = &paper->patience;
+    const fst_progress *progress = &paper->obedience;
     fst_params params = params_at(dynamics, BRANCH_START);
     fst_branch_options options = fst_default_branch_options();
     options.from = BRANCH_FROM;
     options.to = BRANCH_TO;
-    options.user = progress->user;
-    options.progress = progress->tell;
+    options.progress = progress;
     fst_branch branch;
     fst_error why = {.code = FST_OK};
     fst_status status = fst_branch_follow(&params, &options, &branch, &why);
@@ -149,7 +149,8 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
         status = count_minima(dynamics, progress, exact, &why);
     if (status == FST_OK)
         status = find_damping(dynamics, progress, exact, &why);
-    /* Without LAPACK, or where the method fails, the rest of the paper stands, and this sentence instead. */
+    /* Without LAPACK, or where the method fails, this sentence stands for these numbers; the rest of the paper
+     * stays. */
     if (status == FST_UNAVAILABLE || status == FST_NO_CONVERGENCE) {
         (void)snprintf(exact->missing, sizeof exact->missing, "%s", why.sentence);
         return FST_OK;
@@ -163,6 +164,6 @@ void fst_paper_exact_begin(fst_paper_exact *exact)
 {
     *exact = (fst_paper_exact){
         .halving = NAN, .fold = NAN, .origin = NAN, .locked_end = NAN, .locked_minima = NAN, .damping = NAN};
-    for (int row = 0; row < FST_TABLE1_ROWS; row++)
+    for (int row = 0; row < FST_TABLE1_ROWS; ++row)
         exact->closed[row].omega = NAN;
 }

@@ -1,8 +1,12 @@
-/* figures.c - the table of the paper's figures. */
-#include "paper/paper.h"
+/* figures.c - the table of the paper's figures: what each shows, how it is drawn, and which statements decide
+ * its verdict. */
+#include "paper/figures.h"
+#include "paper/runs.h"
+#include "paper/work.h"
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/watch.h"
 #include "host/parallel.h"
 
 #include <stdio.h>
@@ -33,7 +37,7 @@ static fst_status draw_field(const fst_paper_state *paper, const fst_paper_figur
 
 static const fst_paper_figure figures[] = {
     {.name = "sketch",
-     .source = "Fig. 0",
+     .source = "Fig. 1",
      .title = "The setup to scale",
      .caption = "A bead (vermilion) on a plate, and below it a bar magnet that turns anticlockwise; blue: the "
                 "lines of dipoles that model it. The moment n has the angle θ against e_r; φ is the angle in "
@@ -42,7 +46,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_FOLD4,
      .draw = fst_paper_draw_sketch},
     {.name = "camera",
-     .source = "Fig. blender",
+     .source = "Fig. 2",
      .title = "A path at 10.7 Hz, as filmed",
      .caption =
          "The simulated path sampled like the experiment's, at 200 frames a second. The paper gives no scale; "
@@ -52,7 +56,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_FOLD4,
      .draw = fst_paper_draw_camera},
     {.name = "radius",
-     .source = "Fig. radius",
+     .source = "Fig. 3",
      .title = "Radius and its deviation in the laboratory's units",
      .caption =
          "Mean radius of the path and its standard deviation against the magnet's frequency, where the bead "
@@ -61,7 +65,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_radius},
     {.name = "supercritical",
-     .source = "Fig. supercritical",
+     .source = "Fig. 10",
      .title = "The period halving is supercritical",
      .caption = "Ratio p of successive swings of r where it is under 6 (inset: r(t) under the threshold, two "
                 "unequal swings in "
@@ -70,7 +74,7 @@ static const fst_paper_figure figures[] = {
      .each = 1,
      .statements = "halving|halving-branch|halving-root|halving-time",
      .scan = FST_SCAN_COMPARISON,
-     .step = FST_STEP_HALVING,
+     .step = FST_PAPER_STEP_HALVING,
      .draw = fst_paper_draw_supercritical},
     {.name = "remanence",
      .source = "section on the paramagnetic bead, carried on",
@@ -80,10 +84,10 @@ static const fst_paper_figure figures[] = {
                 "the lines guide the eye.",
      .statements = "remanence",
      .scan = FST_SCAN_COMPARISON,
-     .step = FST_STEP_REMANENCE,
+     .step = FST_PAPER_STEP_REMANENCE,
      .draw = fst_paper_draw_remanence},
     {.name = "portrait",
-     .source = "Fig. portrait",
+     .source = "Fig. 5",
      .title = "The magnet's field",
      .caption =
          "The field in which the bead moves: five lines of dipoles, two poles. Colour: strength; arrows: "
@@ -92,7 +96,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_FOLD15,
      .draw = draw_field},
     {.name = "comparison",
-     .source = "Figs. radius and comparison",
+     .source = "Figs. 3 and 6",
      .title = "Radius, speed and fluctuation against the drive",
      .caption = "Mean radius (left ordinate) and mean angular velocity of the bead about the axis (right; "
                 "negative: against "
@@ -105,7 +109,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_comparison},
     {.name = "dotal",
-     .source = "Fig. dotal",
+     .source = "Fig. 4",
      .title = "How fast the bead circles",
      .caption = "The bead goes round with the magnet at low drives, and against it, more slowly, at high ones. "
                 "Lines: counter-rotation from the rolling start, enlarged in the inset; circles: beads "
@@ -114,7 +118,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_dotal},
     {.name = "f4",
-     .source = "Fig. f4",
+     .source = "Fig. 7",
      .title = "Four festoons at 10.7 Hz",
      .caption =
          "Two revolutions of the bead at the drive 0.215. Colour: vertical part of the moment; arrows: its "
@@ -124,7 +128,7 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_FOLD4,
      .draw = draw_trajectory},
     {.name = "f4detail-angle",
-     .source = "Fig. f4detail, top",
+     .source = "Fig. 8, top",
      .title = "The moment follows the field",
      .caption = "The upper right corner of the same path, coloured by the angle between moment and field.",
      .each = 1,
@@ -134,7 +138,7 @@ static const fst_paper_figure figures[] = {
      .colour = "angle",
      .zoomed = 1},
     {.name = "f4detail-slip",
-     .source = "Fig. f4detail, bottom",
+     .source = "Fig. 8, bottom",
      .title = "Friction acts at the turning points",
      .caption =
          "The same corner, coloured by the speed of the contact point, which friction is proportional to.",
@@ -145,7 +149,7 @@ static const fst_paper_figure figures[] = {
      .colour = "slip",
      .zoomed = 1},
     {.name = "om04",
-     .source = "Fig. om04",
+     .source = "Fig. 9",
      .title = "Many festoons at 19.9 Hz",
      .caption =
          "Two revolutions of the bead at the drive 0.4, coloured by the speed of the contact point; inset: the "
@@ -158,7 +162,7 @@ static const fst_paper_figure figures[] = {
      .draw = draw_trajectory,
      .colour = "slip"},
     {.name = "om04-n",
-     .source = "Fig. om04, inset, larger and from two sides",
+     .source = "Fig. 9, inset, larger and from two sides",
      .title = "The closed path of the moment",
      .caption = "The moment's direction in the local frame at the drive 0.4, seen along the radius and along "
                 "the circle; grey: the unit sphere's outline.",
@@ -168,7 +172,7 @@ static const fst_paper_figure figures[] = {
      .draw = draw_trajectory,
      .kind = FST_FIGURE_LOCAL_N},
     {.name = "magint",
-     .source = "Fig. magint",
+     .source = "Fig. 13",
      .title = "Where the festoons come from",
      .caption = "Radius and field strength while the magnet turns by half a revolution under the bead, at "
                 "the drive 0.4: the pole draws the bead inwards, between the poles it swings out.",
@@ -178,7 +182,7 @@ static const fst_paper_figure figures[] = {
      .draw = draw_trajectory,
      .kind = FST_FIGURE_RADIUS_FIELD},
     {.name = "test",
-     .source = "Fig. test",
+     .source = "Fig. 11",
      .title = "Free rolling at high drives",
      .caption =
          "Solid: mean angular velocities of the bead about the axis and of its moment; dashed: the paper's "
@@ -188,9 +192,9 @@ static const fst_paper_figure figures[] = {
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_test},
     {.name = "evolution",
-     .source = "Fig. evolution",
+     .source = "Fig. 12",
      .title = "The radial balance of forces",
-     .caption = "The three terms of the averaged radial equation (eq21); their exact sum is zero. The paper "
+     .caption = "The three terms of the averaged radial equation (12); their exact sum is zero. The paper "
                 "drops n_r from the magnetic term: dashed.",
      .each = 1,
      .statements = "friction|spin-term|magnetic-term|asymptotic-hz",
@@ -204,7 +208,7 @@ _Static_assert(FST_PAPER_DYNAMICS *FIGURE_ROWS <= FST_MOST_FIGURES, "fst_paper_s
 int fst_paper_figure_count(void)
 {
     int count = 0;
-    for (int row = 0; row < FIGURE_ROWS; row++)
+    for (int row = 0; row < FIGURE_ROWS; ++row)
         count += figures[row].each ? FST_PAPER_DYNAMICS : 1;
     return count;
 }
@@ -212,7 +216,7 @@ int fst_paper_figure_count(void)
 fst_paper_figure fst_paper_figure_at(int index)
 {
     int row = 0;
-    for (; row < FIGURE_ROWS - 1; row++) {
+    for (; row < FIGURE_ROWS - 1; ++row) {
         int here = figures[row].each ? FST_PAPER_DYNAMICS : 1;
         if (index < here)
             break;
@@ -227,7 +231,7 @@ fst_paper_figure fst_paper_figure_at(int index)
     return figure;
 }
 
-/* Does the list "one|two" have `id`? */
+/* Whether the list "one|two" contains `id`. */
 static int lists(const char *ids, const char *id)
 {
     size_t length = strlen(id);
@@ -243,7 +247,7 @@ int fst_paper_figure_verdict(const fst_paper_state *paper, const fst_paper_figur
     *verdict = FST_VERDICT_REPRODUCED;
     if (!figure->statements)
         return 0;
-    for (int i = 0; i < fst_statement_count(); i++) {
+    for (int i = 0; i < fst_statement_count(); ++i) {
         const fst_statement *statement = fst_statement_at(i);
         if (!lists(figure->statements, statement->id))
             continue;
@@ -256,7 +260,7 @@ int fst_paper_figure_verdict(const fst_paper_state *paper, const fst_paper_figur
     return 1;
 }
 
-/* The options of `festoon plot` that make the figure. */
+/* Write the options of `festoon plot` that draw this figure. */
 static void plot_options(const fst_paper_state *paper, const fst_paper_figure *figure, char *text, size_t size)
 {
     static const char *const kinds[] = {[FST_FIGURE_PATH] = "",
@@ -301,10 +305,9 @@ static fst_status draw_one(fst_paper_state *paper, int index, fst_error *error)
 typedef struct gallery {
     fst_paper_state *paper;
     int list[FST_MOST_FIGURES], count;
-    double from, to;
 } gallery;
 
-/* Each figure has its own place in `drawn`. */
+/* Figures are drawn at the same time: each has its own place in `drawn`. */
 static fst_status draw_piece(void *user, int place, fst_error *error)
 {
     const gallery *all = user;
@@ -314,23 +317,17 @@ static fst_status draw_piece(void *user, int place, fst_error *error)
     return status;
 }
 
-static fst_status progress_of_gallery(void *user, int done, fst_error *error)
-{
-    const gallery *all = user;
-    const fst_paper_options *options = all->paper->options;
-    double fraction = all->from + (all->to - all->from) * done / all->count;
-    return options->progress ? options->progress(options->user, fraction, "figures", error) : FST_OK;
-}
-
 fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to, fst_error *error)
 {
-    gallery all = {.paper = paper, .from = from, .to = to};
-    for (int i = 0; i < fst_paper_figure_count(); i++) {
+    gallery all = {.paper = paper};
+    for (int i = 0; i < fst_paper_figure_count(); ++i) {
         fst_paper_figure figure = fst_paper_figure_at(i);
         if (!paper->drawn[i] && fst_paper_has(paper, figure.step, figure.scan))
             all.list[all.count++] = i;
     }
-    fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = progress_of_gallery};
+    fst_part part = {paper->options->progress, from, to, "figures"};
+    const fst_progress progress = {&part, fst_part_tell};
+    fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = &progress};
     double began = fst_clock_seconds();
     fst_status status = fst_parallel(&work, error);
     fst_paper_note_time(paper, "figures", began);

@@ -1,8 +1,10 @@
 /* films.c - the two films of the paper's supplement. */
-#include "paper/paper.h"
+#include "paper/figures.h"
+#include "paper/work.h"
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/watch.h"
 
 #include <stdlib.h>
 
@@ -13,34 +15,21 @@ static const struct {
     double periods;
 } films[FST_FILM_COUNT] = {{FST_SCAN_FOLD4, 24.0}, {FST_SCAN_FOLD15, 16.0}};
 
-typedef struct reel {
-    const fst_paper_state *paper;
-    int index;
-} reel;
-
-static fst_status progress(void *user, double fraction, fst_error *error)
-{
-    const reel *shown = user;
-    const fst_paper_options *options = shown->paper->options;
-    return options->progress
-               ? options->progress(options->user, (shown->index + fraction) / FST_FILM_COUNT, "films", error)
-               : FST_OK;
-}
-
-/* As the paper has them: by the printed equations. */
+/* The paper's films show motions by its printed equations, and so do these. */
 fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error)
 {
     double began = fst_clock_seconds();
     fst_status status = FST_OK;
-    for (int i = 0; i < FST_FILM_COUNT && status == FST_OK; i++) {
+    for (int i = 0; i < FST_FILM_COUNT && status == FST_OK; ++i) {
         const fst_paper_run *run = fst_paper_single(paper, films[i].scan, FST_DYNAMICS_FARAGO2020);
-        reel shown = {paper, i};
+        fst_part shown = {paper->options->progress, (double)i / FST_FILM_COUNT, (i + 1.0) / FST_FILM_COUNT,
+                          "films"};
+        const fst_progress progress = {&shown, fst_part_tell};
         fst_film_options options = fst_default_film_options();
         options.from = run->params.run_discard;
         options.to = options.from + (paper->options->reduced ? 1.0 : films[i].periods);
         options.colour = "slip";
-        options.user = &shown;
-        options.progress = progress;
+        options.progress = &progress;
         char *path = fst_paper_path(paper, fst_film_names[i], "mp4");
         status = path ? fst_film(&run->trajectory, path, &options, error)
                       : fst_fail(error, FST_NO_MEMORY, fst_film_names[i], "no memory for a file name");

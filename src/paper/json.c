@@ -1,5 +1,8 @@
 /* json.c - paper.json: the comparison for programs. */
-#include "paper/paper.h"
+#include "paper/figures.h"
+#include "paper/report.h"
+#include "paper/runs.h"
+#include "paper/work.h"
 
 #include "base/error.h"
 #include "host/whole_file.h"
@@ -22,11 +25,11 @@ static json_t *closed_symmetry(const fst_paper_pattern *pattern)
     return name ? json_string(name) : json_null();
 }
 
-/* What the branch of periodic orbits says, and where it is missing, why. */
+/* What the branch of periodic orbits tells or, where it is missing, why it is. */
 static json_t *orbits_object(const fst_paper_state *paper)
 {
     json_t *object = json_object();
-    for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; d--) {
+    for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; --d) {
         const fst_paper_exact *exact = &paper->exact[d];
         json_t *one = json_object();
         json_object_set_new(one, "period_halving", fst_json_number(exact->halving));
@@ -40,14 +43,14 @@ static json_t *orbits_object(const fst_paper_state *paper)
 static json_t *table1_array(const fst_paper_state *paper)
 {
     json_t *rows = json_array();
-    int known = fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE);
-    for (int row = 0; row < FST_TABLE1_ROWS && known; row++) {
+    int known = fst_paper_has(paper, FST_PAPER_STEP_RUNS, FST_SCAN_TABLE);
+    for (int row = 0; row < FST_TABLE1_ROWS && known; ++row) {
         json_t *object = json_object();
         json_object_set_new(object, "omega", json_real(fst_table1[row].omega));
         json_object_set_new(object, "published", json_real(fst_table1[row].published));
         json_object_set_new(object, "count", json_integer(fst_table1[row].count));
         json_object_set_new(object, "published_symmetry", symmetry(fst_table1[row].published_a));
-        for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; d--) {
+        for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; --d) {
             const fst_run_result *result = &paper->scans[FST_SCAN_TABLE][d][row].result;
             const char *name = fst_symmetry_name(result->symmetry), *dynamics = dynamics_names[d];
             char key[48], command[320];
@@ -84,7 +87,7 @@ static json_t *figure_verdict(const fst_paper_state *paper, const fst_paper_figu
 static json_t *figures_array(const fst_paper_state *paper)
 {
     json_t *array = json_array();
-    for (int i = 0; i < fst_paper_figure_count(); i++) {
+    for (int i = 0; i < fst_paper_figure_count(); ++i) {
         fst_paper_figure figure = fst_paper_figure_at(i);
         if (!paper->drawn[i])
             continue;
@@ -113,7 +116,8 @@ static json_t *statement_value(const fst_statement *statement, double value)
     return statement->rule == FST_RULE_SYMMETRY ? symmetry(value) : fst_json_number(value);
 }
 
-/* What was published are the printed equations: their verdict, command and the rest have the bare names. */
+/* The printed equations are what was published.  So their verdict, command and so on have the plain names, and
+ * those of the exact equations begin with "rigid_". */
 static void add_dynamics(json_t *object, const fst_statement *statement, const fst_paper_state *paper,
                          const fst_finding *finding, fst_dynamics dynamics)
 {
@@ -157,7 +161,7 @@ static json_t *statement_object(const fst_statement *statement, const fst_paper_
 static json_t *statements_array(const fst_paper_state *paper)
 {
     json_t *array = json_array();
-    for (int i = 0; i < fst_statement_count(); i++)
+    for (int i = 0; i < fst_statement_count(); ++i)
         if (fst_statement_known(fst_statement_at(i), paper))
             json_array_append_new(array, statement_object(fst_statement_at(i), paper));
     return array;
@@ -194,7 +198,7 @@ static json_t *provenance_object(const fst_paper_state *paper)
     json_object_set_new(object, "seconds", json_real(paper->seconds));
     json_object_set_new(object, "processor_seconds", json_real(paper->processor_seconds));
     json_t *parts = json_object();
-    for (int i = 0; i < paper->part_count; i++)
+    for (int i = 0; i < paper->part_count; ++i)
         json_object_set_new(parts, paper->parts[i].what, json_real(paper->parts[i].seconds));
     json_object_set_new(object, "parts", parts);
     char machine[512];
@@ -216,7 +220,7 @@ fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error)
     json_object_set_new(document, "statements", statements_array(paper));
     json_object_set_new(document, "figures", figures_array(paper));
     json_t *films = json_array();
-    for (int i = 0; i < paper->films; i++)
+    for (int i = 0; i < paper->films; ++i)
         json_array_append_new(films, json_sprintf("%s.mp4", fst_film_names[i]));
     json_object_set_new(document, "films", films);
     json_object_set_new(document, "provenance", provenance_object(paper));

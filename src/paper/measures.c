@@ -1,3 +1,5 @@
+/* measures.c - numbers of the paper measured on the runs: the field's maxima, the two patterns, r against Phi,
+ * curves over the drive, balances. */
 #include "paper/measures_parts.h"
 
 #include <complex.h>
@@ -11,7 +13,7 @@ static double maximum_on_axis(const fst_params *params)
     if (fst_model_new(params, &model, NULL) != FST_OK)
         return NAN;
     double rising = 0.3, falling = 2.0;
-    for (int i = 0; i < 60; i++) {
+    for (int i = 0; i < 60; ++i) {
         double b[3], gradient[3][3], middle = 0.5 * (rising + falling);
         fst_field(model, middle, 0.0, b, gradient);
         double slope = b[0] * gradient[0][0] + b[1] * gradient[1][0] + b[2] * gradient[2][0];
@@ -38,15 +40,15 @@ MEASURE(maxima_distance)
     return at_centre;
 }
 
-/* The length of the lines with which the maxima are 41 mm apart at the bead's height, all else in millimetres
- * as it is. */
+/* The length of the lines for which the maxima are 41 mm apart at the bead's height, with all other lengths as
+ * they are in millimetres. */
 MEASURE(fitted_length)
 {
     fst_params params = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->params;
     double low = 15e-3, high = 30e-3, at_length[2];
-    for (int at_plate = 0; at_plate < 2; at_plate++) {
+    for (int at_plate = 0; at_plate < 2; ++at_plate) {
         double below = low, above = high;
-        for (int i = 0; i < 40; i++) {
+        for (int i = 0; i < 40; ++i) {
             double height = params.magnet_depth + (at_plate ? 0.0 : params.bead_radius);
             params.magnet_half_length = 0.5 * (below + above);
             params.model_h = height / params.magnet_half_length;
@@ -101,12 +103,12 @@ MEASURE(fold15_festoons)
     const double *r = fst_collected(table, "r"), *alpha = fst_collected(table, "alpha");
     double first = NAN, last = NAN;
     int count = -1;
-    for (size_t row = 1; row + 1 < table->rows; row++) {
+    for (size_t row = 1; row + 1 < table->rows; ++row) {
         if (!(r[row] > r[row - 1] && r[row] >= r[row + 1]))
             continue;
         first = count < 0 ? alpha[row] : first;
         last = alpha[row];
-        count++;
+        ++count;
     }
     (void)snprintf(note, size, "a(1 + ω/|⟨α′⟩|); counted on the path: %.3f turning points a revolution",
                    2.0 * PI * count / fabs(last - first));
@@ -132,12 +134,12 @@ MEASURE(fold15_symmetry)
     return result->symmetry == FST_SYMMETRY_NONE ? NAN : result->symmetry == FST_SYMMETRY_S1 ? 1.0 : 2.0;
 }
 
-/* Eigenvalues of a symmetric matrix, least first (the trigonometric solution of the cubic). */
+/* Eigenvalues of a symmetric 3 x 3 matrix, least first (the trigonometric solution of the cubic). */
 static void eigenvalues(double a[3][3], double values[3])
 {
     double mean = (a[0][0] + a[1][1] + a[2][2]) / 3.0;
     double off = a[0][1] * a[0][1] + a[0][2] * a[0][2] + a[1][2] * a[1][2], spread = 2.0 * off;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         spread += (a[i][i] - mean) * (a[i][i] - mean);
     double p = sqrt(spread / 6.0);
     if (!(p > 0.0)) {
@@ -145,8 +147,8 @@ static void eigenvalues(double a[3][3], double values[3])
         return;
     }
     double b[3][3];
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
             b[i][j] = (a[i][j] - (i == j ? mean : 0.0)) / p;
     double half = 0.5 * (b[0][0] * (b[1][1] * b[2][2] - b[1][2] * b[2][1]) -
                          b[0][1] * (b[1][0] * b[2][2] - b[1][2] * b[2][0]) +
@@ -166,12 +168,12 @@ MEASURE(fold15_roundness)
     double mean[3] = {0}, covariance[3][3] = {{0}}, widths[3];
     if (table->rows == 0)
         return NAN;
-    for (size_t row = 0; row < table->rows; row++)
-        for (int i = 0; i < 3; i++)
+    for (size_t row = 0; row < table->rows; ++row)
+        for (int i = 0; i < 3; ++i)
             mean[i] += n[i][row] / (double)table->rows;
-    for (size_t row = 0; row < table->rows; row++)
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
+    for (size_t row = 0; row < table->rows; ++row)
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
                 covariance[i][j] += (n[i][row] - mean[i]) * (n[j][row] - mean[j]) / (double)table->rows;
     eigenvalues(covariance, widths);
     return sqrt(widths[1] / widths[2]);
@@ -179,13 +181,13 @@ MEASURE(fold15_roundness)
 
 /* ------------------------------------------------------------------ r against Phi */
 
-/* Mean angle Phi, modulo pi, of the local extremes of r (sign +1: maxima, -1: minima), in degrees from -90 to
- * 90; each is placed by a parabola through three samples. */
+/* The mean angle Phi, modulo pi, of the local extremes of r (sign +1: maxima, -1: minima), in degrees from -90
+ * to 90.  A parabola through three samples places each extreme. */
 static double extreme_phi(const fst_table *table, double sign)
 {
     const double *r = fst_collected(table, "r"), *phi = fst_collected(table, "Phi");
     double complex sum = 0.0;
-    for (size_t row = 1; row + 1 < table->rows; row++) {
+    for (size_t row = 1; row + 1 < table->rows; ++row) {
         double before = sign * (r[row] - r[row - 1]), after = sign * (r[row + 1] - r[row]);
         if (!(before >= 0.0 && after < 0.0))
             continue;
@@ -264,7 +266,7 @@ MEASURE(damping)
 
 MEASURE(onset)
 {
-    for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; i++) {
+    for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; ++i) {
         const fst_paper_run *run = &paper->scans[FST_SCAN_COMPARISON][dynamics][i];
         if (!fst_paper_counter_rotates(run))
             continue;
@@ -305,12 +307,12 @@ MEASURE(irregular)
 {
     int all = 0, irregular = 0, undecided = 0;
     static const fst_scan both[] = {FST_SCAN_COMPARISON, FST_SCAN_SLOW};
-    for (int s = 0; s < 2; s++) {
-        for (int i = 0; i < paper->counts[both[s]]; i++) {
+    for (int s = 0; s < 2; ++s) {
+        for (int i = 0; i < paper->counts[both[s]]; ++i) {
             const fst_run_result *result = &paper->scans[both[s]][dynamics][i].result;
             if (result->frequency_hz < 7.0 || result->frequency_hz > 10.0)
                 continue;
-            all++;
+            ++all;
             undecided += result->regime == FST_REGIME_UNDECIDED;
             irregular += result->regime == FST_REGIME_CHAOTIC || result->regime == FST_REGIME_UNDECIDED ||
                          result->regime == FST_REGIME_EJECTED || result->regime == FST_REGIME_LIFTED;
@@ -327,7 +329,7 @@ MEASURE(bell)
 {
     int count = paper->counts[FST_SCAN_COMPARISON], best = -1;
     const fst_paper_run *runs = paper->scans[FST_SCAN_COMPARISON][dynamics];
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; ++i)
         if (fst_paper_counter_rotates(&runs[i]) &&
             (best < 0 || runs[i].result.mean_alpha_dot > runs[best].result.mean_alpha_dot))
             best = i;
@@ -335,23 +337,23 @@ MEASURE(bell)
         return NAN;
     (void)snprintf(note, size, "⟨α′⟩ = %.4f γ there; the runs are about a quarter of a hertz apart",
                    runs[best].result.mean_alpha_dot);
-    /* The slope of alpha' jumps at the period halving, close by: a parabola through three points would pretend
-     * to more than they say. */
+    /* The slope of alpha' jumps at the period halving, which is close by, so a parabola through three points
+     * would pretend to more than they tell. */
     return runs[best].result.frequency_hz;
 }
 
-/* Runs beside the top of the bell, on either side, where |alpha'| falls away from it. */
+/* Runs on either side of the top of the bell at which |alpha'| does not fall away from it. */
 MEASURE(bell_shape)
 {
     const fst_paper_run *runs = paper->scans[FST_SCAN_COMPARISON][dynamics];
     double before = NAN, top = -INFINITY, left = NAN;
     int count = paper->counts[FST_SCAN_COMPARISON], wrong = 0, best = 0;
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; ++i)
         if (fst_paper_counter_rotates(&runs[i]) && runs[i].result.mean_alpha_dot > top) {
             top = runs[i].result.mean_alpha_dot;
             best = i;
         }
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; ++i) {
         double now = fst_paper_counter_rotates(&runs[i]) ? runs[i].result.mean_alpha_dot : NAN;
         wrong += i <= best ? now < before : now > before;
         left = isnan(left) ? now : left;
@@ -366,12 +368,12 @@ MEASURE(inversion)
 {
     static const fst_scan both[] = {FST_SCAN_COMPARISON, FST_SCAN_SLOW};
     int all = 0, others = 0, undecided = 0;
-    for (int s = 0; s < 2; s++)
-        for (int i = 0; i < paper->counts[both[s]]; i++) {
+    for (int s = 0; s < 2; ++s)
+        for (int i = 0; i < paper->counts[both[s]]; ++i) {
             const fst_paper_run *run = &paper->scans[both[s]][dynamics][i];
             if (run->result.frequency_hz < 10.0)
                 continue;
-            all++;
+            ++all;
             undecided += run->result.regime == FST_REGIME_UNDECIDED;
             others +=
                 run->result.regime != FST_REGIME_COUNTER_ROTATING && run->result.regime != FST_REGIME_UNDECIDED;
@@ -384,7 +386,7 @@ MEASURE(inversion)
 MEASURE(slowness)
 {
     double least = INFINITY, greatest = 0.0;
-    for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; i++) {
+    for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; ++i) {
         const fst_paper_run *run = &paper->scans[FST_SCAN_COMPARISON][dynamics][i];
         if (!fst_paper_counter_rotates(run) || run->result.omega < 0.2 || run->result.omega > 0.41)
             continue;
@@ -398,13 +400,13 @@ MEASURE(slowness)
 
 /* ------------------------------------------------------------------ free rolling and balances */
 
-/* The greatest relative deviation of a mean from its free-rolling value over the fast scan, in %; the paper's
- * formulas (predictions) with the <r> of the run. */
+/* The greatest relative deviation of a mean from its value for free rolling over the fast scan, in %, by the
+ * paper's Eq. (15) with the <r> of the run. */
 static double rolling_deviation(const fst_paper_state *paper, fst_dynamics dynamics, int of_phi, char *note,
                                 size_t size)
 {
     double greatest = 0.0, where = NAN;
-    for (int i = 0; i < paper->counts[FST_SCAN_FAST]; i++) {
+    for (int i = 0; i < paper->counts[FST_SCAN_FAST]; ++i) {
         const fst_paper_run *run = &paper->scans[FST_SCAN_FAST][dynamics][i];
         const fst_run_result *result = &run->result;
         double eps = run->params.bead_radius / run->params.magnet_half_length;
@@ -445,7 +447,7 @@ MEASURE(friction_share)
 MEASURE(energy)
 {
     double greatest = 0.0;
-    for (int i = 0; i < paper->counts[FST_SCAN_TABLE]; i++) {
+    for (int i = 0; i < paper->counts[FST_SCAN_TABLE]; ++i) {
         const fst_run_result *result = &paper->scans[FST_SCAN_TABLE][dynamics][i].result;
         double share = fabs(result->mean_drive_power / result->mean_friction_power - 1.0);
         greatest = isfinite(share) ? fmax(greatest, share) : INFINITY;

@@ -1,8 +1,8 @@
-/* measures.h - numbers read off the runs, for the table of statements. */
+/* measures.h - the numbers of the statements, measured on the runs: a function for each. */
 #ifndef FST_PAPER_MEASURES_H
 #define FST_PAPER_MEASURES_H
 
-#include "paper/paper.h"
+#include "paper/state.h"
 
 /* Each has the signature of fst_statement.measure. */
 #define FST_MEASURE(name)                                                                                      \
@@ -14,7 +14,7 @@ FST_MEASURE(fold4_festoons)  /* omega = 0.215: number of festoons */
 FST_MEASURE(fold4_angle)     /* greatest angle of n and B, degrees */
 FST_MEASURE(fold4_nz)        /* |<n_z>| */
 FST_MEASURE(fold4_field)     /* greatest deviation of |B| from its mean, % */
-FST_MEASURE(fold15_festoons) /* omega = 0.4: the same */
+FST_MEASURE(fold15_festoons) /* at omega = 0.4: the number of festoons, and the angle */
 FST_MEASURE(fold15_angle)
 FST_MEASURE(fold15_tilt)         /* of the best-fit plane of n against the vertical, degrees */
 FST_MEASURE(fold15_roundness)    /* ratio of the two widths of the path of n in that plane */
@@ -36,7 +36,7 @@ FST_MEASURE(damping)        /* damping ratio of the least damped swing at a smal
 FST_MEASURE(slowness)       /* omega/|alpha'|, mean over the counter-rotating range */
 FST_MEASURE(rolling_alpha)  /* greatest deviation of <alpha'> from free rolling, omega from 0.5, % */
 FST_MEASURE(rolling_phi)    /* the same for <phi'> */
-FST_MEASURE(friction_share) /* omega = 0.4: |<V_r>| over the magnetic term of Eq. (eq21), % */
+FST_MEASURE(friction_share) /* omega = 0.4: |<V_r>| over the magnetic term of Eq. (12), % */
 FST_MEASURE(energy)         /* |<drive power> - <f.V>| over the latter, greatest over Table 1 */
 
 /* measures_motion.c */
@@ -51,14 +51,14 @@ FST_MEASURE(phase_lock)             /* chi = phi + Phi, degrees */
 FST_MEASURE(frequency_lock)         /* (<phi'> + <alpha'>)/omega */
 FST_MEASURE(rolling_on_average)     /* <V_alpha> over r alpha', % */
 FST_MEASURE(spin_share)             /* the spin's part of <V_r>, % */
-FST_MEASURE(dropped_part)           /* error of the printed magnetic term of Eq. (eq21), % */
+FST_MEASURE(dropped_part)           /* error of the printed magnetic term of Eq. (12), % */
 FST_MEASURE(asymptotic_rolling)     /* deviation from free rolling far beyond, % */
 FST_MEASURE(asymptotic_frequency)   /* Hz at which friction is a tenth */
 FST_MEASURE(trochoid)               /* share of the second circular motion in the path */
 FST_MEASURE(rare_moments)           /* share of the time with over half of the greatest angle, % */
 FST_MEASURE(turning_rate)           /* <phi'>/omega */
 FST_MEASURE(slip_formula)           /* <V_alpha> less r alpha' + eps phi', over r alpha', % */
-FST_MEASURE(third_balance)          /* error of Eq. (eq23), % */
+FST_MEASURE(third_balance)          /* error of Eq. (14), % */
 FST_MEASURE(rolling_below)          /* greatest deviation from free rolling in the experiment's range, % */
 FST_MEASURE(halving_nz)             /* exponents at the period halving */
 FST_MEASURE(halving_relaxation)
@@ -94,7 +94,7 @@ FST_MEASURE(ball_mean)        /* change of B by averaging over the ball */
 FST_MEASURE(slow_pole)        /* distance of the slowest bead from the field's maximum */
 FST_MEASURE(slow_parallel)    /* its greatest angle of n and B, degrees */
 FST_MEASURE(slow_friction)    /* friction's greatest power in locked runs over that at 10.7 Hz, % */
-FST_MEASURE(sine_law)         /* what is left of the averages beside sin(chi) and cos(chi) */
+FST_MEASURE(sine_law)         /* the part of the averages beside sin(chi) and cos(chi) */
 FST_MEASURE(least_energy)     /* mean magnetic energy at chi = pi over that at 0 */
 FST_MEASURE(theta)            /* rms of n_r at omega = 0.4 */
 FST_MEASURE(steady_radius)    /* delta r/<r> at omega = 0.4 */
@@ -107,14 +107,14 @@ FST_MEASURE(line_of_dipoles) /* a line of dipoles against its two charges */
 FST_MEASURE(force_at_ends)   /* magnet's force at its ends over that at its middle, less 1, % */
 FST_MEASURE(pull_weakens)    /* by how much the pull inwards falls from the ends to the middle, % */
 
-/* measures_equations.c: what printed equations leave over along the computed motions, relative */
+/* measures_equations.c: by how much the computed motions miss the printed equations, relative */
 FST_MEASURE(centre_equations)
 FST_MEASURE(turning_equations)
 FST_MEASURE(appendix_slip)
 FST_MEASURE(appendix_theta)
 FST_MEASURE(appendix_phi)
 FST_MEASURE(appendix_psi)
-FST_MEASURE(second_balance) /* Eq. (eq22), % */
+FST_MEASURE(second_balance) /* Eq. (13), % */
 
 #undef FST_MEASURE
 

@@ -1,9 +1,9 @@
-/* measures_equations.c - the paper's printed equations of motion, put to the motions that were computed. */
+/* measures_equations.c - the paper's printed equations of motion, tested on the motions that were computed. */
 #include "paper/measures_parts.h"
 
-enum { STRIDE = 16 }; /* every so many samples of a trajectory */
+enum { STRIDE = 16 }; /* samples of a trajectory from one test to the next */
 
-/* Squares of what an equation leaves over, and of what stands on its left, summed over a motion. */
+/* The squares of an equation's error and of its left side, summed over a motion. */
 typedef struct leftover {
     double off, all;
 } leftover;
@@ -22,11 +22,11 @@ static double share(leftover sum)
 static void state_at(const fst_table *table, size_t row, double y[FST_STATE_SIZE])
 {
     static const char *const names[FST_STATE_SIZE] = {"X", "Y", "vX", "vY", "nX", "nY", "nZ", "WX", "WY", "WZ"};
-    for (int i = 0; i < FST_STATE_SIZE; i++)
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
         y[i] = fst_collected(table, names[i])[row];
 }
 
-/* The rate of a vector of the state in the laboratory, in components along the turning axes. */
+/* The rate of change of a vector of the state in the laboratory, in components along the turning axes. */
 static void laboratory_rate(const double *y, const double *rates, double omega, int first, int size,
                             double rate[3])
 {
@@ -47,9 +47,9 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* ------------------------------------------------------------------ section 4 */
+/* ------------------------------------------------------------------ section IV */
 
-/* Forces and torques by hand, beside the accelerations of the dynamics. */
+/* Forces and torques computed here directly, to compare with the accelerations of the dynamics. */
 static void newton_and_euler(const fst_model *model, const double y[FST_STATE_SIZE], leftover *centre,
                              leftover *turning)
 {
@@ -62,11 +62,11 @@ static void newton_and_euler(const fst_model *model, const double y[FST_STATE_SI
     cross(y + FST_NX, b, n_cross_b);
     const double slip[2] = {y[FST_VX] - g.eps * y[FST_WY], y[FST_VY] + g.eps * y[FST_WX]};
     const double friction[3] = {-slip[1], slip[0], 0.0}; /* e x V */
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         double pull = y[FST_NX] * grad[0][i] + y[FST_NY] * grad[1][i] + y[FST_NZ] * grad[2][i];
         add(centre, g.kappa * g.eps * g.eps * pull - slip[i], v_rate[i]);
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         add(turning, 2.5 * (g.kappa * n_cross_b[i] + friction[i] / g.eps), w_rate[i]);
 }
 
@@ -97,18 +97,16 @@ MEASURE(turning_equations)
 {
     leftover centre, turning;
     along_path(paper, dynamics, &centre, &turning);
-    (void)snprintf(
-        note, size,
-        "along the motion at the drive 0.4; Eq. (nseconde) as printed lacks ψ′ n × n′: ψ′ is no rate "
-        "of a coordinate, so that Lagrange's equations for n and ψ are not enough");
+    (void)snprintf(note, size,
+                   "along the motion at the drive 0.4; Eq. (7) as printed lacks ψ′ n × n′: ψ′ is no rate "
+                   "of a coordinate, so that Lagrange's equations for n and ψ are not enough");
     return share(turning);
 }
 
 /* ------------------------------------------------------------------ the appendix */
 
 /* The angles of the appendix with their rates: n = cos(theta) e_r + sin(theta) (sin(phi) e_alpha - cos(phi)
- * e_z).
- */
+ * e_z). */
 typedef struct angles {
     double S, C, s, c; /* sines and cosines of theta and phi */
     double theta1, phi1, alpha1, psi1;
@@ -148,7 +146,7 @@ static angles read_angles(const fst_model *model, const double y[FST_STATE_SIZE]
     laboratory_rate(y, rates, omega, FST_WX, 3, w1);
     cross(w1, y + FST_NX, n2); /* n'' = W' x n + W x n' */
     cross(y + FST_WX, n1, turned);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         n2[i] += turned[i];
     to_local(y, velocity, v);
     to_local(y, v1, a_local);
@@ -170,7 +168,7 @@ static angles read_angles(const fst_model *model, const double y[FST_STATE_SIZE]
     return a;
 }
 
-/* The appendix's equations, each as printed. */
+/* The appendix's equations, each as it is printed. */
 typedef enum { SLIP, THETA, PHI, PSI, EQUATION_COUNT } equation;
 
 static void put_appendix(const angles *a, const fst_observation *seen, const fst_groups *g, double r_dot,
@@ -193,10 +191,10 @@ static void put_appendix(const angles *a, const fst_observation *seen, const fst
     add(&sums[PSI], a->psi2, 2.5 / g->eps * (V_r * S * s - V_a * C));
 }
 
-/* What the equation leaves over along the motion at the drive 0.215. */
+/* The error of the equation along the motion at the drive 0.215. */
 static double appendix(const fst_paper_state *paper, fst_dynamics dynamics, equation which)
 {
-    static const double POLE = 0.95; /* |n_r| beyond which the angles lose their meaning */
+    static const double POLE = 0.95; /* where |n_r| is greater the angles lose their meaning */
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD4, dynamics);
     leftover sums[EQUATION_COUNT] = {{0.0, 0.0}};
     fst_model *model = model_of(paper, FST_SCAN_FOLD4, dynamics);
@@ -244,9 +242,9 @@ MEASURE(appendix_psi)
     return appendix(paper, dynamics, PSI);
 }
 
-/* ------------------------------------------------------------------ section 6 */
+/* ------------------------------------------------------------------ section VI */
 
-/* Eq. (eq22) with theta = pi/2, the phi of the motion: its magnetic mean over r <V_alpha>. */
+/* Eq. (13) with theta = pi/2 and the phi of the motion: its magnetic mean over r <V_alpha>. */
 MEASURE(second_balance)
 {
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics);
@@ -256,15 +254,15 @@ MEASURE(second_balance)
     if (!model)
         return NAN;
     const fst_groups g = fst_model_groups(model);
-    for (size_t row = 0; row < table->rows; row++) {
+    for (size_t row = 0; row < table->rows; ++row) {
         double b[3], grad[3][3], y[FST_STATE_SIZE];
         state_at(table, row, y);
         const fst_observation seen = fst_observe(model, y);
         double c = seen.cos_phi, s = seen.sin_phi, size_n = hypot(seen.n[1], seen.n[2]);
-        /* n without its radial part, in the turning frame, and the field's change along the circle. */
+        /* n without its radial part, in the turning frame, and the change of the field along the circle. */
         const double n[3] = {-s * seen.n[1] / size_n, c * seen.n[1] / size_n, seen.n[2] / size_n};
         fst_field(model, y[FST_X], y[FST_Y], b, grad);
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3; ++k)
             sum += n[k] * seen.r * (grad[k][1] * c - grad[k][0] * s);
     }
     fst_model_free(model);

@@ -14,13 +14,13 @@ static int add_field(const fst_params *scene, const double place[3], double weig
         return 0;
     fst_field(model, place[0], place[1], b, gradient);
     fst_model_free(model);
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         sum[i] += weight * b[i];
     return 1;
 }
 
-/* The mean of B over the ball, on three shells by Gauss's rule in z (six points) and twelve points round: exact
- * on each shell to the eleventh degree, and what follows falls as (eps/h)^12. */
+/* The mean of B over the ball, on three shells, by Gauss's rule in z (six points) and twelve points round.  On
+ * each shell it is exact to the eleventh degree; the error falls as (eps/h)^12. */
 MEASURE(ball_mean)
 {
     static const double zs[6] = {-0.932469514203152, -0.661209386466265, -0.238619186083197,
@@ -33,14 +33,14 @@ MEASURE(ball_mean)
     double eps = p->bead_radius / p->magnet_half_length, centre[3] = {0}, mean[3] = {0}, all = 0.0, off = 0.0;
     const double place[3] = {0.9, 0.0, 0.0};
     int good = add_field(p, place, 1.0, centre);
-    for (int i = 0; i < 3 * 6 * 12 && good; i++) {
+    for (int i = 0; i < 3 * 6 * 12 && good; ++i) {
         double s = ss[i / 72], z = zs[i / 12 % 6], turn = 2.0 * PI * (i % 12) / 12.0;
         double weight = sw[i / 72] * s * s * zw[i / 12 % 6], flat = s * eps * sqrt(1.0 - z * z);
         const double here[3] = {0.9 + flat * cos(turn), flat * sin(turn), s * eps * z};
         good = add_field(p, here, weight, mean);
         all += weight;
     }
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; ++i)
         off += (mean[i] / all - centre[i]) * (mean[i] / all - centre[i]);
     (void)snprintf(
         note, size,
@@ -49,19 +49,19 @@ MEASURE(ball_mean)
     return good ? sqrt(off / (centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2])) : NAN;
 }
 
-/* The magnetic averages of Eqs. (eq21), (eq22) and (eq23) on a circle of radius r for phi = rate Phi + chi, and
+/* The magnetic averages of Eqs. (12), (13) and (14) on a circle of radius r for phi = rate Phi + chi, and
  * the mean of n.B. */
 static void averages_at(const fst_model *model, double r, double rate, double chi, double terms[4])
 {
     enum { ANGLES = 256 };
-    for (int k = 0; k < 4; k++)
+    for (int k = 0; k < 4; ++k)
         terms[k] = 0.0;
-    for (int i = 0; i < ANGLES; i++) {
+    for (int i = 0; i < ANGLES; ++i) {
         double turn = 2.0 * PI * i / ANGLES, c = cos(turn), s = sin(turn), moment = chi + rate * turn, b[3],
                g[3][3];
         fst_field(model, r * c, r * s, b, g);
         const double n[3] = {-sin(moment) * s, sin(moment) * c, -cos(moment)};
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 3; ++k) {
             terms[0] += n[k] * (g[k][0] * c + g[k][1] * s) / ANGLES;
             terms[1] += n[k] * r * (g[k][1] * c - g[k][0] * s) / ANGLES;
             terms[3] += n[k] * b[k] / ANGLES;
@@ -76,7 +76,7 @@ static void averages(const fst_model *model, double r, double chi, double terms[
     averages_at(model, r, -1.0, chi, terms);
 }
 
-/* The mean radial force is A cos(chi) + B sin(chi); that of each other whole rate over that of -1. */
+/* The mean radial force is A cos(chi) + B sin(chi).  Compare it at each other whole rate with that at -1. */
 MEASURE(resonance)
 {
     fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
@@ -84,13 +84,13 @@ MEASURE(resonance)
     int worst = 0;
     if (!model)
         return NAN;
-    for (int rate = -3; rate <= 3; rate++) {
+    for (int rate = -3; rate <= 3; ++rate) {
         double in_phase[4], quarter[4];
         averages_at(model, r, rate, 0.0, in_phase);
         averages_at(model, r, rate, 0.5 * PI, quarter);
         size_of[rate + 3] = hypot(in_phase[0], quarter[0]);
     }
-    for (int rate = -3; rate <= 3; rate++) {
+    for (int rate = -3; rate <= 3; ++rate) {
         if (rate == 1 || rate == -1 || size_of[rate + 3] <= greatest)
             continue;
         greatest = size_of[rate + 3];
@@ -105,8 +105,8 @@ MEASURE(resonance)
     return greatest / size_of[2];
 }
 
-/* How much of the field on the circle r = 0.9 has the appendix's structure: the mean of B.(sin(Phi) e_alpha +
- * cos(Phi) e_z) over the root mean square of B, with either sign of the magnet. */
+/* How much of the field on the circle r = 0.9 has the structure that the appendix assumes: the mean of
+ * B.(sin(Phi) e_alpha + cos(Phi) e_z) over the root mean square of B, with the better sign of the magnet. */
 MEASURE(field_structure)
 {
     enum { ANGLES = 360 };
@@ -114,7 +114,7 @@ MEASURE(field_structure)
     double along = 0.0, square = 0.0, r = 0.9;
     if (!model)
         return NAN;
-    for (int i = 0; i < ANGLES; i++) {
+    for (int i = 0; i < ANGLES; ++i) {
         double turn = 2.0 * PI * i / ANGLES, c = cos(turn), s = sin(turn), b[3], g[3][3];
         fst_field(model, r * c, r * s, b, g);
         along += ((b[1] * c - b[0] * s) * s + b[2] * c) / ANGLES;
@@ -134,11 +134,11 @@ MEASURE(sine_law)
         return NAN;
     averages(model, r, 0.0, amplitude);
     averages(model, r, 0.5 * PI, quarter);
-    for (int i = 0; i < 24; i++) {
+    for (int i = 0; i < 24; ++i) {
         double chi = 2.0 * PI * i / 24.0 + 0.1;
         averages(model, r, chi, now);
         worst = fmax(worst, fabs(now[0] - amplitude[0] * cos(chi)) / fabs(amplitude[0]));
-        for (int k = 1; k < 3; k++)
+        for (int k = 1; k < 3; ++k)
             worst = fmax(worst, fabs(now[k] - quarter[k] * sin(chi)) / fabs(quarter[k]));
     }
     fst_model_free(model);
@@ -156,14 +156,15 @@ MEASURE(least_energy)
     averages(model, r, PI, at_pi);
     averages(model, r, 0.0, at_zero);
     fst_model_free(model);
-    /* The energy is -n.B: -1 says that it changes its sign, and is negative at pi if n.B is positive there. */
+    /* The energy is -n.B. -1: it changes its sign between 0 and pi; it is negative at pi if n.B is positive
+     * there. */
     return at_pi[3] > 0.0 ? at_pi[3] / at_zero[3] : NAN;
 }
 
 /* ------------------------------------------------------------------ the model's magnet */
 
-/* Dipoles along one line, integrated by Gauss's rule with five points on each of 40 pieces, beside the charges
- * at its ends. */
+/* The field of dipoles along one line, integrated by Gauss's rule with five points on each of 40 pieces, to
+ * compare with that of the charges at its ends. */
 MEASURE(line_of_dipoles)
 {
     static const double nodes[5] = {-0.906179845938664, -0.538469310105683, 0.0, 0.538469310105683,
@@ -179,17 +180,17 @@ MEASURE(line_of_dipoles)
     if (fst_model_new(&params, &model, NULL) != FST_OK)
         return NAN;
     double h = fst_model_groups(model).h;
-    for (int place = 0; place < 12; place++) {
+    for (int place = 0; place < 12; ++place) {
         double x = 0.15 * place, y = 0.1 * place - 0.4, b[3], grad[3][3], sum[3] = {0.0, 0.0, 0.0}, off = 0.0;
-        for (int i = 0; i < 5 * PIECES; i++) {
+        for (int i = 0; i < 5 * PIECES; ++i) {
             double at = -1.0 + (2 * (i / 5) + 1 + nodes[i % 5]) / PIECES, weight = weights[i % 5] / PIECES;
             const double d[3] = {x - at, y, h};
             double square = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], cube = square * sqrt(square);
-            for (int k = 0; k < 3; k++) /* the field of a dipole along the line */
+            for (int k = 0; k < 3; ++k) /* the field of a dipole along the line */
                 sum[k] += weight * (3.0 * d[0] * d[k] / square - (k == 0)) / cube;
         }
         fst_field(model, x, y, b, grad);
-        for (int k = 0; k < 3; k++) /* one line has the strength of the five */
+        for (int k = 0; k < 3; ++k) /* one line has the strength of all five */
             off += (5.0 * sum[k] - b[k]) * (5.0 * sum[k] - b[k]);
         worst = fmax(worst, sqrt(off / (b[0] * b[0] + b[1] * b[1] + b[2] * b[2])));
     }
@@ -215,11 +216,11 @@ MEASURE(slow_parallel)
     return paper->scans[FST_SCAN_SLOW][dynamics][0].result.max_angle_deg;
 }
 
-/* Of the runs at which the bead is locked, that with the most friction. */
+/* Of the locked runs, the one with the most friction. */
 MEASURE(slow_friction)
 {
     const fst_run_result *most = NULL, *slowest = &paper->scans[FST_SCAN_SLOW][dynamics][0].result;
-    for (int i = 0; i < paper->counts[FST_SCAN_SLOW]; i++) {
+    for (int i = 0; i < paper->counts[FST_SCAN_SLOW]; ++i) {
         const fst_run_result *result = &paper->scans[FST_SCAN_SLOW][dynamics][i].result;
         if (result->regime == FST_REGIME_LOCKED &&
             (!most || result->mean_friction_power > most->mean_friction_power))
@@ -238,16 +239,16 @@ MEASURE(slow_friction)
     return 100.0 * most->mean_friction_power / single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
 }
 
-/* ------------------------------------------------------------------ the assumptions of section 6 */
+/* ------------------------------------------------------------------ the assumptions of section VI */
 
 MEASURE(theta)
 {
     const fst_table *table = &fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory;
     const double *n_r = fst_collected(table, "n_r");
     double sum = 0.0;
-    for (size_t i = 0; i < table->rows; i++)
+    for (size_t i = 0; i < table->rows; ++i)
         sum += n_r[i] * n_r[i];
-    (void)snprintf(note, size, "it is what Eq. (eq21) lacks: see the exact magnetic term");
+    (void)snprintf(note, size, "Eq. (12) as printed lacks it: see the exact magnetic term");
     return sqrt(sum / (double)table->rows);
 }
 
@@ -258,7 +259,7 @@ MEASURE(steady_radius)
     return result->std_r / result->mean_r;
 }
 
-/* The magnet's force on the bead of a sample, along the axes of the turning frame. */
+/* The magnet's force on the bead of a sample, along the turning axes. */
 static void pull_at(const fst_model *model, const fst_table *table, size_t row, double pull[2])
 {
     double b[3], g[3][3];
@@ -266,12 +267,12 @@ static void pull_at(const fst_model *model, const fst_table *table, size_t row, 
     const double n[3] = {fst_collected(table, "nX")[row], fst_collected(table, "nY")[row],
                          fst_collected(table, "nZ")[row]};
     fst_field(model, fst_collected(table, "X")[row], fst_collected(table, "Y")[row], b, g);
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; ++i)
         pull[i] = groups.kappa * groups.eps * groups.eps * (n[0] * g[0][i] + n[1] * g[1][i] + n[2] * g[2][i]);
 }
 
-/* Mean size of the magnet's force where the bead is within pi/8 of an end of the magnet, and of its middle, and
- * how it pulls inwards at both. */
+/* The mean size of the magnet's force where the bead is within pi/8 of an end of the magnet, and of its middle,
+ * and how strongly it pulls inwards at both. */
 typedef struct pulls {
     double force[2], inwards[2];
     int count[2];
@@ -283,7 +284,7 @@ static pulls pulls_of(const fst_paper_state *paper, fst_dynamics dynamics)
     const double *x = fst_collected(table, "X"), *y = fst_collected(table, "Y"), *r = fst_collected(table, "r");
     fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
     pulls sum = {{0.0, 0.0}, {0.0, 0.0}, {0, 0}};
-    for (size_t row = 0; model && row < table->rows; row++) {
+    for (size_t row = 0; model && row < table->rows; ++row) {
         double pull[2], along = fabs(x[row]) / r[row];
         int across = along < sin(PI / 8.0);
         if (!across && along < cos(PI / 8.0))
@@ -291,10 +292,10 @@ static pulls pulls_of(const fst_paper_state *paper, fst_dynamics dynamics)
         pull_at(model, table, row, pull);
         sum.force[across] += hypot(pull[0], pull[1]);
         sum.inwards[across] -= (pull[0] * x[row] + pull[1] * y[row]) / r[row];
-        sum.count[across]++;
+        ++sum.count[across];
     }
     fst_model_free(model);
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         sum.force[i] /= sum.count[i];
         sum.inwards[i] /= sum.count[i];
     }
@@ -326,7 +327,7 @@ MEASURE(modulation)
     fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
     const double *r = fst_collected(table, "r"), *x = fst_collected(table, "X"), *y = fst_collected(table, "Y");
     double n = (double)table->rows, sr = 0, sf = 0, srr = 0, sff = 0, srf = 0;
-    for (size_t row = 0; model && row < table->rows; row++) {
+    for (size_t row = 0; model && row < table->rows; ++row) {
         double pull[2];
         pull_at(model, table, row, pull);
         double radial = (pull[0] * x[row] + pull[1] * y[row]) / r[row];
@@ -344,7 +345,7 @@ MEASURE(modulation)
     return squared;
 }
 
-/* Over the samples with r in the topmost tenth of its range. */
+/* Taken over the samples with r in the topmost tenth of its range. */
 MEASURE(friction_outside)
 {
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD4, dynamics);
@@ -353,7 +354,7 @@ MEASURE(friction_outside)
     const double *r = fst_collected(table, "r"), *slip = fst_collected(table, "slip");
     double limit = run->result.max_r - 0.1 * (run->result.max_r - run->result.min_r), friction = 0.0, all = 0.0;
     double inside_friction = 0.0, inside_all = 0.0;
-    for (size_t row = 0; model && row < table->rows; row++) {
+    for (size_t row = 0; model && row < table->rows; ++row) {
         double pull[2];
         pull_at(model, table, row, pull);
         double force = hypot(pull[0], pull[1]);
@@ -361,8 +362,9 @@ MEASURE(friction_outside)
         *(r[row] > limit ? &all : &inside_all) += slip[row] + force;
     }
     fst_model_free(model);
-    (void)snprintf(note, size,
-                   "|V| over |V| + |F|, where r is in the topmost tenth of its range; elsewhere %.0f %%",
-                   100.0 * inside_friction / inside_all);
+    (void)snprintf(
+        note, size,
+        "|V| over |V| + |F|, where r is in the topmost tenth of its range; outside of these samples %.0f %%",
+        100.0 * inside_friction / inside_all);
     return 100.0 * friction / all;
 }

@@ -16,8 +16,8 @@ static int nearer(const void *one, const void *other)
     return (a > b) - (a < b);
 }
 
-/* Pieces of the path between the first and the last turning point (greatest r), each with the time to the
- * nearest of them, its length and what friction took on it; free() it. */
+/* Pieces of the path between the first and the last turning point (where r is greatest), each with the time to
+ * the nearest turning point, its length, and the energy that friction took on it; free() it. */
 static piece *cut_at_turning_points(const fst_table *table, size_t *count)
 {
     const double *r = fst_collected(table, "r"), *t = fst_collected(table, "t");
@@ -26,10 +26,10 @@ static piece *cut_at_turning_points(const fst_table *table, size_t *count)
     piece *pieces = malloc((table->rows + 1) * sizeof *pieces);
     *count = 0;
     size_t before = 0;
-    for (size_t row = 1; pieces && row + 1 < table->rows; row++) {
+    for (size_t row = 1; pieces && row + 1 < table->rows; ++row) {
         if (!(r[row] > r[row - 1] && r[row] >= r[row + 1]))
             continue;
-        for (size_t i = before; before > 0 && i < row; i++)
+        for (size_t i = before; before > 0 && i < row; ++i)
             pieces[(*count)++] = (piece){fmin(t[i] - t[before], t[row] - t[i]),
                                          hypot(x[i + 1] - x[i], y[i + 1] - y[i]), power[i] * (t[i + 1] - t[i])};
         before = row;
@@ -43,14 +43,14 @@ MEASURE(turning_points)
     piece *pieces =
         cut_at_turning_points(&fst_paper_single(paper, FST_SCAN_FOLD4, dynamics)->trajectory, &count);
     double path = 0.0, loss = 0.0, near_path = 0.0, near_loss = 0.0, near_time = 0.0;
-    for (size_t i = 0; pieces && i < count; i++) {
+    for (size_t i = 0; pieces && i < count; ++i) {
         path += pieces[i].path;
         loss += pieces[i].loss;
     }
     if (pieces)
         qsort(pieces, count, sizeof *pieces, nearer);
     size_t i = 0;
-    for (; pieces && i < count && near_path < 0.25 * path; i++) {
+    for (; pieces && i < count && near_path < 0.25 * path; ++i) {
         near_path += pieces[i].path;
         near_loss += pieces[i].loss;
         near_time = (double)(i + 1) / (double)count;
@@ -70,7 +70,7 @@ MEASURE(friction_follows_angle)
     const fst_table *table = &fst_paper_single(paper, FST_SCAN_FOLD4, dynamics)->trajectory;
     const double *a = fst_collected(table, "angle"), *v = fst_collected(table, "slip");
     double n = (double)table->rows, sa = 0, sv = 0, saa = 0, svv = 0, sav = 0;
-    for (size_t i = 0; i < table->rows; i++) {
+    for (size_t i = 0; i < table->rows; ++i) {
         sa += a[i];
         sv += v[i];
         saa += a[i] * a[i];
@@ -87,11 +87,11 @@ MEASURE(corner_nz)
     const double *r = fst_collected(table, "r"), *nz = fst_collected(table, "n_z");
     double sum = 0.0;
     int corners = 0;
-    for (size_t row = 1; row + 1 < table->rows; row++) {
+    for (size_t row = 1; row + 1 < table->rows; ++row) {
         if (!(r[row] > r[row - 1] && r[row] >= r[row + 1]))
             continue;
         sum += nz[row];
-        corners++;
+        ++corners;
     }
     (void)snprintf(note, size,
                    "mean of n_z at the %d points of greatest r; the conjugate motion has it negative", corners);
@@ -133,18 +133,18 @@ MEASURE(strict_corotation)
 
 /* ------------------------------------------------------------------ the shape of the path */
 
-/* The part of x + iy that turns at `rate`: its amplitude over `rows` samples. */
+/* The amplitude of the part of x + iy that turns at `rate`, over `rows` samples. */
 static double turning_part(const double *x, const double *y, const double *t, size_t rows, double rate)
 {
     double complex sum = 0.0;
-    for (size_t i = 0; i < rows; i++)
+    for (size_t i = 0; i < rows; ++i)
         sum += (x[i] + I * y[i]) * cexp(-I * rate * (t[i] - t[0]));
     return cabs(sum) / (double)rows;
 }
 
-/* In the laboratory the path is a sum of circular motions at alpha' + k (omega - alpha'). A hypotrochoid has
- * two: the share of the strongest one that turns against the bead in all that is not the bead's own circling.
- */
+/* In the laboratory the path is a sum of circular motions at alpha' + k (omega - alpha').  A hypotrochoid has
+ * two of them.  This is the share of the strongest one that turns against the bead, among all except the bead's
+ * own circling. */
 static double trochoid_share(const fst_paper_run *run, int *best)
 {
     const fst_table *table = &run->trajectory;
@@ -152,13 +152,13 @@ static double trochoid_share(const fst_paper_run *run, int *best)
     double circling = run->result.mean_alpha_dot, meeting = run->result.omega - circling, all = 0.0, most = 0.0;
     if (table->rows < 2)
         return NAN;
-    /* Whole meetings of bead and magnet, two at a time for S1 and S2 alike. */
+    /* The samples over whole meetings of bead and magnet, two at a time, which suits both S1 and S2. */
     double turn = 2.0 * PI / meeting, last = turn * floor((t[table->rows - 1] - t[0]) / turn);
     size_t rows = 0;
-    for (; rows < table->rows && t[rows] - t[0] < last; rows++)
+    for (; rows < table->rows && t[rows] - t[0] < last; ++rows)
         all += x[rows] * x[rows] + y[rows] * y[rows];
     double own = turning_part(x, y, t, rows, circling);
-    for (int k = 1; k <= 4; k++) {
+    for (int k = 1; k <= 4; ++k) {
         double part = turning_part(x, y, t, rows, circling + k * meeting);
         *best = part > most ? k : *best;
         most = fmax(most, part);
@@ -185,7 +185,7 @@ MEASURE(rare_moments)
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD4, dynamics);
     const double *angle = fst_collected(&run->trajectory, "angle");
     size_t high = 0;
-    for (size_t i = 0; i < run->trajectory.rows; i++)
+    for (size_t i = 0; i < run->trajectory.rows; ++i)
         high += angle[i] > 0.5 * run->result.max_angle_deg;
     return 100.0 * (double)high / (double)run->trajectory.rows;
 }
@@ -198,7 +198,7 @@ static double complex mean_phase(const fst_paper_state *paper, fst_dynamics dyna
     const double *a = fst_collected(table, "n_alpha"), *z = fst_collected(table, "n_z");
     const double *phi = fst_collected(table, "Phi");
     double complex sum = 0.0;
-    for (size_t row = 0; row < table->rows; row++)
+    for (size_t row = 0; row < table->rows; ++row)
         sum += cexp(I * (atan2(a[row], -z[row]) + phi[row]));
     return sum / (double)table->rows;
 }
@@ -271,7 +271,7 @@ MEASURE(dropped_part)
 
 /* ------------------------------------------------------------------ far beyond */
 
-/* Of <alpha'> from free rolling, %; NAN where the bead does not counter-rotate. */
+/* The deviation of <alpha'> from free rolling, in %; NAN where the bead does not counter-rotate. */
 static double off_rolling(const fst_paper_run *run)
 {
     double rolling = -eps_of(run) * run->result.omega / (run->result.mean_r - eps_of(run));
@@ -304,9 +304,9 @@ MEASURE(asymptotic_frequency)
 {
     static const fst_scan beyond[2] = {FST_SCAN_ASYMPTOTIC, FST_SCAN_FAST};
     double from = NAN, first = NAN;
-    int negligible = 1; /* from the drive that is looked at upwards */
-    for (int s = 0; s < 2; s++) {
-        for (int i = paper->counts[beyond[s]] - 1; i >= 0; i--) {
+    int negligible = 1; /* whether friction is negligible from this drive upwards */
+    for (int s = 0; s < 2; ++s) {
+        for (int i = paper->counts[beyond[s]] - 1; i >= 0; --i) {
             const fst_paper_run *run = &paper->scans[beyond[s]][dynamics][i];
             int small = friction_part(run) < 0.1;
             negligible = negligible && small;
@@ -324,7 +324,7 @@ MEASURE(asymptotic_frequency)
 MEASURE(rolling_below)
 {
     double greatest = NAN, where = NAN;
-    for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; i++) {
+    for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; ++i) {
         const fst_paper_run *run = &paper->scans[FST_SCAN_COMPARISON][dynamics][i];
         double off = off_rolling(run);
         if (run->result.omega < 0.2 || run->result.omega > 0.41 || !(off > greatest || isnan(greatest)))
@@ -338,11 +338,11 @@ MEASURE(rolling_below)
 
 /* ------------------------------------------------------------------ the period halving */
 
-/* The exponent with which a quantity goes with the distance from the threshold. */
+/* The exponent with which a quantity grows with the distance from the threshold. */
 static double exponent(const fst_paper_state *paper, fst_dynamics dynamics, size_t offset, int first, int count)
 {
     double x[FST_HALVING_POINTS], y[FST_HALVING_POINTS];
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; ++i) {
         const fst_halving_point *point = &paper->halving[dynamics].points[first + i];
         x[i] = point->omega;
         y[i] = *(const double *)(const void *)((const char *)point + offset);

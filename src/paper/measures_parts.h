@@ -1,8 +1,9 @@
-/* measures_parts.h - what the files of measures share. */
+/* measures_parts.h - what the files of measures share: macros, and short ways to runs and models. */
 #ifndef FST_PAPER_MEASURES_PARTS_H
 #define FST_PAPER_MEASURES_PARTS_H
 
 #include "paper/measures.h"
+#include "paper/runs.h"
 
 #include "io/collect.h"
 
@@ -26,7 +27,7 @@ static inline double eps_of(const fst_paper_run *run)
     return run->params.bead_radius / run->params.magnet_half_length;
 }
 
-/* The model of such a run; NULL: no memory. */
+/* The model of that run; NULL: no memory. */
 static inline fst_model *model_of(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
 {
     fst_model *model = NULL;

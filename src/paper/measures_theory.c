@@ -1,5 +1,5 @@
-/* measures_theory.c - the paper's estimates, its Appendix on corotation, and beads that the field magnetises.
- */
+/* measures_theory.c - the paper's estimates, its Appendix on corotation, and beads that the
+ * field magnetises. */
 #include "paper/measures_parts.h"
 
 static const fst_params *scene(const fst_paper_state *paper, fst_dynamics dynamics)
@@ -35,7 +35,7 @@ MEASURE(orthoradial)
     double along = 0.0, all = 0.0;
     if (!model)
         return NAN;
-    for (int i = 0; i < 360; i++) {
+    for (int i = 0; i < 360; ++i) {
         double phi = PI * i / 180.0, c = cos(phi), s = sin(phi), b[3], gradient[3][3];
         fst_field(model, 0.9 * c, 0.9 * s, b, gradient);
         double radial = b[0] * c + b[1] * s;
@@ -124,8 +124,8 @@ MEASURE(corotation_beads)
 {
     int staying = 0;
     double longest = 0.0;
-    for (int drive = 0; drive < FST_ANSATZ_DRIVES; drive++)
-        for (int start = 0; start < FST_ANSATZ_STARTS; start++) {
+    for (int drive = 0; drive < FST_ANSATZ_DRIVES; ++drive)
+        for (int start = 0; start < FST_ANSATZ_STARTS; ++start) {
             const fst_paper_ansatz *bead = &paper->ansatz[dynamics][drive][start];
             staying += bead->speed > 0.5;
             longest = fmax(longest, bead->survived);
@@ -144,7 +144,7 @@ MEASURE(counter_force)
     if (!model)
         return NAN;
     int outwards = 0, radii = 0;
-    double turns = NAN; /* the radius beyond which it points inwards */
+    double turns = NAN; /* beyond this radius the force points inwards */
     for (double r = 0.9; r < 1.505; r += 0.01, radii++) {
         int inwards = fst_ansatz_force(model, r, -1) < 0.0;
         outwards += !inwards;
@@ -180,8 +180,8 @@ MEASURE(paramagnet_counter)
 {
     int fates[FST_FATE_COUNT] = {0}, at_first = 0;
     double longest = 0.0;
-    for (int i = 0; i < paper->search_count; i++) {
-        fates[paper->search[dynamics][i].last]++;
+    for (int i = 0; i < paper->search_count; ++i) {
+        ++fates[paper->search[dynamics][i].last];
         at_first += paper->search[dynamics][i].first == FST_FATE_COUNTER;
         longest = fmax(longest, paper->search[dynamics][i].periods);
     }
@@ -199,7 +199,7 @@ static double worst_residual(const fst_paper_state *paper, fst_dynamics dynamics
                              char *note, size_t size)
 {
     double residual = 0.0, boundary = 0.0;
-    for (int i = 0; i < FST_BALANCE_CASES; i++) {
+    for (int i = 0; i < FST_BALANCE_CASES; ++i) {
         residual = fmax(residual, fst_balance_residual(&paper->balances[dynamics][i].of[kind]));
         boundary = fmax(boundary, fst_balance_boundary(&paper->balances[dynamics][i].of[kind]));
     }
@@ -226,14 +226,14 @@ MEASURE(friction_on_centre)
     return worst_residual(paper, dynamics, FST_BALANCE_KINETIC, note, size);
 }
 
-/* Motions in which a mean is not positive; NAN where one has not settled and none of the others is an
- * exception. */
+/* The number of motions in which a mean is not positive; NAN where a motion has not settled and none of the
+ * others is an exception. */
 static double not_positive(const fst_paper_state *paper, fst_dynamics dynamics, fst_balance_kind kind,
                            char *note, size_t size)
 {
     int wrong = 0, unsettled = 0;
     double least = INFINITY;
-    for (int i = 0; i < FST_BALANCE_CASES; i++) {
+    for (int i = 0; i < FST_BALANCE_CASES; ++i) {
         const fst_balances *motion = &paper->settled[dynamics][i];
         const int settled = fst_balances_settled(motion);
         unsettled += !settled;
@@ -278,7 +278,7 @@ MEASURE(splitting)
     return fastest->of[FST_BALANCE_KINETIC].friction / product;
 }
 
-/* What the field adds to dW/dt, at places, speeds and turns of all kinds. */
+/* What the field adds to dW/dt, at places, speeds and rotations of all kinds. */
 MEASURE(paramagnet_torque)
 {
     NO_NOTE;
@@ -291,14 +291,14 @@ MEASURE(paramagnet_torque)
     params.bead_a = 0.0;
     if (status == FST_OK)
         status = fst_model_new(&params, &alone, NULL);
-    for (int i = 0; i < 60 && status == FST_OK; i++) {
+    for (int i = 0; i < 60 && status == FST_OK; ++i) {
         double r = 0.3 + 0.02 * i, turn = 0.7 * i, with[FST_STATE_SIZE], without[FST_STATE_SIZE];
         const double y[FST_STATE_SIZE] = {
             r * cos(turn), r * sin(turn), 0.1 * sin(3.0 * i), 0.1 * cos(5.0 * i), 0.6,
             0.0,           0.8,           sin(2.0 * i),       cos(7.0 * i),       0.3 * sin(i)};
         fst_rhs(in_field, y, with);
         fst_rhs(alone, y, without);
-        for (int k = FST_WX; k <= FST_WZ; k++)
+        for (int k = FST_WX; k <= FST_WZ; ++k)
             worst = fmax(worst, fabs(with[k] - without[k]));
     }
     fst_model_free(in_field);
@@ -334,7 +334,7 @@ MEASURE(anisotropy)
 {
     int others = 0;
     double speeds[2] = {NAN, NAN};
-    for (int i = 0; i < paper->counts[FST_SCAN_ANISOTROPIC]; i++) {
+    for (int i = 0; i < paper->counts[FST_SCAN_ANISOTROPIC]; ++i) {
         const fst_paper_run *run = &paper->scans[FST_SCAN_ANISOTROPIC][dynamics][i];
         others += !fst_paper_counter_rotates(run);
         speeds[i] = run->result.mean_alpha_dot;

@@ -1,5 +1,20 @@
-/* paper.c - fst_paper(): everything the paper shows, computed again. */
-#include "paper/paper.h"
+/* paper.c - fst_paper(): everything that the paper shows, computed again.
+ *
+ *  1. runs         runs.c      all scans, both dynamics                         --+
+ *  2. orbits       exact.c     what branches tell without runs                    |
+ *  3. thresholds   runs.c      by bisection, where the orbits do not tell         +--> fst_paper_state
+ *  4. probes       stages.c    period halving, ansatz, paramagnetic beads       --+        (state.h)
+ *  5. statements   verdicts.c  each number against the paper's                             |
+ *  6. figures      figures.c   drawn as soon as their step is done                         v
+ *  7. report       json.c, report.c                                        paper.json, report.html
+ *
+ * After an interruption or a failure, what was done so far is written all the same, marked as incomplete.
+ */
+#include "paper/figures.h"
+#include "paper/report.h"
+#include "paper/runs.h"
+#include "paper/statements.h"
+#include "paper/work.h"
 
 #include "base/clock.h"
 #include "base/error.h"
@@ -22,19 +37,19 @@ fst_paper_options fst_default_paper_options(void)
 
 /* ------------------------------------------------------------------ the whole */
 
-static fst_status be_patient(void *user, double fraction, fst_error *error)
+static fst_status obey(void *user, double fraction, const char *what, fst_error *error)
 {
     fst_paper_state *paper = user;
-    (void)fraction;
+    (void)fraction, (void)what;
     return atomic_load(&paper->refused) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 
-/* Of all threads, and of the processes that drew. */
+/* The processor time of all threads, and of the programs that drew. */
 static double processor_seconds(void)
 {
     static const int who[2] = {RUSAGE_SELF, RUSAGE_CHILDREN};
     double seconds = 0.0;
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 2; ++i) {
         struct rusage used;
         if (getrusage(who[i], &used) == 0)
             seconds += (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
@@ -43,7 +58,7 @@ static double processor_seconds(void)
     return seconds;
 }
 
-/* Can files be made in the directory?  Better to know before all is computed. */
+/* Whether files can be made in the directory.  Ask before everything is computed. */
 static fst_status try_directory(const fst_paper_state *paper, fst_error *error)
 {
     fst_whole_file file;
@@ -56,7 +71,7 @@ static fst_status try_directory(const fst_paper_state *paper, fst_error *error)
     return status;
 }
 
-/* Make the directory, unless it is there. */
+/* Make the directory, unless it exists. */
 static fst_status make_directory(const fst_paper_state *paper, fst_error *error)
 {
     const char *directory = paper->directory;
@@ -72,8 +87,8 @@ static fst_status make_directory(const fst_paper_state *paper, fst_error *error)
     return fst_fail(error, FST_IO, directory, "cannot make this directory: %s", strerror(reason));
 }
 
-/* All that is computed and drawn, in its order; figures come as soon as they can, so that an interruption
- * leaves them. */
+/* Compute and draw everything in its order.  Figures are drawn as soon as they can be, so that an interrupted
+ * call leaves some. */
 static fst_status make_everything(fst_paper_state *paper, fst_error *error)
 {
     fst_status status = fst_paper_make_runs(paper, error);
@@ -103,7 +118,7 @@ static fst_status no_such_statement(const char *id, fst_error *error)
 {
     char names[4096] = "", nearest[64] = "";
     size_t used = 0;
-    for (int i = 0; i < fst_statement_count() && used < sizeof names; i++)
+    for (int i = 0; i < fst_statement_count() && used < sizeof names; ++i)
         used +=
             (size_t)snprintf(names + used, sizeof names - used, "%s%s", i ? "|" : "", fst_statement_at(i)->id);
     (void)fst_nearest_name(id, names, nearest, sizeof nearest);
@@ -112,15 +127,15 @@ static fst_status no_such_statement(const char *id, fst_error *error)
                     nearest);
 }
 
-/* What the statement rests on, and nothing else. */
+/* Compute what the statement needs, and nothing else. */
 static fst_status make_one(fst_paper_state *paper, const fst_statement *statement, fst_error *error)
 {
     fst_paper_step step = statement->step;
     paper->first_scan = (int)statement->scan;
     fst_status status = statement->scan == FST_SCAN_NONE ? FST_OK : fst_paper_make_runs(paper, error);
-    if (status == FST_OK && step >= FST_STEP_EXACT && step <= FST_STEP_HALVING)
+    if (status == FST_OK && step >= FST_PAPER_STEP_EXACT && step <= FST_PAPER_STEP_HALVING)
         status = fst_paper_find_orbits(paper, error);
-    if (status == FST_OK && step >= FST_STEP_THRESHOLDS && step <= FST_STEP_HALVING)
+    if (status == FST_OK && step >= FST_PAPER_STEP_THRESHOLDS && step <= FST_PAPER_STEP_HALVING)
         status = fst_paper_find_thresholds(paper, error);
     return status == FST_OK ? fst_paper_make_probes(paper, &step, error) : status;
 }
@@ -128,7 +143,7 @@ static fst_status make_one(fst_paper_state *paper, const fst_statement *statemen
 static fst_status answer_one(fst_paper_state *paper, fst_error *error)
 {
     const char *id = paper->options->only;
-    for (int i = 0; i < fst_statement_count(); i++) {
+    for (int i = 0; i < fst_statement_count(); ++i) {
         const fst_statement *statement = fst_statement_at(i);
         if (strcmp(statement->id, id) != 0)
             continue;
@@ -153,7 +168,7 @@ static fst_status answer_all(fst_paper_state *paper, double began, fst_error *er
     paper->processor_seconds = processor_seconds() - processors_began;
     if (status == FST_OK && options->films)
         status = fst_paper_make_films(paper, error);
-    /* What is there is written whatever happened; the first trouble is the one to tell of. */
+    /* Write what there is, whatever happened; the first failure is the one to report. */
     fst_status written = write_everything(paper, status == FST_OK ? error : NULL);
     status = status == FST_OK ? written : status;
     if (status == FST_OK && options->summary)
@@ -170,7 +185,7 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
         return fst_fail(error, FST_BAD_INPUT, "fst_paper",
                         "the options were not made by fst_default_paper_options()");
     fst_paper_state paper = {.options = options, .directory = directory};
-    paper.patience = (fst_progress){&paper, be_patient};
+    paper.obedience = (fst_progress){&paper, obey};
     fst_status status = options->only ? FST_OK : make_directory(&paper, error);
     if (status != FST_OK)
         return status;

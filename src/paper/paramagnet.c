@@ -1,13 +1,16 @@
+/* paramagnet.c - following beads that the field magnetises: do they circle against the magnet, do the paper's
+ * identities hold, and how much remanence do they need? */
 #include "paper/paramagnet.h"
 
 #include "base/error.h"
+#include "base/watch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
 #define PI 3.14159265358979323846
 
-static const double STANDS = 1e-4; /* |<alpha'>| in units of omega that is no circling */
+static const double STANDS = 1e-4; /* a mean |alpha'| below this, in units of omega, is no circling */
 
 typedef struct followed {
     fst_model *model;
@@ -29,7 +32,7 @@ static fst_status begin(followed *bead, const fst_params *params, fst_error *err
     bead->period = 2.0 * PI / bead->groups.omega;
     fst_flow_options options = fst_default_flow_options();
     options.rtol = params->run_rtol;
-    for (int i = 0; i < FST_STATE_SIZE; i++)
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
         options.atol[i] = params->run_rtol;
     return fst_flow_new(bead->model, &options, state, &bead->flow, error);
 }
@@ -44,7 +47,7 @@ static const unsigned leaving = 1u << FST_STOP_TIME | 1u << FST_STOP_EDGE | 1u <
 
 /* ------------------------------------------------------------------ one bead, followed */
 
-/* Go on to t1 and say how the bead circled between the middle of that stretch and its end. */
+/* Go on to t1, and say how the bead circled between the middle of that time and its end. */
 static fst_status fate_until(followed *bead, double t1, fst_fate *fate, double *mean_alpha_dot,
                              fst_error *error)
 {
@@ -119,7 +122,7 @@ fst_status fst_search_one(int index, fst_dynamics dynamics, fst_search_entry *en
     if (status == FST_OK)
         status = fate_until(&bead, FIRST_PERIODS * bead.period, &entry->first, &entry->mean_alpha_dot, error);
     entry->last = entry->first;
-    for (int i = 0; i < DOUBLINGS && status == FST_OK && entry->last == FST_FATE_COUNTER; i++) {
+    for (int i = 0; i < DOUBLINGS && status == FST_OK && entry->last == FST_FATE_COUNTER; ++i) {
         entry->periods *= 2.0;
         status = fate_until(&bead, entry->periods * bead.period, &entry->last, &entry->mean_alpha_dot, error);
     }
@@ -129,7 +132,7 @@ fst_status fst_search_one(int index, fst_dynamics dynamics, fst_search_entry *en
 
 /* ------------------------------------------------------------------ the identities */
 
-/* What is averaged, and what only its change counts of. */
+/* The quantities that are averaged, and the quantities of which only the change matters. */
 typedef struct moment_in_time {
     double slip2, field_moment, friction_moment, friction_on_centre, crossed;
     double energy, angular_momentum, kinetic_less_field, rolling_momentum, alpha;
@@ -141,7 +144,7 @@ static void look(const followed *bead, moment_in_time *now)
     const double *s = info.state, eps = bead->groups.eps, a = bead->groups.a;
     double x = s[FST_X], y = s[FST_Y], b[3], g[3][3], b2 = 0.0, along = 0.0;
     fst_field(bead->model, x, y, b, g);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3; ++i) {
         b2 += b[i] * b[i];
         along += 2.0 * b[i] * (g[i][1] * x - g[i][0] * y);
     }
@@ -157,12 +160,12 @@ static void look(const followed *bead, moment_in_time *now)
     now->angular_momentum = x * s[FST_VY] - y * s[FST_VX];
     now->kinetic_less_field = 0.5 * v2 - a * b2;
     now->crossed = 0.4 * (s[FST_VX] * slip_y - s[FST_VY] * slip_x);
-    /* p = v - (2 eps/5) e x W is what friction leaves alone: dp/dt is the magnet's force. */
+    /* Friction does not change p = v - (2 eps/5) e x W: dp/dt is the magnet's force. */
     double p_x = s[FST_VX] + 0.4 * eps * s[FST_WY], p_y = s[FST_VY] - 0.4 * eps * s[FST_WX];
     now->rolling_momentum = x * p_y - y * p_x;
 }
 
-/* Add `weight` times what is averaged. */
+/* Add `weight` times the quantities that are averaged. */
 static void accumulate(moment_in_time *sum, const moment_in_time *now, double weight)
 {
     sum->slip2 += weight * now->slip2;
@@ -181,8 +184,8 @@ static fst_status look_at(followed *bead, double t, moment_in_time *now, fst_err
     return status;
 }
 
-/* Means over `panels` panels of length `panel` from t0 by Gauss's rule with five points, on which the flow
- * lands. */
+/* Means over `panels` panels of length `panel` from t0, by Gauss's rule with five points; the flow lands on
+ * each. */
 static fst_status average(followed *bead, double t0, int panels, double panel, moment_in_time *mean,
                           fst_error *error)
 {
@@ -193,7 +196,7 @@ static fst_status average(followed *bead, double t0, int panels, double panel, m
     *mean = (moment_in_time){0};
     moment_in_time now;
     fst_status status = FST_OK;
-    for (int i = 0; i < 5 * panels && status == FST_OK; i++) {
+    for (int i = 0; i < 5 * panels && status == FST_OK; ++i) {
         double t = t0 + panel * (i / 5 + 0.5 * (1.0 + nodes[i % 5]));
         status = look_at(bead, t, &now, error);
         if (status == FST_OK)
@@ -233,7 +236,9 @@ static fst_status balances_over(const fst_params *params, double discard, double
 fst_status fst_paramagnet_balances(const fst_params *params, double discard, double periods,
                                    fst_balances *balances, fst_error *error)
 {
-    enum { PANELS = 240 }; /* per drive period: the printed equations have the moment turn over in bursts */
+    enum {
+        PANELS = 240
+    }; /* panels per drive period: by the printed equations the moment turns over in bursts */
     return balances_over(params, discard, periods, PANELS, balances, error);
 }
 
@@ -268,8 +273,8 @@ int fst_balances_settled(const fst_balances *balances)
 
 /* ------------------------------------------------------------------ how much remanence */
 
-/* What a run of the same length says.  An irregular motion goes against the magnet for a while too, and the
- * sign of its mean is chance. */
+/* How a run of the same length ends.  An irregular motion goes against the magnet for a while too, and the sign
+ * of its mean is chance. */
 static fst_status confirm(const fst_params *tried, double periods, int *does, fst_error *error)
 {
     fst_params params = *tried;
@@ -282,7 +287,7 @@ static fst_status confirm(const fst_params *tried, double periods, int *does, fs
     return status;
 }
 
-/* Does a bead counter-rotate from any of the starts, and still after four times as long? */
+/* Whether the bead counter-rotates from any of the starts, and still does after four times as long. */
 static fst_status counter_rotates(const fst_params *params, const fst_kappa_scan *scan, double kappa, int *does,
                                   fst_error *error)
 {
@@ -290,14 +295,13 @@ static fst_status counter_rotates(const fst_params *params, const fst_kappa_scan
     fst_status status = FST_OK;
     tried.model_kappa = kappa;
     *does = 0;
-    for (int start = 0; start < scan->starts && status == FST_OK && !*does; start++) {
+    for (int start = 0; start < scan->starts && status == FST_OK && !*does; ++start) {
         followed bead;
         fst_fate fate = FST_FATE_AWAY;
         double speed;
-        /* Half a turn further the start is the image under S2 of this one: the same motion. */
+        /* Half a turn further, a start is the image of this one under S2 and gives the same motion. */
         tried.start_phi = params->start_phi + 180.0 * start / scan->starts;
-        if (scan->progress)
-            status = scan->progress->tell(scan->progress->user, 0.0, error);
+        status = fst_tell(scan->progress, 0.0, NULL, error);
         if (status != FST_OK)
             return status;
         status = begin(&bead, &tried, error);
@@ -321,12 +325,12 @@ fst_status fst_least_kappa(const fst_params *params, const fst_kappa_scan *scan,
     int does = 0;
     fst_status status = FST_OK;
     *least = (fst_least_found){NAN, NAN};
-    for (int i = 0; i < scan->points && status == FST_OK && !does; i++) {
+    for (int i = 0; i < scan->points && status == FST_OK && !does; ++i) {
         const double kappa = i + 1 < scan->points ? scan->low * exp(step * i) : scan->high;
         status = counter_rotates(params, scan, kappa, &does, error);
         *(does ? &least->kappa : &below) = kappa;
     }
-    for (int i = 0; i < scan->halvings && status == FST_OK && does && below > 0.0; i++) {
+    for (int i = 0; i < scan->halvings && status == FST_OK && does && below > 0.0; ++i) {
         const double middle = sqrt(below * least->kappa);
         int here;
         status = counter_rotates(params, scan, middle, &here, error);

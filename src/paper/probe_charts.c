@@ -1,14 +1,15 @@
-/* probe_charts.c - the paper's figures of the experiment, drawn from the model, and those of the probes.
- */
+/* probe_charts.c - figures of the probes (Fig. 10, remanence), the sketch of the experiment (Fig. 1) and the
+ * camera's view (Fig. 2). */
 #include "base/error.h"
 #include "draw/chart.h"
 #include "draw/figure_setup.h"
 #include "io/collect.h"
-#include "paper/paper.h"
+#include "paper/figures.h"
+#include "paper/runs.h"
 
 #include <stdlib.h>
 
-/* ------------------------------------------------------------------ Fig. supercritical */
+/* ------------------------------------------------------------------ Fig. 10 */
 
 enum { LINE = 64 };
 
@@ -19,12 +20,12 @@ typedef struct halving_curves {
     fst_chart_label labels[2];
 } halving_curves;
 
-/* Mark two successive swings of r(t) by vertical lines from a maximum to the next minimum: Delta+ and Delta-.
- */
+/* Mark two successive swings of r(t), from a maximum to the next minimum, by vertical lines: Delta+
+ * and Delta-. */
 static void mark_swings(const double *r, halving_curves *c)
 {
     int found = 0, top = -1;
-    for (int i = 1; i + 1 < FST_HALVING_SHOWN && found < 2; i++) {
+    for (int i = 1; i + 1 < FST_HALVING_SHOWN && found < 2; ++i) {
         if (r[i] > r[i - 1] && r[i] >= r[i + 1])
             top = i;
         if (!(r[i] < r[i - 1] && r[i] <= r[i + 1]) || top < 0)
@@ -32,10 +33,10 @@ static void mark_swings(const double *r, halving_curves *c)
         c->swing_x[found][0] = c->swing_x[found][1] = c->time[i];
         c->swing_y[found][0] = r[top];
         c->swing_y[found][1] = r[i];
-        found++;
+        ++found;
     }
     int larger = c->swing_y[1][0] - c->swing_y[1][1] > c->swing_y[0][0] - c->swing_y[0][1];
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 2; ++i)
         c->labels[i] = (fst_chart_label){c->swing_x[i][0] + 0.06, 0.5 * (c->swing_y[i][0] + c->swing_y[i][1]),
                                          i == larger ? "Δ+" : "Δ−"};
 }
@@ -43,21 +44,21 @@ static void mark_swings(const double *r, halving_curves *c)
 static void read_halving(const fst_paper_state *paper, fst_dynamics dynamics, halving_curves *c)
 {
     const fst_halving_point *points = paper->halving[dynamics].points;
-    const fst_halving_point *near = &points[FST_HALVING_BELOW - 3]; /* the line goes through it */
+    const fst_halving_point *near = &points[FST_HALVING_BELOW - 3]; /* the line goes through this point */
     *c = (halving_curves){.threshold = fst_paper_halving_drive(paper, dynamics)};
-    for (int i = 0; i < FST_HALVING_POINTS; i++) {
+    for (int i = 0; i < FST_HALVING_POINTS; ++i) {
         c->omega[i] = points[i].omega;
         c->p[i] = points[i].order > 6.0 ? NAN : points[i].order;
         c->nz[i] = points[i].mean_nz;
         c->tau[i] = 1e-3 * points[i].relaxation;
     }
     double factor = near->mean_nz / sqrt(fabs(c->threshold - near->omega));
-    for (int i = 0; i < LINE; i++) { /* closer and closer to the threshold, where the line is steep */
+    for (int i = 0; i < LINE; ++i) { /* points close up to the threshold, where the line is steep */
         double part = 1.0 - i / (LINE - 1.0);
         c->line_x[i] = c->threshold - (c->threshold - c->omega[0]) * part * part;
         c->line_y[i] = factor * sqrt(fmax(c->threshold - c->line_x[i], 0.0));
     }
-    for (int i = 0; i < FST_HALVING_SHOWN; i++)
+    for (int i = 0; i < FST_HALVING_SHOWN; ++i)
         c->time[i] = i / (double)FST_HALVING_PARTS;
     mark_swings(paper->halving[dynamics].r, c);
 }
@@ -154,8 +155,8 @@ fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_pape
     static const char *const names[FST_REMANENCE_DRIVES] = {"drive 0.3 (14.9 Hz)", "drive 0.4 (19.9 Hz)"};
     double share[FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS], strength[FST_REMANENCE_STRENGTHS];
     fst_chart_curve curves[FST_REMANENCE_DRIVES];
-    for (int d = 0; d < FST_REMANENCE_DRIVES; d++) {
-        for (int i = 0; i < FST_REMANENCE_STRENGTHS; i++) {
+    for (int d = 0; d < FST_REMANENCE_DRIVES; ++d) {
+        for (int i = 0; i < FST_REMANENCE_STRENGTHS; ++i) {
             strength[i] = 1e3 * fst_remanence_strengths[i];
             share[d][i] = 100.0 * paper->remanence[FST_DYNAMICS_RIGID][d][i].kappa / 1.5;
         }

@@ -1,3 +1,4 @@
+/* probes.c - the period halving seen by long runs close to it, and beads set on the corotating motion. */
 #include "paper/probes.h"
 
 #include "base/error.h"
@@ -6,12 +7,12 @@
 
 #define PI 3.14159265358979323846
 
-/* A model and a flow on it, which belong together here. */
+/* A model and a flow on it, made and freed together. */
 typedef struct probe {
     fst_model *model;
     fst_flow *flow;
     fst_groups groups;
-    double period; /* of the drive */
+    double period; /* the period of the drive */
 } probe;
 
 static fst_status probe_begin(probe *p, const fst_params *params, fst_error *error)
@@ -29,7 +30,7 @@ static fst_status probe_start(probe *p, const fst_params *params, const double *
 {
     fst_flow_options options = fst_default_flow_options();
     options.rtol = params->run_rtol;
-    for (int i = 0; i < FST_STATE_SIZE; i++)
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
         options.atol[i] = params->run_rtol;
     return fst_flow_new(p->model, &options, state, &p->flow, error);
 }
@@ -44,11 +45,11 @@ static void probe_end(probe *p)
 
 enum {
     MOST_RETURNS = 16384,
-    LOOKED_AT = 24 /* drive periods at the end in which p and <n_z> are taken */
+    LOOKED_AT = 24 /* drive periods at the end over which p and <n_z> are taken */
 };
 
-/* Half returns of the bead to Phi = pi/2 or -pi/2.  Under S2 n_z changes its sign from one to the next, so that
- * the sum of two successive ones is zero: it measures the asymmetry without integrals. */
+/* Half returns of the bead to Phi = pi/2 or -pi/2.  Under S2 n_z changes its sign from one to the next, so the
+ * sum of two successive values is zero.  That sum measures the asymmetry without integrals. */
 typedef struct returns {
     double t[MOST_RETURNS], asymmetry[MOST_RETURNS];
     int count;
@@ -65,15 +66,15 @@ static void take_return(returns *all, const fst_flow_info *info)
     all->last_nz = nz;
 }
 
-/* The settling rate by least squares through the logarithm of the distance from the last value, where that
- * distance is small enough for the linear regime and large enough to be seen. */
+/* The rate of settling, by least squares through the logarithm of the distance from the last value, where the
+ * distance is small enough to be linear and large enough to be seen. */
 static double relaxation_time(const returns *all)
 {
     if (all->count < 32)
         return NAN;
     double settled = all->asymmetry[all->count - 1];
     double s0 = 0, st = 0, sy = 0, stt = 0, sty = 0;
-    for (int i = 0; i < all->count * 3 / 4; i++) {
+    for (int i = 0; i < all->count * 3 / 4; ++i) {
         double distance = fabs(all->asymmetry[i] - settled);
         if (!(distance > 1e-7 && distance < 2e-2))
             continue;
@@ -88,7 +89,7 @@ static double relaxation_time(const returns *all)
     return s0 >= 8.0 && slope < 0.0 ? -1.0 / slope : NAN;
 }
 
-/* Whether the asymmetry, over the last eighth of the time, has stayed where it is. */
+/* Whether the asymmetry did not change over the last eighth of the time. */
 static int is_settled(const returns *all)
 {
     if (all->count < 32)
@@ -97,12 +98,12 @@ static int is_settled(const returns *all)
     return fabs(last - before) < 1e-4 * last + 1e-6;
 }
 
-/* Successive extremes of r, each by a parabola through three values, and from them p. */
+/* Find successive extremes of r, each by a parabola through three values, and p from them. */
 static double order_parameter(const double *r, int count)
 {
     double extremes[256];
     int found = 0;
-    for (int i = 1; i + 1 < count && found < 256; i++) {
+    for (int i = 1; i + 1 < count && found < 256; ++i) {
         double before = r[i] - r[i - 1], after = r[i + 1] - r[i];
         if (before * after > 0.0 || before == after)
             continue;
@@ -120,7 +121,7 @@ static double order_parameter(const double *r, int count)
     return pairs > 0 ? sum / pairs : NAN;
 }
 
-/* The end of the motion in small steps: r, and n_z averaged over whole returns. */
+/* Follow the end of the motion in small steps: r, and n_z averaged over whole returns. */
 static fst_status watch_end(probe *p, double t0, fst_halving_point *point, double *r_of_t, int kept,
                             fst_error *error)
 {
@@ -128,7 +129,7 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
     double r[COUNT], nz_sum = 0.0, step = p->period / FST_HALVING_PARTS, phi_first = 0.0;
     double partial = 0.0, weight = 0.0, nz_before = 0.0;
     fst_status status = FST_OK;
-    for (int i = 0; i < COUNT && status == FST_OK; i++) {
+    for (int i = 0; i < COUNT && status == FST_OK; ++i) {
         fst_stop stop;
         status = fst_flow_advance(p->flow, t0 + (i + 1) * step, 1u << FST_STOP_TIME, &stop, error);
         fst_flow_info info = fst_flow_get(p->flow);
@@ -138,7 +139,7 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
         else
             partial += 0.5 * (nz_before + info.state[FST_NZ]);
         nz_before = info.state[FST_NZ];
-        /* Whole turns of Phi alone count; the last one that is complete is kept. */
+        /* Only whole turns of Phi count; the last complete one is kept. */
         double turns = fabs(info.phi - phi_first) / (2.0 * PI);
         if (i > 0 && floor(turns) > weight) {
             weight = floor(turns);
@@ -149,7 +150,7 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
         return status;
     point->mean_nz = fabs(nz_sum);
     point->order = order_parameter(r, COUNT);
-    for (int i = 0; i < kept && i < COUNT; i++)
+    for (int i = 0; i < kept && i < COUNT; ++i)
         r_of_t[i] = r[i];
     return FST_OK;
 }
@@ -190,7 +191,7 @@ fst_status fst_probe_halving(const fst_params *params, double periods, fst_halvi
 double fst_power_exponent(const double *x, const double *y, int count, double x0)
 {
     double s0 = 0, su = 0, sv = 0, suu = 0, suv = 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; ++i) {
         if (!(y[i] > 0.0) || x[i] == x0)
             continue;
         double u = log(fabs(x[i] - x0)), v = log(y[i]);
@@ -206,7 +207,7 @@ double fst_power_exponent(const double *x, const double *y, int count, double x0
 double fst_line_zero(const double *x, const double *y, int count)
 {
     double s0 = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < count; ++i) {
         s0 += 1.0;
         sx += x[i];
         sy += y[i];
@@ -221,16 +222,16 @@ double fst_line_zero(const double *x, const double *y, int count)
 
 double fst_ansatz_force(const fst_model *model, double r, int sense)
 {
-    enum { ANGLES = 256 }; /* the mean of a smooth periodic function converges faster than any power */
+    enum { ANGLES = 256 }; /* the mean of a smooth periodic function converges faster than any power of this */
     fst_groups g = fst_model_groups(model);
     double sum = 0.0;
-    for (int i = 0; i < ANGLES; i++) {
+    for (int i = 0; i < ANGLES; ++i) {
         double phi = 2.0 * PI * i / ANGLES, c = cos(phi), s = sin(phi), b[3], gradient[3][3];
         fst_field(model, r * c, r * s, b, gradient);
         double moment = sense * phi + PI;
         double n[3] = {-sin(moment) * s, sin(moment) * c, -cos(moment)}, e[3] = {c, s, 0.0};
-        for (int k = 0; k < 3; k++)
-            for (int j = 0; j < 3; j++)
+        for (int k = 0; k < 3; ++k)
+            for (int j = 0; j < 3; ++j)
                 sum += n[k] * gradient[k][j] * e[j];
     }
     return g.kappa * g.eps * g.eps * sum / ANGLES;
@@ -243,7 +244,7 @@ void fst_ansatz_state(const fst_model *model, double r, double phi, double state
     double v = r * g.eps * rate, w = -r * rate; /* v_alpha + eps W_r = 0 */
     const double start[FST_STATE_SIZE] = {r * c,           r * s,        -v * s, v * c, -sin(moment) * s,
                                           sin(moment) * c, -cos(moment), w * c,  w * s, 0.0};
-    for (int i = 0; i < FST_STATE_SIZE; i++)
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
         state[i] = start[i];
 }
 
@@ -261,7 +262,7 @@ fst_status fst_probe_ansatz(const fst_params *params, double r, double phi, doub
     *survived = periods;
     *speed = NAN;
     before = status == FST_OK ? fst_flow_get(p.flow).alpha : 0.0;
-    for (int k = 0; k < (int)periods && status == FST_OK; k++) {
+    for (int k = 0; k < (int)periods && status == FST_OK; ++k) {
         fst_stop stop;
         status = fst_flow_advance(p.flow, (k + 1) * p.period, 1u << FST_STOP_TIME | 1u << FST_STOP_EDGE, &stop,
                                   error);
@@ -275,7 +276,7 @@ fst_status fst_probe_ansatz(const fst_params *params, double r, double phi, doub
         before = info.alpha;
         if (k == (int)periods / 2)
             middle = info.alpha;
-        if (stop == FST_STOP_EDGE) /* off the plate, with a speed that says nothing */
+        if (stop == FST_STOP_EDGE) /* it left the plate, where its speed means nothing */
             break;
         if (k + 1 == (int)periods)
             *speed = (info.alpha - middle) / ((k - (int)periods / 2) * wanted);

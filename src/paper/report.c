@@ -1,5 +1,8 @@
-/* report.c - report.html: the comparison for people, in one file that needs nothing else. */
-#include "paper/paper.h"
+/* report.c - report.html: the comparison for people, in one file that needs no other. */
+#include "paper/figures.h"
+#include "paper/report.h"
+#include "paper/runs.h"
+#include "paper/work.h"
 #include "paper/report_parts.h"
 
 #include "base/error.h"
@@ -8,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns show the printed equations first: they are what was published. */
+/* The printed equations come first in every table: they are what was published. */
 static const fst_dynamics order[FST_PAPER_DYNAMICS] = {FST_DYNAMICS_FARAGO2020, FST_DYNAMICS_RIGID};
 
 /* ------------------------------------------------------------------ the first page */
@@ -18,9 +21,9 @@ static void write_summary(FILE *out, const fst_paper_state *paper)
     int tally[FST_PAPER_DYNAMICS][3] = {{0}};
     (void)fst_paper_tally(paper, tally);
     int rows[FST_PAPER_DYNAMICS] = {0};
-    int known = fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE);
-    for (int row = 0; row < FST_TABLE1_ROWS && known; row++)
-        for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
+    int known = fst_paper_has(paper, FST_PAPER_STEP_RUNS, FST_SCAN_TABLE);
+    for (int row = 0; row < FST_TABLE1_ROWS && known; ++row)
+        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
             rows[d] += fst_table1_verdict(paper, row, (fst_dynamics)d) == FST_VERDICT_REPRODUCED;
     fputs(fst_report_introduction, out);
     if (!paper->complete)
@@ -32,7 +35,7 @@ static void write_summary(FILE *out, const fst_paper_state *paper)
           "printed</small></th><th>rigid<br><small>exact</small></th></tr></thead><tbody>\n",
           out);
     static const char *const names[] = {"statements reproduced", "close", "not reproduced"};
-    for (int v = 0; v < 3; v++)
+    for (int v = 0; v < 3; ++v)
         fprintf(out, "<tr><td>%s</td><td class=\"n\">%d</td><td class=\"n\">%d</td></tr>\n", names[v],
                 tally[order[0]][v], tally[order[1]][v]);
     fprintf(
@@ -60,12 +63,13 @@ static void write_festoons(FILE *out, const fst_paper_state *paper, int row, fst
         fprintf(out, "<br><small>%d at ω = %.7f</small></td>", fst_table1[row].count, closed->omega);
     else
         fprintf(out, "<br><small>%d: %s</small></td>", fst_table1[row].count,
-                paper->done[FST_STEP_EXACT] && !paper->exact[d].missing[0] ? "nowhere stable" : "not searched");
+                paper->done[FST_PAPER_STEP_EXACT] && !paper->exact[d].missing[0] ? "nowhere stable"
+                                                                                 : "not searched");
 }
 
 static void write_orbits_missing(FILE *out, const fst_paper_state *paper)
 {
-    for (int i = 0; i < FST_PAPER_DYNAMICS; i++) {
+    for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
         const fst_paper_exact *exact = &paper->exact[order[i]];
         const char *name = order[i] == FST_DYNAMICS_RIGID ? "rigid" : "farago2020";
         if (exact->missing[0]) {
@@ -85,7 +89,7 @@ static void write_orbits_missing(FILE *out, const fst_paper_state *paper)
 static void write_table1(FILE *out, const fst_paper_state *paper)
 {
     char command[256];
-    if (!fst_paper_has(paper, FST_STEP_RUNS, FST_SCAN_TABLE))
+    if (!fst_paper_has(paper, FST_PAPER_STEP_RUNS, FST_SCAN_TABLE))
         return;
     fst_paper_scan_command(paper, FST_SCAN_TABLE, FST_DYNAMICS_FARAGO2020, command, sizeof command);
     fputs("<h2 id=\"table1\">Table 1: how many festoons?</h2>\n"
@@ -99,10 +103,10 @@ static void write_table1(FILE *out, const fst_paper_state *paper)
           "<div class=\"scroll\"><table><thead><tr><th>drive "
           "ω</th><th>published</th><th>farago2020</th><th>rigid</th></tr></thead><tbody>\n",
           out);
-    for (int row = 0; row < FST_TABLE1_ROWS; row++) {
+    for (int row = 0; row < FST_TABLE1_ROWS; ++row) {
         fprintf(out, "<tr><td class=\"n\">%g</td><td class=\"n\">%.2f <small>S%d</small></td>",
                 fst_table1[row].omega, fst_table1[row].published, fst_table1[row].published_a);
-        for (int i = 0; i < FST_PAPER_DYNAMICS; i++)
+        for (int i = 0; i < FST_PAPER_DYNAMICS; ++i)
             write_festoons(out, paper, row, order[i]);
         fputs("</tr>\n", out);
     }
@@ -117,7 +121,7 @@ static void write_table1(FILE *out, const fst_paper_state *paper)
 
 static void write_values(FILE *out, const fst_statement *statement, const fst_finding *finding)
 {
-    for (int i = 0; i < FST_PAPER_DYNAMICS; i++) {
+    for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
         char value[64];
         fst_statement_value(statement, finding->value[order[i]], value, sizeof value);
         fprintf(out, "<tr><td>%s</td><td class=\"n\">",
@@ -146,14 +150,13 @@ static void write_notes(FILE *out, const fst_finding *finding)
     fputs(".</p>", out);
 }
 
-/* The rules come before what they judge. */
+/* The rules come before the statements that they judge. */
 static void write_rules(FILE *out)
 {
-    fputs("<p id=\"rules\">One set of rules holds for all of them. It asks how the paper prints what it says, "
-          "not "
-          "what came out here:</p>\n<dl class=\"rules\">\n",
+    fputs("<p id=\"rules\">One set of rules holds for all of them. The rules depend on how the paper prints a "
+          "number, not on what was computed here:</p>\n<dl class=\"rules\">\n",
           out);
-    for (int rule = 0; rule < FST_RULE_COUNT; rule++) {
+    for (int rule = 0; rule < FST_RULE_COUNT; ++rule) {
         fprintf(out, "<dt>%s: ", fst_rules[rule].name);
         fst_report_text(out, fst_rules[rule].kind);
         fputs("</dt><dd><b>reproduced:</b> ", out);
@@ -171,7 +174,7 @@ static void write_statements(FILE *out, const fst_paper_state *paper)
 {
     fputs("<h2 id=\"statements\">The paper's statements, one by one</h2>\n", out);
     write_rules(out);
-    for (int i = 0; i < fst_statement_count(); i++) {
+    for (int i = 0; i < fst_statement_count(); ++i) {
         const fst_statement *statement = fst_statement_at(i);
         if (!fst_statement_known(statement, paper))
             continue;
@@ -224,7 +227,7 @@ static fst_status write_figure(FILE *out, const fst_paper_state *paper, int inde
     fputs(" <span class=\"from\">The paper's ", out);
     fst_report_text(out, figure.source);
     fputs(".</span> ", out);
-    for (int i = 0; i < FST_PAPER_DYNAMICS; i++) {
+    for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
         if ((figure.each && order[i] != figure.dynamics) ||
             !fst_paper_figure_verdict(paper, &figure, order[i], &verdict))
             continue;
@@ -245,15 +248,15 @@ static fst_status write_figure(FILE *out, const fst_paper_state *paper, int inde
 
 static void write_regimes(FILE *out, const fst_paper_state *paper)
 {
-    fputs("<h2 id=\"regimes\">What was met on the way</h2>\n"
-          "<p>How the runs of Fig. comparison ended:</p><div "
+    fputs("<h2 id=\"regimes\">How the runs ended</h2>\n"
+          "<p>How the runs of Fig. 6 ended:</p><div "
           "class=\"scroll\"><table><thead><tr><th>motion</th><th>farago2020</th><th>rigid</th></tr></"
           "thead><tbody>\n",
           out);
-    for (int regime = FST_REGIME_UNDECIDED; regime <= FST_REGIME_LIFTED; regime++) {
+    for (int regime = FST_REGIME_UNDECIDED; regime <= FST_REGIME_LIFTED; ++regime) {
         int counts[FST_PAPER_DYNAMICS] = {0};
-        for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
-            for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; i++)
+        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
+            for (int i = 0; i < paper->counts[FST_SCAN_COMPARISON]; ++i)
                 counts[d] += paper->scans[FST_SCAN_COMPARISON][d][i].result.regime == (fst_regime)regime;
         if (counts[0] + counts[1] > 0)
             fprintf(out, "<tr><td>%s</td><td class=\"n\">%d</td><td class=\"n\">%d</td></tr>\n",
@@ -265,7 +268,7 @@ static void write_regimes(FILE *out, const fst_paper_state *paper)
 static void write_times(FILE *out, const fst_paper_state *paper)
 {
     fputs("<table><thead><tr><th>part</th><th>seconds</th></tr></thead><tbody>\n", out);
-    for (int i = 0; i < paper->part_count; i++)
+    for (int i = 0; i < paper->part_count; ++i)
         fprintf(out, "<tr><td>%s</td><td class=\"n\">%.1f</td></tr>\n", paper->parts[i].what,
                 paper->parts[i].seconds);
     fprintf(out,
@@ -304,11 +307,11 @@ static fst_status write_all(FILE *out, const fst_paper_state *paper, fst_error *
     write_table1(out, paper);
     fputs("<h2 id=\"figures\">The figures</h2>\n<div class=\"figures\">\n", out);
     fst_status status = FST_OK;
-    for (int i = 0; i < fst_paper_figure_count() && status == FST_OK; i++)
+    for (int i = 0; i < fst_paper_figure_count() && status == FST_OK; ++i)
         if (paper->drawn[i])
             status = write_figure(out, paper, i, error);
     fputs("</div>\n", out);
-    for (int i = 0; i < paper->films; i++)
+    for (int i = 0; i < paper->films; ++i)
         fprintf(
             out,
             "<p class=\"fine\">Film of the supplement, beside this page: %s.mp4 (festoon paper --films).</p>\n",

@@ -1,3 +1,4 @@
+/* report_parts.c - pieces of HTML: the head with its style, safe text, badges, and figures inside the page. */
 #include "paper/report_parts.h"
 
 #include "base/error.h"
@@ -53,13 +54,14 @@ const char fst_report_introduction[] =
     "whereas the printed equation sends it along a great circle. So the first column says whether the "
     "paper's computation is repeated, the second what a bead does.</p>\n"
     "<p>Lengths are in ℓ = 23 mm (half the length of the lines that model the magnet), times in 1/γ = 3.2 "
-    "ms, so that a drive ω = 0.201 is 10 Hz. Every number can be had again with the command below it, which "
-    "prints JSON; after the # stands how the number is read off that. Put <code>rigid</code> for "
+    "ms, so that a drive ω = 0.201 is 10 Hz. The command below a number "
+    "computes it again and prints JSON; the text after the # says how to read the number off that. Put "
+    "<code>rigid</code> for "
     "<code>farago2020</code> to get the other column, and a drive for <code>OMEGA</code>.</p>\n";
 
 void fst_report_text(FILE *out, const char *text)
 {
-    for (const char *c = text; *c; c++) {
+    for (const char *c = text; *c; ++c) {
         switch (*c) {
         case '<':
             fputs("&lt;", out);
@@ -92,7 +94,7 @@ void fst_report_badge(FILE *out, fst_verdict verdict)
     fprintf(out, "<span class=\"badge %s\">%s</span>", classes[verdict], fst_verdict_name(verdict));
 }
 
-/* Three bytes become four letters. */
+/* Base 64: three bytes become four letters. */
 static void write_base64(FILE *out, FILE *in)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -114,7 +116,7 @@ fst_status fst_report_image(FILE *out, const char *path, const char *alternative
         return fst_fail(error, FST_IO, path, "cannot read the figure again: %s", strerror(errno));
     fputs("<img alt=\"", out);
     fst_report_text(out, alternative);
-    /* As an image of its own a figure keeps its names and styles to itself. */
+    /* A figure that is an image of its own keeps its names and styles to itself. */
     fputs("\" src=\"data:image/svg+xml;base64,", out);
     write_base64(out, in);
     fputs("\">\n", out);

@@ -1,8 +1,8 @@
-/* report_parts.h - pieces of HTML for reports. */
+/* report_parts.h - pieces of HTML for the report. */
 #ifndef FST_PAPER_REPORT_PARTS_H
 #define FST_PAPER_REPORT_PARTS_H
 
-#include "paper/paper.h"
+#include "paper/statements.h"
 
 #include <stdio.h>
 
@@ -12,10 +12,10 @@ extern const char fst_report_head[], fst_report_introduction[];
 /* Text with <, >, & and " made safe. */
 void fst_report_text(FILE *out, const char *text);
 
-/* A command line. */
+/* A command, as a line of code. */
 void fst_report_code(FILE *out, const char *command);
 
-/* The coloured word for a verdict. */
+/* The coloured word of a verdict. */
 void fst_report_badge(FILE *out, fst_verdict verdict);
 
 /* An SVG file as an image inside the page. FST_IO: it cannot be read. */

@@ -1,5 +1,8 @@
-/* runs.c - the runs that the comparison with the paper rests on. */
-#include "paper/paper.h"
+/* runs.c - the runs on which the comparison with the paper rests, and the thresholds between kinds
+ * of motion. */
+#include "paper/runs.h"
+#include "paper/statements.h"
+#include "paper/work.h"
 
 #include "base/error.h"
 
@@ -7,13 +10,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The scans.  `low` and `high` are drives omega, `count` points with both ends; in a reduced paper
- * `reduced_count`.  Without a range the drives are those of Table 1. */
+/* The scans.  `low` and `high` are drives omega, `count` is the number of points with both ends
+ * (`reduced_count` in a reduced paper).  Without a range the drives are those of Table 1. */
 static const struct {
     double low, high;
     int count, reduced_count;
     const char *spin;    /* start.spin */
-    const char *samples; /* run.samples, where the trajectory is kept */
+    const char *samples; /* run.samples, for a scan that keeps its trajectories */
 } scans[FST_SCAN_COUNT] = {
     [FST_SCAN_COMPARISON] = {0.15, 0.50, 71, 8, "rolling", NULL},
     [FST_SCAN_FAST] = {0.5, 2.0, 31, 4, "rolling", NULL},
@@ -30,7 +33,7 @@ static const struct {
 static const struct {
     fst_scan scan;
     int halvings, reduced_halvings;
-    const char *periods, *discard; /* NULL: as usual */
+    const char *periods, *discard; /* NULL: the usual ones */
 } changes[FST_CHANGE_COUNT] = {
     /* Close to the threshold the motion settles ever more slowly, so these runs are long. */
     [FST_CHANGE_HALVING] = {FST_SCAN_COMPARISON, 7, 6, "1200", "1100"},
@@ -38,15 +41,15 @@ static const struct {
     [FST_CHANGE_COROTATION] = {FST_SCAN_SLOW, 5, 5, NULL, NULL},
 };
 
-/* |<n_z>| above which a motion is taken to lack the symmetry S2: far above what is left of a transient. */
+/* A motion with a |<n_z>| above this lacks the symmetry S2; the rest of a transient is far smaller. */
 #define ASYMMETRIC 1e-3
 
-/* The bead of FST_SCAN_ANISOTROPIC: as magnetisable along its axis as across, and no remanence. */
+/* The bead of FST_SCAN_ANISOTROPIC: equally magnetisable along its axis and across, without remanence. */
 static const struct {
     const char *key, *value;
 } anisotropic[] = {{"bead.material", "mixed"}, {"model.kappa", "0"}, {"bead.a", "0.001"}, {"bead.b", "0.001"}};
 
-/* A reduced paper's runs are shorter; the fingerprints of the motion are there all the same. */
+/* A reduced paper's runs are shorter; the motions have the same character. */
 static const char *const reduced_periods = "160", *const reduced_discard = "100";
 
 static double scan_omega(const fst_paper_state *paper, fst_scan scan, int index)
@@ -78,7 +81,7 @@ static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_d
     status = set(params, "start.spin", scans[scan].spin, status, error);
     if (scan == FST_SCAN_CONJUGATE) /* the image of the usual start, 3 deg, under S2 */
         status = set(params, "start.phi", "183", status, error);
-    for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; i++)
+    for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; ++i)
         status = set(params, anisotropic[i].key, anisotropic[i].value, status, error);
     if (scans[scan].samples)
         status = set(params, "run.samples", scans[scan].samples, status, error);
@@ -93,12 +96,12 @@ static fst_status make_run(fst_paper_state *paper, fst_scan scan, fst_paper_run 
 {
     fst_table *trajectory = scans[scan].samples ? &run->trajectory : NULL;
     const fst_status status =
-        fst_paper_run_settled(&run->params, &paper->patience, &run->result, trajectory, error);
+        fst_paper_run_settled(&run->params, &paper->obedience, &run->result, trajectory, error);
     run->done = status == FST_OK;
     return status;
 }
 
-/* The command for one run of a scan, its drive given as text, its length that of `params`. */
+/* Write the command for one run of a scan, with its drive given as text and its length from `params`. */
 static void write_command(const fst_params *params, fst_scan scan, fst_dynamics dynamics, const char *omega,
                           char *text, size_t size)
 {
@@ -107,7 +110,7 @@ static void write_command(const fst_params *params, fst_scan scan, fst_dynamics 
                                    omega, dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020",
                                    strcmp(scans[scan].spin, "rest") == 0 ? " --set start.spin=rest" : "",
                                    scan == FST_SCAN_CONJUGATE ? " --set start.phi=183" : "");
-    for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; i++)
+    for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; ++i)
         if (used < size)
             used += (size_t)snprintf(text + used, size - used, " --set %s=%s", anisotropic[i].key,
                                      anisotropic[i].value);
@@ -122,7 +125,8 @@ void fst_paper_scan_command(const fst_paper_state *paper, fst_scan scan, fst_dyn
     char omega[32] = "OMEGA";
     if (paper->counts[scan] == 1)
         (void)snprintf(omega, sizeof omega, "%g", scans[scan].low);
-    /* Of many runs some may have been longer, until they settled: the length is that of the first. */
+    /* Where a scan has many runs, some may have been longer, until they settled; the command has the length of
+     * the first. */
     write_command(&paper->scans[scan][dynamics][0].params, scan, dynamics, omega, text, size);
     size_t used = strlen(text);
     if (paper->counts[scan] > 1 && scan != FST_SCAN_TABLE)
@@ -146,15 +150,16 @@ void fst_paper_table1_command(const fst_paper_state *paper, int row, fst_dynamic
 static int piece_count(const fst_paper_state *paper)
 {
     int count = 0;
-    for (int scan = paper->first_scan; scan < FST_SCAN_COUNT; scan++)
+    for (int scan = paper->first_scan; scan < FST_SCAN_COUNT; ++scan)
         count += FST_PAPER_DYNAMICS * paper->counts[scan];
     return count;
 }
 
 static fst_status scan_piece(fst_paper_state *paper, int index, fst_error *error)
 {
-    /* The scans from rest take longest (a libration near its threshold dies out slowly): they begin. */
-    for (int scan = FST_SCAN_COUNT - 1; scan >= 0; scan--) {
+    /* The scans from rest take longest, because a libration near its threshold dies out slowly: begin with
+     * them. */
+    for (int scan = FST_SCAN_COUNT - 1; scan >= 0; --scan) {
         int here = FST_PAPER_DYNAMICS * paper->counts[scan];
         if (index < here) {
             int point = index / FST_PAPER_DYNAMICS;
@@ -168,7 +173,7 @@ static fst_status scan_piece(fst_paper_state *paper, int index, fst_error *error
 
 /* ------------------------------------------------------------------ changes */
 
-/* Is the motion still the one below the change? */
+/* Whether the motion is still the one below the change. */
 static int is_below(fst_change change, const fst_run_result *result)
 {
     if (change == FST_CHANGE_HALVING)
@@ -177,7 +182,7 @@ static int is_below(fst_change change, const fst_run_result *result)
            (change == FST_CHANGE_COROTATION && result->regime == FST_REGIME_LIBRATING);
 }
 
-/* Is a run at `omega` below the change?  -1: it has not settled, so that it does not tell. */
+/* Whether a run at `omega` is below the change; -1: it has not settled, so it does not tell. */
 static fst_status probe(const fst_paper_state *paper, fst_change change, fst_dynamics dynamics, double omega,
                         int *below, fst_error *error)
 {
@@ -189,7 +194,7 @@ static fst_status probe(const fst_paper_state *paper, fst_change change, fst_dyn
         status = set(&params, "run.discard", changes[change].discard, status, error);
     }
     if (status == FST_OK)
-        status = fst_paper_run_settled(&params, &paper->patience, &result, NULL, error);
+        status = fst_paper_run_settled(&params, &paper->obedience, &result, NULL, error);
     if (status == FST_OK)
         *below = isnan(result.mean_r) && fst_paper_may_settle(&result) ? -1 : is_below(change, &result);
     return status;
@@ -203,8 +208,9 @@ static double exact_change(const fst_paper_exact *exact, fst_change change)
                                          : exact->origin;
 }
 
-/* The last change of a scan, refined by bisection; NAN where the scan has none. The last: a bead at rest under
- * the magnet begins to swing near 4.9 Hz and is at rest again, beside it, from 6.4 to 7.6 Hz. */
+/* Find the last change of a scan and refine it by bisection; NAN where the scan has none.  It must be the last
+ * one: a bead at rest under the magnet begins to swing near 4.9 Hz and is at rest again, beside it, from 6.4 to
+ * 7.6 Hz. */
 static fst_status find_change(fst_paper_state *paper, int index, fst_error *error)
 {
     fst_change change = (fst_change)(index / FST_PAPER_DYNAMICS);
@@ -220,18 +226,19 @@ static fst_status find_change(fst_paper_state *paper, int index, fst_error *erro
     }
     int last = paper->counts[scan] - 2;
     while (last > 0 && !is_below(change, &runs[last].result))
-        last--;
+        --last;
     if (last < 1 || is_below(change, &runs[last + 1].result))
         return FST_OK;
-    /* The scan's runs are shorter, and next to the change one may not have settled: one point further out. */
+    /* The scan's runs are shorter than these, and next to the change one may not have settled: begin one point
+     * further out. */
     bracket->low = scan_omega(paper, scan, last - 1);
     bracket->high = scan_omega(paper, scan, last + 1);
     int halvings = paper->options->reduced ? changes[change].reduced_halvings : changes[change].halvings;
     fst_status status = FST_OK;
-    for (int i = 0, below = 0; i < halvings && status == FST_OK && below >= 0; i++) {
+    for (int i = 0, below = 0; i < halvings && status == FST_OK && below >= 0; ++i) {
         double middle = 0.5 * (bracket->low + bracket->high);
         status = probe(paper, change, dynamics, middle, &below, error);
-        if (below >= 0) /* else the bracket stays as wide as it is */
+        if (below >= 0) /* otherwise the bracket stays as wide as it is */
             *(below ? &bracket->low : &bracket->high) = middle;
     }
     return status;
@@ -246,7 +253,7 @@ static fst_status begin_scan(fst_paper_state *paper, fst_scan scan, fst_dynamics
     if (!runs)
         return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d runs", paper->counts[scan]);
     fst_status status = FST_OK;
-    for (int i = 0; i < paper->counts[scan] && status == FST_OK; i++)
+    for (int i = 0; i < paper->counts[scan] && status == FST_OK; ++i)
         status = scan_params(paper, scan, dynamics, scan_omega(paper, scan, i), &runs[i].params, error);
     return status;
 }
@@ -254,11 +261,11 @@ static fst_status begin_scan(fst_paper_state *paper, fst_scan scan, fst_dynamics
 fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error)
 {
     fst_status status = FST_OK;
-    for (int scan = 0; scan < FST_SCAN_COUNT; scan++)
+    for (int scan = 0; scan < FST_SCAN_COUNT; ++scan)
         paper->counts[scan] = paper->options->reduced ? scans[scan].reduced_count : scans[scan].count;
-    for (int d = 0; d < FST_PAPER_DYNAMICS && status == FST_OK; d++) {
+    for (int d = 0; d < FST_PAPER_DYNAMICS && status == FST_OK; ++d) {
         fst_paper_exact_begin(&paper->exact[d]);
-        for (int scan = 0; scan < FST_SCAN_COUNT && status == FST_OK; scan++)
+        for (int scan = 0; scan < FST_SCAN_COUNT && status == FST_OK; ++scan)
             status = begin_scan(paper, (fst_scan)scan, (fst_dynamics)d, error);
     }
     return status;
@@ -266,13 +273,13 @@ fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error)
 
 fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error)
 {
-    fst_paper_stage runs = {"runs", 0.0, 0.45, piece_count(paper), FST_STEP_RUNS, scan_piece};
+    fst_paper_stage runs = {"runs", 0.0, 0.45, piece_count(paper), FST_PAPER_STEP_RUNS, scan_piece};
     return fst_paper_do(paper, &runs, error);
 }
 
 fst_status fst_paper_find_orbits(fst_paper_state *paper, fst_error *error)
 {
-    fst_paper_stage exact = {"periodic orbits",   0.5, 0.6, FST_PAPER_DYNAMICS, FST_STEP_EXACT,
+    fst_paper_stage exact = {"periodic orbits",   0.5, 0.6, FST_PAPER_DYNAMICS, FST_PAPER_STEP_EXACT,
                              fst_paper_find_exact};
     return fst_paper_do(paper, &exact, error);
 }
@@ -280,17 +287,17 @@ fst_status fst_paper_find_orbits(fst_paper_state *paper, fst_error *error)
 fst_status fst_paper_find_thresholds(fst_paper_state *paper, fst_error *error)
 {
     fst_paper_stage changes_stage = {
-        "thresholds", 0.6, 0.65, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, FST_STEP_THRESHOLDS, find_change};
+        "thresholds", 0.6, 0.65, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, FST_PAPER_STEP_THRESHOLDS, find_change};
     return fst_paper_do(paper, &changes_stage, error);
 }
 
 int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan scan)
 {
-    if (step != FST_STEP_RUNS && !paper->done[step])
+    if (step != FST_PAPER_STEP_RUNS && !paper->done[step])
         return 0;
-    for (int s = (int)scan; s < FST_SCAN_COUNT; s++)
-        for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
-            for (int i = 0; i < paper->counts[s]; i++)
+    for (int s = (int)scan; s < FST_SCAN_COUNT; ++s)
+        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
+            for (int i = 0; i < paper->counts[s]; ++i)
                 if (!paper->scans[s][d] || !paper->scans[s][d][i].done)
                     return 0;
     return 1;
@@ -298,13 +305,13 @@ int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan sc
 
 void fst_paper_free_runs(fst_paper_state *paper)
 {
-    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
+    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; ++dynamics) {
         free(paper->search[dynamics]);
         paper->search[dynamics] = NULL;
     }
-    for (int scan = 0; scan < FST_SCAN_COUNT; scan++) {
-        for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
-            for (int i = 0; paper->scans[scan][dynamics] && i < paper->counts[scan]; i++)
+    for (int scan = 0; scan < FST_SCAN_COUNT; ++scan) {
+        for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; ++dynamics) {
+            for (int i = 0; paper->scans[scan][dynamics] && i < paper->counts[scan]; ++i)
                 fst_table_free(&paper->scans[scan][dynamics][i].trajectory);
             free(paper->scans[scan][dynamics]);
             paper->scans[scan][dynamics] = NULL;

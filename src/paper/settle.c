@@ -1,19 +1,19 @@
-/* settle.c - runs that are followed until their motion has settled, so that no statement rests on means
- * of one that has not. */
+/* settle.c - runs that are made longer until their motion has settled, so that no statement rests on the means
+ * of a transient. */
 #include "io/collect.h"
-#include "paper/paper.h"
+#include "paper/runs.h"
 
 #include <stdio.h>
 
-/* A run that has not settled is made again, twice as long and without what it was, so many times at most. */
+/* A run that has not settled is made again, twice as long and with all of the earlier time discarded, at most
+ * so many times. */
 enum { MOST_DOUBLINGS = 3 };
-/* Errors of the means, relative, from which on a mean is not known: the verdicts ask for a hundredth at best.
- */
+/* A mean with a greater relative error than this is not known: the verdicts ask for a hundredth at best. */
 static const double KNOWN = 1e-3;
 
 static int is_known(double mean, double error, double scale)
 {
-    return error <= KNOWN * fmax(fabs(mean), scale); /* and not where it is undefined */
+    return error <= KNOWN * fmax(fabs(mean), scale); /* false where the error is undefined */
 }
 
 int fst_paper_is_settled(const fst_run_result *result)
@@ -32,7 +32,7 @@ int fst_paper_may_settle(const fst_run_result *result)
            result->regime != FST_REGIME_EJECTED && result->regime != FST_REGIME_LIFTED;
 }
 
-/* All means undefined, so that nothing can rest on them. */
+/* Make all means undefined, so that nothing can rest on them. */
 static void forget_means(fst_run_result *result)
 {
     const double omega = result->omega, frequency = result->frequency_hz, periods = result->periods;
@@ -53,11 +53,8 @@ fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progres
                                  fst_table *trajectory, fst_error *error)
 {
     fst_run_options options = fst_default_run_options();
-    if (progress) {
-        options.sink.user = progress->user;
-        options.sink.progress = progress->tell;
-    }
-    for (int doublings = 0;; doublings++) {
+    options.progress = progress;
+    for (int doublings = 0;; ++doublings) {
         const fst_status status = trajectory ? fst_collect_run(params, progress, result, trajectory, error)
                                              : fst_run(params, &options, result, error);
         if (status != FST_OK || !fst_paper_may_settle(result))
@@ -76,7 +73,7 @@ fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progres
 int fst_paper_unsettled(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
 {
     int count = 0;
-    for (int i = 0; scan < FST_SCAN_NONE && i < paper->counts[scan]; i++) {
+    for (int i = 0; scan < FST_SCAN_NONE && i < paper->counts[scan]; ++i) {
         const fst_paper_run *run = &paper->scans[scan][dynamics][i];
         count += run->done && fst_paper_may_settle(&run->result);
     }

@@ -1,6 +1,7 @@
-/* stages.c - the probes of the paper: near the period halving, on the corotating motion, and of beads
- * that the field magnetises. */
-#include "paper/paper.h"
+/* stages.c - the stages of the paper that make its probes: near the period halving, on the corotating motion,
+ * and of beads that the field magnetises. */
+#include "paper/runs.h"
+#include "paper/work.h"
 
 #include "base/error.h"
 
@@ -14,7 +15,7 @@ const double fst_remanence_strengths[FST_REMANENCE_STRENGTHS] = {1e-3, 1.4e-3, 1
 static const double halving_offsets[FST_HALVING_POINTS] = {-0.010,  -0.008,  -0.006,  -0.0045, -0.0035, -0.0025,
                                                            -0.0018, -0.0012, -0.0006, -0.0003, 0.0015,  0.0022,
                                                            0.003,   0.0045,  0.0065,  0.010};
-/* The relaxation time goes as the inverse distance: nearer than this the motion is followed for longer. */
+/* The relaxation time grows as the inverse distance: nearer than this the motion is followed for longer. */
 static const double NEAR_THRESHOLD = 0.0012;
 
 enum { SEARCH = 240, REDUCED_SEARCH = 24 };
@@ -43,8 +44,8 @@ static fst_status halving_piece(fst_paper_state *paper, int index, fst_error *er
     halving->points[point] = (fst_halving_point){NAN, NAN, NAN, NAN};
     if (!isfinite(centre))
         return FST_OK;
-    /* A reduced paper knows the threshold less well and follows the motion for less long: it keeps further off.
-     */
+    /* A reduced paper knows the threshold less well and follows the motion for less long, so it stays further
+     * away. */
     double wider = paper->options->reduced ? 4.0 : 1.0;
     double offset = wider * halving_offsets[point];
     fst_params params = probe_params(dynamics, centre + offset);
@@ -67,10 +68,10 @@ double fst_paper_halving_line(const fst_paper_state *paper, fst_dynamics dynamic
     enum { NEAREST = 5, LEFT_OUT = 2 };
     double omega[NEAREST], square[NEAREST];
     int count = 0;
-    for (int i = 0; i < NEAREST; i++) {
+    for (int i = 0; i < NEAREST; ++i) {
         const fst_halving_point *point =
             &paper->halving[dynamics].points[FST_HALVING_BELOW - LEFT_OUT - NEAREST + i];
-        if (isnan(point->mean_nz)) /* it has not settled */
+        if (isnan(point->mean_nz)) /* this one has not settled */
             continue;
         omega[count] = point->omega;
         square[count++] = point->mean_nz * point->mean_nz;
@@ -99,11 +100,12 @@ static fst_status search_piece(fst_paper_state *paper, int index, fst_error *err
     return fst_search_one(start, (fst_dynamics)dynamics, &paper->search[dynamics][start], error);
 }
 
-/* The identities hold over any window, with what the state's change adds; a mean by itself tells of the motion
- * only over one in which that is little. */
+/* The identities hold over any window, with the term from the change of the state.  A mean by itself describes
+ * the motion only over a window in which that term is small. */
 static fst_status balance_piece(fst_paper_state *paper, int index, fst_error *error)
 {
-    /* Strengths and drives where the bead is locked, and where it circles and is far from any period. */
+    /* Strengths and drives at which the bead is locked, and at which it circles and its motion is far from
+     * periodic. */
     static const double cases[FST_BALANCE_CASES][2] = {{5e-3, 0.1}, {1e-3, 0.3}, {5e-3, 0.6}};
     static const double discards[] = {50.0, 350.0, 750.0}, windows[] = {100.0, 400.0, 800.0};
     int motion = index / FST_PAPER_DYNAMICS, dynamics = index % FST_PAPER_DYNAMICS;
@@ -113,12 +115,12 @@ static fst_status balance_piece(fst_paper_state *paper, int index, fst_error *er
     params.bead_a = cases[motion][0];
     fst_status status = fst_paramagnet_balances(&params, discards[0], windows[0], balances, error);
     *settled = *balances;
-    for (int i = 1; i < 3 && status == FST_OK && !fst_balances_settled(settled); i++)
+    for (int i = 1; i < 3 && status == FST_OK && !fst_balances_settled(settled); ++i)
         status = fst_paramagnet_means(&params, discards[i], windows[i], settled, error);
     return status;
 }
 
-/* The figure shows all of `rigid`; of the other dynamics the statement alone needs a number. */
+/* The figure shows all of `rigid`.  With the other dynamics only the statement needs a number. */
 static fst_status remanence_piece(fst_paper_state *paper, int index, fst_error *error)
 {
     int dynamics = index % FST_PAPER_DYNAMICS, place = index / FST_PAPER_DYNAMICS;
@@ -132,7 +134,7 @@ static fst_status remanence_piece(fst_paper_state *paper, int index, fst_error *
     params.bead_a = fst_remanence_strengths[strength];
     params.run_rtol = 1e-8;
     fst_kappa_scan scan = paper->options->reduced ? reduced_remanence_scan : fst_remanence_scan;
-    scan.progress = &paper->patience;
+    scan.progress = &paper->obedience;
     return fst_least_kappa(&params, &scan, least, error);
 }
 
@@ -141,26 +143,27 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *o
     paper->search_count = paper->options->starts > 0 ? paper->options->starts
                           : paper->options->reduced  ? REDUCED_SEARCH
                                                      : SEARCH;
-    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; dynamics++) {
+    for (int dynamics = 0; dynamics < FST_PAPER_DYNAMICS; ++dynamics) {
         paper->search[dynamics] = calloc((size_t)paper->search_count, sizeof *paper->search[dynamics]);
         if (!paper->search[dynamics])
             return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d starts", paper->search_count);
     }
     const fst_paper_stage stages[] = {
-        {"period halving", 0.65, 0.72, FST_HALVING_POINTS * FST_PAPER_DYNAMICS, FST_STEP_HALVING,
+        {"period halving", 0.65, 0.72, FST_HALVING_POINTS * FST_PAPER_DYNAMICS, FST_PAPER_STEP_HALVING,
          halving_piece},
         {"rapid corotation", 0.72, 0.75, FST_PAPER_DYNAMICS * FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS,
-         FST_STEP_ANSATZ, ansatz_piece},
-        {"paramagnetic beads", 0.75, 0.87, FST_PAPER_DYNAMICS * paper->search_count, FST_STEP_SEARCH,
+         FST_PAPER_STEP_ANSATZ, ansatz_piece},
+        {"paramagnetic beads", 0.75, 0.87, FST_PAPER_DYNAMICS * paper->search_count, FST_PAPER_STEP_SEARCH,
          search_piece},
-        {"identities", 0.87, 0.88, FST_PAPER_DYNAMICS * FST_BALANCE_CASES, FST_STEP_BALANCES, balance_piece},
-        /* The statement alone rests on the first drive and strength. */
+        {"identities", 0.87, 0.88, FST_PAPER_DYNAMICS * FST_BALANCE_CASES, FST_PAPER_STEP_BALANCES,
+         balance_piece},
+        /* The statement rests on the first drive and strength only. */
         {"remanence", 0.88, 0.97,
-         FST_PAPER_DYNAMICS * (only ? 1 : FST_REMANENCE_DRIVES * FST_REMANENCE_STRENGTHS), FST_STEP_REMANENCE,
-         remanence_piece},
+         FST_PAPER_DYNAMICS * (only ? 1 : FST_REMANENCE_DRIVES * FST_REMANENCE_STRENGTHS),
+         FST_PAPER_STEP_REMANENCE, remanence_piece},
     };
     fst_status status = FST_OK;
-    for (size_t i = 0; i < sizeof stages / sizeof stages[0] && status == FST_OK; i++)
+    for (size_t i = 0; i < sizeof stages / sizeof stages[0] && status == FST_OK; ++i)
         if (!only || *only == stages[i].step)
             status = fst_paper_do(paper, &stages[i], error);
     return status;

@@ -1,5 +1,8 @@
-/* statements.c - what the paper says in words, held against the runs; verdicts.c judges it. */
+/* statements.c - the list of the paper's statements, each with the command that gives its number again;
+ * verdicts.c judges them. */
 #include "paper/measures.h"
+#include "paper/runs.h"
+#include "paper/statements.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +21,7 @@ static const fst_statement statements[] = {
      FST_RULE_##rule,                                                                                          \
      fst_measure_##measure,                                                                                    \
      FST_SCAN_##scan,                                                                                          \
-     FST_STEP_##step,                                                                                          \
+     FST_PAPER_STEP_##step,                                                                                    \
      reads,                                                                                                    \
      checks},
 #define STATEMENT(...) ROW(__VA_ARGS__, 0)
@@ -47,13 +50,13 @@ int fst_statement_known(const fst_statement *statement, const fst_paper_state *p
 int fst_paper_tally(const fst_paper_state *paper, int tally[FST_PAPER_DYNAMICS][3])
 {
     int count = 0;
-    for (int i = 0; i < fst_statement_count(); i++) {
+    for (int i = 0; i < fst_statement_count(); ++i) {
         if (statements[i].check || !fst_statement_known(&statements[i], paper))
             continue;
         fst_finding finding = fst_statement_check(&statements[i], paper);
-        for (int d = 0; d < FST_PAPER_DYNAMICS; d++)
+        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
             tally[d][finding.verdict[d]]++;
-        count++;
+        ++count;
     }
     return count;
 }
@@ -83,7 +86,7 @@ const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dyn
 static void write_rules(FILE *out)
 {
     (void)fputs("| rule | what the paper prints | reproduced | close |\n| --- | --- | --- | --- |\n", out);
-    for (int rule = 0; rule < FST_RULE_COUNT; rule++)
+    for (int rule = 0; rule < FST_RULE_COUNT; ++rule)
         (void)fprintf(out, "| %s | %s | %s | %s |\n", fst_rules[rule].name, fst_rules[rule].kind,
                       fst_rules[rule].reproduced, fst_rules[rule].close);
 }
@@ -97,7 +100,7 @@ char *fst_paper_statements_text(void)
         return NULL;
     write_rules(out);
     (void)fputs("\n| section | statement | published | rule |\n| --- | --- | --- | --- |\n", out);
-    for (int i = 0; i < fst_statement_count(); i++) {
+    for (int i = 0; i < fst_statement_count(); ++i) {
         const fst_statement *statement = &statements[i];
         char published[64];
         fst_statement_value(statement, statement->published, published, sizeof published);

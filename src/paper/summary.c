@@ -1,5 +1,5 @@
-/* summary.c - what `festoon paper` says on a terminal. */
-#include "paper/paper.h"
+/* summary.c - what `festoon paper` prints on a terminal. */
+#include "paper/report.h"
 
 #include <stdio.h>
 #include <stdlib.h>

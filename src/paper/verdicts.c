@@ -1,14 +1,17 @@
-/* verdicts.c - one set of rules for all statements, made from how the paper prints what it says. */
-#include "paper/paper.h"
+/* verdicts.c - one set of rules for all statements.  A rule depends on how the paper prints a number, and never
+ * on what was computed. */
+#include "paper/statements.h"
+#include "paper/runs.h"
 
 #include <stdio.h>
 
-/* Shares of the natural scale within which a claim in words is met, and nearly met. */
+/* Within these shares of its natural scale a claim in words is met, or nearly met. */
 static const double SMALL[2] = {0.1, 0.3}, NOTABLE[2] = {0.1, 0.03}, MOST[2] = {0.5, 0.25},
                     EXACT[2] = {1e-6, 1e-3};
-/* A printed number: its rounding, and ten units of its last digit, but never more than a fifth of it. */
+/* A printed number: half a unit of its last digit; close is ten units, but never more than a fifth of the
+ * number. */
 static const double UNITS[2] = {0.5, 10.0}, FARTHEST = 0.2;
-/* An order of magnitude, in decimal logarithms. */
+/* An order of magnitude: distances in decimal logarithms. */
 static const double ORDERS[2] = {0.5, 1.0};
 
 const fst_rule_words fst_rules[FST_RULE_COUNT] = {
@@ -42,7 +45,7 @@ const char *fst_verdict_name(fst_verdict verdict)
     return names[verdict];
 }
 
-/* Half a unit of the last digit, or ten, for `verdict` reproduced or close. */
+/* The distance allowed for `verdict`: half a unit of the last digit for reproduced, ten units for close. */
 static double room(const fst_statement *statement, fst_verdict verdict)
 {
     double half = UNITS[FST_VERDICT_REPRODUCED] * statement->scale, ten = UNITS[verdict] * statement->scale;
@@ -50,7 +53,7 @@ static double room(const fst_statement *statement, fst_verdict verdict)
                                              : fmax(half, fmin(ten, FARTHEST * fabs(statement->published)));
 }
 
-/* Does the value earn `verdict` (reproduced or close)?  A NAN passes nothing. */
+/* Whether the value earns `verdict` (reproduced or close).  NAN never does. */
 static int passes(const fst_statement *statement, double value, fst_verdict verdict)
 {
     double scale = statement->scale, distance = fabs(value - statement->published);
@@ -85,7 +88,7 @@ fst_verdict fst_statement_verdict(const fst_statement *statement, double value)
                                                             : FST_VERDICT_NOT;
 }
 
-/* A statement about one motion that has not settled has no value; where a value is missing and runs have not
+/* A statement about one motion that has not settled has no value.  Where a value is missing and runs have not
  * settled, the note says that it is undecided. */
 static double unless_unsettled(const fst_statement *statement, const fst_paper_state *paper,
                                fst_dynamics dynamics, double value, char *note, size_t size)
@@ -105,7 +108,7 @@ static double unless_unsettled(const fst_statement *statement, const fst_paper_s
 fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper)
 {
     fst_finding finding = {.note = {"", ""}};
-    for (int d = 0; d < FST_PAPER_DYNAMICS; d++) {
+    for (int d = 0; d < FST_PAPER_DYNAMICS; ++d) {
         double value = statement->measure(paper, (fst_dynamics)d, finding.note[d], sizeof finding.note[d]);
         value =
             unless_unsettled(statement, paper, (fst_dynamics)d, value, finding.note[d], sizeof finding.note[d]);
@@ -115,7 +118,7 @@ fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_
     return finding;
 }
 
-/* "40.5 to 41.5 mm" for a number, else the rule's words. */
+/* The interval "40.5 to 41.5 mm" for a number, otherwise the words of the rule. */
 void fst_statement_criterion(const fst_statement *statement, char *text, size_t size)
 {
     const fst_rule_words *words = &fst_rules[statement->rule];

@@ -1,8 +1,9 @@
-/* work.c - how a stage of the paper is done: on all processors, with its time noted; and where its files lie.
- */
-#include "paper/paper.h"
+/* work.c - doing a stage of the paper on all processors and noting its time; names of files; the machine in
+ * words. */
+#include "paper/work.h"
 
 #include "base/clock.h"
+#include "base/watch.h"
 #include "host/parallel.h"
 
 #include <stdio.h>
@@ -31,15 +32,12 @@ static fst_status piece_of_stage(void *user, int index, fst_error *error)
     return work->stage->piece(work->paper, index, error);
 }
 
-static fst_status progress_of_stage(void *user, int done, fst_error *error)
+static fst_status tell_of_stage(void *user, double fraction, const char *what, fst_error *error)
 {
     const stage_in_work *work = user;
-    const fst_paper_options *options = work->paper->options;
     const fst_paper_stage *stage = work->stage;
-    if (!options->progress)
-        return FST_OK;
-    double fraction = stage->from + (stage->to - stage->from) * done / stage->count;
-    const fst_status status = options->progress(options->user, fraction, stage->what, error);
+    fst_part part = {work->paper->options->progress, stage->from, stage->to, stage->what};
+    const fst_status status = fst_part_tell(&part, fraction, what, error);
     if (status != FST_OK)
         atomic_store(&work->paper->refused, 1);
     return status;
@@ -49,7 +47,7 @@ void fst_paper_note_time(fst_paper_state *paper, const char *what, double began)
 {
     int part = 0;
     while (part < paper->part_count && strcmp(paper->parts[part].what, what) != 0)
-        part++;
+        ++part;
     if (part == FST_MOST_PARTS)
         return;
     if (part == paper->part_count)
@@ -77,11 +75,11 @@ fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_stage *stage, fs
 {
     double began = fst_clock_seconds();
     stage_in_work in_work = {paper, stage};
-    fst_work work = {
-        .user = &in_work, .count = stage->count, .piece = piece_of_stage, .progress = progress_of_stage};
+    const fst_progress progress = {&in_work, tell_of_stage};
+    fst_work work = {.user = &in_work, .count = stage->count, .piece = piece_of_stage, .progress = &progress};
     fst_status status = fst_parallel(&work, error);
     fst_paper_note_time(paper, stage->what, began);
-    if (status == FST_OK && stage->step < FST_STEP_COUNT)
+    if (status == FST_OK && stage->step < FST_PAPER_STEP_COUNT)
         paper->done[stage->step] = 1;
     return status;
 }

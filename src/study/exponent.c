@@ -24,7 +24,8 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "ensemble/lanes.h"
+#include "base/watch.h"
+#include "lanes/lanes.h"
 #include "ode/flow.h"
 #include "study/growth.h"
 
@@ -253,7 +254,7 @@ fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent 
         if (progress && steps % STEPS_UNTOLD == 0) {
             for (int l = 0; l < count; ++l)
                 keep_way(&b, l);
-            status = progress->tell(progress->user, fraction_done(&b), error);
+            status = fst_tell(progress, fraction_done(&b), NULL, error);
         }
     free(b.memory);
     return status;

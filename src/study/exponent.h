@@ -4,7 +4,7 @@
 
 #include <festoon/festoon.h>
 
-#include "ensemble/tangents.h"
+#include "lanes/tangents.h"
 
 enum { FST_EXPONENT_WAY = 1024 };
 

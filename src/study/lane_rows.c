@@ -259,9 +259,9 @@ static void finish(fst_row_worker *w, fst_lane_batch *b, int l, fst_status statu
         w->waiting[w->waiting_count++] = at->job;
 }
 
-static fst_status watch_exponents(void *user, double fraction, fst_error *error)
+static fst_status watch_exponents(void *user, double fraction, const char *what, fst_error *error)
 {
-    (void)fraction;
+    (void)fraction, (void)what;
     return fst_worker_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 

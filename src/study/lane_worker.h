@@ -3,7 +3,7 @@
 #ifndef FST_STUDY_LANE_WORKER_H
 #define FST_STUDY_LANE_WORKER_H
 
-#include "ensemble/lanes.h"
+#include "lanes/lanes.h"
 #include "study/run_image.h"
 
 enum { FST_MOST_DEFERRED = 2 * FST_MOST_LANES };

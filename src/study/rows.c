@@ -50,9 +50,9 @@ static int is_stopped(lone_run *l)
     return stop;
 }
 
-static fst_status watch_exponent(void *user, double fraction, fst_error *error)
+static fst_status watch_exponent(void *user, double fraction, const char *what, fst_error *error)
 {
-    (void)fraction;
+    (void)fraction, (void)what;
     return is_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "model/params.h"
 #include "study/conclude.h"
 #include "study/simulation.h"
@@ -61,13 +62,6 @@ static fst_status simulate(fst_simulation *s, fst_error *error)
 
 /* ------------------------------------------------------------------ the conclusion */
 
-/* The exponent's progress as the run's. */
-static fst_status tell_of_exponent(void *user, double fraction, fst_error *error)
-{
-    const fst_run_sink *sink = user;
-    return sink->progress(sink->user, FST_RUN_SHARE + (1.0 - FST_RUN_SHARE) * fraction, error);
-}
-
 /* What the run says of its motion; where that needs the largest exponent, it is computed now. */
 static fst_status conclude(const fst_simulation *s, fst_run_result *result, fst_error *error)
 {
@@ -79,12 +73,12 @@ static fst_status conclude(const fst_simulation *s, fst_run_result *result, fst_
     const fst_status status = fst_conclude(&s->run, NULL, result, &needs_exponent, error);
     if (status != FST_OK || !needs_exponent)
         return status;
-    fst_run_sink sink = s->options->sink;
-    const fst_progress progress = {&sink, tell_of_exponent};
+    fst_part last = {s->options->progress, FST_RUN_SHARE, 1.0, NULL};
+    const fst_progress progress = {&last, fst_part_tell};
     fst_exponent exponent, *asked = &exponent;
     fst_ask_exponent(&s->run, asked);
     const fst_status found =
-        fst_largest_exponents(&fst_tangents_scalar, &asked, 1, sink.progress ? &progress : NULL, error);
+        fst_largest_exponents(&fst_tangents_scalar, &asked, 1, last.whole ? &progress : NULL, error);
     if (found != FST_OK)
         return found;
     fst_result_clear(result);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "base/watch.h"
 
 /* ------------------------------------------------------------------ samples */
 
@@ -75,13 +76,13 @@ fst_status fst_simulation_begin_samples(fst_simulation *s, fst_error *error)
 
 static fst_status report_progress(fst_simulation *s, fst_error *error)
 {
-    const fst_run_sink *sink = &s->options->sink;
+    const fst_progress *progress = s->options->progress;
     const fst_flow *flow = s->run.flow;
-    if (!sink->progress || flow->accepted % 64 != 0)
+    if (!progress || flow->accepted % 64 != 0)
         return FST_OK;
     const double done = s->ramp.waits ? fst_ramp_progress(&s->ramp) : flow->t.high / s->run.window.span.until;
     const double share = s->ramp.rate != 0.0 ? 1.0 : FST_RUN_SHARE; /* a ramp needs no exponent */
-    return sink->progress(sink->user, share * done, error);
+    return fst_tell(progress, share * done, NULL, error);
 }
 
 fst_status fst_simulation_step(fst_simulation *s, double t_limit, fst_error *error)

@@ -1,4 +1,15 @@
-/* chains.c - the chains of points along which end states are carried. */
+/* chains.c - chains: with carrying, the points that follow each other along the first axis.
+ *
+ * Each run of a chain starts from the end state of the run before it, so the runs of a chain are done one after
+ * another.  Different chains are independent, and a chain is one task.  On a grid of 4 x 3 points the first
+ * axis has 4 values, and carrying upwards makes 3 chains of 4 points:
+ *
+ *      second axis
+ *      ^   o->o->o->o    chain 2
+ *      |   o->o->o->o    chain 1
+ *      |   o->o->o->o    chain 0
+ *      +-------------->  first axis
+ */
 #include "sweep/sweep.h"
 
 int64_t fst_chain_length(const fst_sweep_identity *identity)

@@ -1,3 +1,4 @@
+/* checkpoints.c - images of unfinished runs, kept in the database so that a killed sweep goes on from them. */
 #include "sweep/checkpoints.h"
 
 #include <stdlib.h>
@@ -12,10 +13,10 @@ struct fst_checkpoints {
     sqlite3 *database;
     const char *path;
     uint64_t identity;
-    sqlite3_stmt *put, *get, *drop; /* NULL until the table is there */
+    sqlite3_stmt *put, *get, *drop; /* NULL until the table exists */
 };
 
-/* Of all that must fit together. */
+/* The checksum covers the image and everything that must fit it: sweep, point and size. */
 static sqlite3_int64 checksum(uint64_t identity, int64_t point, const void *image, size_t size)
 {
     return (sqlite3_int64)fst_checksum_bytes(fst_checksum_word(identity, (uint64_t)point), image, size);
@@ -120,7 +121,7 @@ fst_status fst_checkpoints_drop_all(fst_checkpoints *c, fst_error *error)
 {
     if (!c->drop)
         return FST_OK;
-    forget_statements(c); /* a table in use cannot go */
+    forget_statements(c); /* SQLite does not drop a table that a statement uses */
     fst_status status = fst_journal_begin(c->journal, error);
     if (status == FST_OK)
         status = fst_database_do(c->database, c->path, "DROP TABLE checkpoints", error);

@@ -1,8 +1,8 @@
-/* checksum.h - the checksum of what a sweep's database holds.
+/* checksum.h - the checksum of rows, images and the identity in a sweep's database.
  *
- * A chain of 64-bit words: each step is a bijection of the sum so far, so that a change of a single word,
- * whatever it is, always changes the result; several changed words agree by chance once in 2^64.  It guards
- * against faults of disks and mixed-up files, not against forgery.
+ * It is a chain of 64-bit words.  Each step is a bijection of the sum so far, so a change of a single word
+ * always changes the result; a change of several words is missed once in 2^64.  The checksum guards against
+ * faults of disks and against mixed-up files, not against forgery.
  */
 #ifndef FST_SWEEP_CHECKSUM_H
 #define FST_SWEEP_CHECKSUM_H
@@ -17,7 +17,7 @@ static inline uint64_t fst_checksum_word(uint64_t sum, uint64_t word)
     return sum ^ sum >> 32;
 }
 
-/* The length, then the bytes by eights, lowest first, the last ones filled up with zeros. */
+/* Add the length, then the bytes in groups of eight, lowest byte first, the last group filled up with zeros. */
 static inline uint64_t fst_checksum_bytes(uint64_t sum, const char *bytes, size_t size)
 {
     sum = fst_checksum_word(sum, size);

@@ -1,3 +1,4 @@
+/* columns.c - a finished run as a row of the table `rows`: its columns, its values, its checksum. */
 #include "sweep/columns.h"
 
 #include <math.h>
@@ -59,7 +60,7 @@ char *fst_sweep_insert_sql(const fst_grid *grid)
     return fclose(out) == 0 ? text : (free(text), NULL);
 }
 
-/* The tables have been compared with ours, so that * stands for the columns above. */
+/* The definitions of the tables have been compared with ours, so that * means the columns above. */
 char *fst_sweep_select_sql(void)
 {
     return strdup("SELECT * FROM rows WHERE point >= ? ORDER BY point");
@@ -88,7 +89,8 @@ static uint64_t sum_real(uint64_t sum, double value)
 
 /* ------------------------------------------------------------------ writing */
 
-/* Values are bound and added to the checksum one after the other, as SQLite gives them back. */
+/* Values are bound and added to the checksum one after the other, in the form in which SQLite will
+ * return them. */
 typedef struct binding {
     sqlite3_stmt *insert;
     int place;
@@ -107,7 +109,7 @@ static void bind_integer(binding *b, int64_t value)
     (void)sqlite3_bind_int64(b->insert, b->place++, value);
 }
 
-/* SQLite stores NaN as NULL, which is what is undefined, and -0 as 0. */
+/* SQLite stores NaN as NULL, which here means undefined, and -0 as 0. */
 static void bind_real(binding *b, double value)
 {
     if (isnan(value)) {
@@ -129,7 +131,7 @@ static void bind_text(binding *b, const char *text)
     (void)sqlite3_bind_text(b->insert, b->place++, text, -1, SQLITE_TRANSIENT);
 }
 
-/* A choice by its name. */
+/* Write a choice by its name. */
 static void name_choice(const char *key, int value, char *name, size_t size)
 {
     const int param = fst_param_find(key);
@@ -203,7 +205,7 @@ uint64_t fst_sweep_row_checksum(sqlite3_stmt *row, int count, uint64_t seed)
     return sum;
 }
 
-/* The values of the axes at the row's point. */
+/* Whether the row has the axes' values that the grid has at its point. */
 static int has_axes_of_point(sqlite3_stmt *row, const fst_grid *grid, int64_t point)
 {
     for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
@@ -222,7 +224,7 @@ static int has_axes_of_point(sqlite3_stmt *row, const fst_grid *grid, int64_t po
     return 1;
 }
 
-/* Whether each value is of its column's kind, or undefined. */
+/* Whether each value is of its column's type, or undefined. */
 static int has_types(sqlite3_stmt *row, int count)
 {
     for (int i = 0; i < count; ++i) {

@@ -1,19 +1,19 @@
-/* columns.h - the columns of a sweep's table `rows`: point, axes, the keys of a run, and a checksum. */
+/* columns.h - the columns of the table `rows` of a sweep: point, axes, the keys of a run, and a checksum. */
 #ifndef FST_SWEEP_COLUMNS_H
 #define FST_SWEEP_COLUMNS_H
 
 #include "sweep/database.h"
 #include "sweep/journal.h"
 
-/* Names of the components of a state, as in the columns final_X, ... */
+/* The names of the components of a state, as in the columns final_X and so on. */
 extern const char *const fst_state_names[FST_STATE_SIZE];
 
-/* Number of the columns that are exported: all but the checksum, which is the last one. */
+/* The number of columns that are exported: all except the checksum, which is the last one. */
 int fst_sweep_column_count(const fst_grid *grid);
 
-/* The definitions of the columns, the statement that inserts a row, the one that reads rows from a point on
- * with the checksum last, and the one that reads whether a point's end may be carried on and its state; to be
- * freed. NULL: no memory. */
+/* Texts of SQL, which the caller frees (NULL: no memory): the definitions of the columns; the statement that
+ * inserts a row; the statement that reads rows from a point on, with the checksum last; and the statement that
+ * reads of a point whether its end state may be carried on, and that state. */
 char *fst_sweep_columns_sql(const fst_grid *grid);
 char *fst_sweep_insert_sql(const fst_grid *grid);
 char *fst_sweep_select_sql(void);
@@ -25,7 +25,7 @@ void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, c
 /* The checksum of the first `count` values of a row that was read. */
 uint64_t fst_sweep_row_checksum(sqlite3_stmt *row, int count, uint64_t seed);
 
-/* Whether a row that was read is a row of this grid, with this checksum. */
+/* Whether a row that was read belongs to this grid and has the right checksum. */
 int fst_sweep_row_is_sound(sqlite3_stmt *row, const fst_grid *grid, uint64_t seed);
 
 #endif

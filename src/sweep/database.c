@@ -1,3 +1,5 @@
+/* database.c - connecting to a sweep's database with SQLite, without trust in what the file contains; SQLite's
+ * errors as festoon's. */
 /* realpath() is an X/Open function. */
 #define _XOPEN_SOURCE 700
 #include "sweep/database.h"
@@ -12,7 +14,7 @@
 #include "host/file_system.h"
 #include "host/regular_file.h"
 
-/* A file that cannot be opened, or not for writing: the system's number says which of many reasons it is. */
+/* A file cannot be opened, or not for writing: the system's error number says which of many reasons it is. */
 static fst_status fail_open(sqlite3 *database, const char *path, const char *detail, fst_error *error)
 {
     const int reason = database ? sqlite3_system_errno(database) : 0;
@@ -70,12 +72,12 @@ int fst_database_is_damage(int code)
     return (code & 0xff) == SQLITE_CORRUPT || (code & 0xff) == SQLITE_NOTADB || code == SQLITE_IOERR_SHORT_READ;
 }
 
-/* SQLite keeps files beside a database whose names are longer than its own: FILE-journal, FILE-wal, FILE-shm. A
- * new one is filled under a temporary name (host/whole_file.c), which is longer still. */
+/* The names of the files that SQLite keeps beside a database are longer than its own: FILE-journal, FILE-wal,
+ * FILE-shm.  A new database is filled under a temporary name (host/whole_file.c), which is longer still. */
 static fst_status check_length(const char *path, const char *absolute, int is_new, fst_error *error)
 {
     enum {
-        LONGEST_PATH = 511, /* of SQLite: MAX_PATHNAME of its os_unix.c without the zero behind it */
+        LONGEST_PATH = 511, /* SQLite's limit: MAX_PATHNAME of its os_unix.c without the zero behind it */
         LONGER = sizeof "-journal" - 1,
         LONGER_NEW = 64
     };
@@ -194,8 +196,8 @@ fst_status fst_database_head(int descriptor, const char *path, int writable, cha
 
 /* ------------------------------------------------------------------ connecting */
 
-/* SQLite runs nothing that the file contains: no triggers, no views, no functions of its schema, no extensions.
- */
+/* SQLite must run nothing that the file contains: no triggers, views, functions of its schema,
+ * or extensions. */
 static void distrust(sqlite3 *database)
 {
     (void)sqlite3_extended_result_codes(database, 1);
@@ -240,8 +242,8 @@ static char *immutable_address(const char *path)
     return address;
 }
 
-/* Where nothing may be written, SQLite can make neither its locks nor its shared memory.  A database with a log
- * is read without locks then, and one without a log as a file that never changes. */
+/* Where nothing may be written, SQLite can make neither its locks nor its shared memory.  Then a database with
+ * a log is read without locks, and one without a log as a file that never changes. */
 static fst_status connect_unwritable(const char *path, sqlite3 **database, fst_error *error)
 {
     char log[FST_LOG_NAME_SIZE];

@@ -1,4 +1,4 @@
-/* database.h - SQLite's errors as festoon's, and connections to a sweep's database that trust nothing in it. */
+/* database.h - connections to a sweep's database that trust nothing in it, and SQLite's errors as festoon's. */
 #ifndef FST_SWEEP_DATABASE_H
 #define FST_SWEEP_DATABASE_H
 
@@ -13,23 +13,24 @@
 /* Fill in `error` from the last failure on `database`. */
 fst_status fst_database_fail(sqlite3 *database, const char *path, fst_error *error);
 
-/* Whether a code of SQLite says that the file is not what it should be, rather than that reading failed. */
+/* Whether a code of SQLite means that the file is damaged, rather than that reading it failed. */
 int fst_database_is_damage(int code);
 
-/* The path of a file that exists or is to be made, from the root on, through symbolic links: SQLite gives no
- * meaning of its own to such a name.  To be freed. */
+/* The absolute path of a file that exists or is to be made, with symbolic links resolved; SQLite takes such a
+ * name as it is.  The caller frees it. */
 fst_status fst_database_path(const char *path, char **absolute, fst_error *error);
 
 /* Whether a file begins as every database of SQLite does. */
 int fst_database_begins(int descriptor);
 
-/* Whether the first bytes of a file are those of a sweep's database (SQLite itself would touch the journal of a
- * foreign one); FST_BAD_INPUT if not, or if it is of an older format.  `writable`: a sweep is to be written
- * there, of which the advice speaks.  `mark` is that of the database, or empty where it cannot be found. */
+/* Check the first bytes of a file before SQLite sees it, because SQLite would change the journal of a foreign
+ * database.  FST_BAD_INPUT: no database of a sweep, or one of an older format.  `writable` says that a sweep is
+ * to be written there, which changes the advice in the sentence.  `mark` becomes the mark of the database, or
+ * empty where there is none. */
 fst_status fst_database_head(int descriptor, const char *path, int writable, char mark[FST_MARK_SIZE],
                              fst_error *error);
 
-/* Connect to a database, for reading only or for writing too.  Only the file and its log are read; a log is not
+/* Connect to a database for reading, or for writing too.  Only the file and its log are read; the log is not
  * written into the file unless fst_database_allow_tidying() was called. */
 fst_status fst_database_connect(const char *path, int writable, sqlite3 **database, fst_error *error);
 void fst_database_allow_tidying(sqlite3 *database);

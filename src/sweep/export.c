@@ -19,14 +19,14 @@ typedef struct export_job {
     fst_sweep_file file;
     fst_sweep_rows rows;
     sqlite3_stmt *row;
-    int columns; /* all but the checksum */
+    int columns; /* all except the checksum */
     FILE *stream;
 } export_job;
 
 /* ------------------------------------------------------------------ CSV */
 
-/* A text of the file as a new string, fit for terminals: one line without control characters; NULL: no memory.
- */
+/* A text from the file as a new string, made fit for terminals: one line without control characters.  NULL: no
+ * memory. */
 static char *tame_text(sqlite3_stmt *rows, int column)
 {
     const unsigned char *text = sqlite3_column_text(rows, column);
@@ -85,7 +85,7 @@ static fst_status csv_row(export_job *job, fst_error *error)
         case SQLITE_TEXT:
             write_quoted(job->stream, tame_text(job->row, i));
             break;
-        default: /* what is undefined stays empty */
+        default: /* an undefined value stays empty */
             break;
         }
     }
@@ -113,7 +113,7 @@ static json_t *json_value(sqlite3_stmt *rows, int column)
     }
 }
 
-/* One object on a line; the components of the final state are gathered in the list that `run` prints. */
+/* One object a line.  The components of the final state are gathered into one list, as `run` prints them. */
 static fst_status json_row(export_job *job, fst_error *error)
 {
     json_t *object = json_object(), *state = json_array();
@@ -178,7 +178,7 @@ static fst_status export_text(export_job *job, fst_export_format format, const c
 
 /* ------------------------------------------------------------------ HDF5 */
 
-/* What a column of texts is in HDF5: the index of the text in this list, or NULL where it is left out. */
+/* The list of texts whose index stands in HDF5 for a column of texts; NULL where the column is left out. */
 static const char *codes_of(const char *column)
 {
     static const char *const lists[][2] = {
@@ -211,7 +211,7 @@ static double code_of(const char *list, const char *text)
 typedef struct hdf5_columns {
     fst_column_info *infos;
     const fst_column_info **pointers;
-    int *places; /* columns of the table */
+    int *places; /* the columns of the table that are exported */
     double *values;
     int count;
 } hdf5_columns;
@@ -300,7 +300,7 @@ static fst_status export_hdf5(export_job *job, const char *out, fst_error *error
     status = list_columns(job, &c) ? fst_whole_file_open(&file, out, error)
                                    : fst_fail(error, FST_NO_MEMORY, out, "out of memory");
     if (status == FST_OK) {
-        (void)fclose(file.stream); /* HDF5 opens it by its name */
+        (void)fclose(file.stream); /* HDF5 opens the file by its name */
         file.stream = NULL;
         status = fill_hdf5(job, module, &file, &c, error);
         if (status == FST_OK)
@@ -327,7 +327,7 @@ static fst_status export_rows(export_job *job, fst_export_format format, const c
         status = format == FST_EXPORT_HDF5 ? export_hdf5(job, out, error)
                                            : export_text(job, format, out, stream, error);
     }
-    /* The rows that are sound have been written; the status says that they are not all. */
+    /* The sound rows have been written; the status says that others are missing. */
     if (status == FST_OK && !fst_sweep_rows_are_whole(&job->rows))
         status = fst_sweep_rows_fail(&job->rows,
                                      out ? "The other rows were exported. "

@@ -1,3 +1,14 @@
+/* file.c - opening the database of a sweep for reading or writing, step by step, from what can be trusted
+ * least.
+ *
+ *  head of the file     is it SQLite's, a sweep's, of this format; its mark           database.c
+ *  log beside it        is it this file's; SQLite would write any log into the file   log.c
+ *  table festoon        what it is a sweep of, against its checksum                   identity.c
+ *  tables               exactly ours, word by word, so that nothing foreign runs      here
+ *  structure            SQLite's quick_check; damage is noted and does not end this   here
+ *
+ * The rows follow one by one, each against its checksum (rows.c).
+ */
 #include "sweep/file.h"
 
 #include <stdlib.h>
@@ -12,8 +23,8 @@
 
 /* ------------------------------------------------------------------ tables */
 
-/* The mark stands in the text of a table, which SQLite keeps on the first page, and in its row on the second.
- */
+/* The mark is a part of the definition of this table, which SQLite keeps on the first page, and of its row on
+ * the second page.  sweep/log.c says why. */
 #define SEAL_TABLE "CREATE TABLE seal(one INTEGER PRIMARY KEY, mark TEXT, commits INTEGER /* %s */)"
 #define IDENTITY_TABLE "CREATE TABLE festoon(key TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID"
 #define ROWS_TABLE "CREATE TABLE rows(%s)"
@@ -39,7 +50,7 @@ static fst_status fail_tables(const fst_sweep_file *file, fst_error *error)
         "was written: restore a copy, or choose another file");
 }
 
-/* Whether the file has just these tables, the last of which may be missing. */
+/* Whether the file has exactly these tables; the last one may be missing. */
 static fst_status compare_tables(const fst_sweep_file *file, char *const wanted[], int count, fst_error *error)
 {
     sqlite3_stmt *query = NULL;
@@ -78,7 +89,8 @@ static fst_status check_tables(const fst_sweep_file *file, fst_error *error)
 
 /* ------------------------------------------------------------------ opening */
 
-/* What lies beside the file.  The log of a sweep at work changes while one looks at it, and is its own. */
+/* Look at the log beside the file.  While a sweep is at work its log changes as one reads it, and is the file's
+ * own. */
 static fst_status look_beside(fst_sweep_file *file, int descriptor, int locked, fst_error *error)
 {
     char log[FST_LOG_NAME_SIZE];
@@ -94,14 +106,14 @@ static fst_status look_beside(fst_sweep_file *file, int descriptor, int locked, 
         return fst_fail(error, FST_IO, log, "reading this file failed: %s", strerror(reason));
     if (file->log != FST_LOG_FOREIGN)
         return FST_OK;
-    return fst_fail(
-        error, FST_BAD_INPUT, file->name,
-        "beside this database lies the log of another one, or one older than it, %s; nothing was changed: "
-        "move the log back to its database, or remove it",
-        log);
+    return fst_fail(error, FST_BAD_INPUT, file->name,
+                    "beside this database lies the log of another database, or an older log of this one, %s; "
+                    "nothing was changed: "
+                    "move the log back to its database, or remove it",
+                    log);
 }
 
-/* The head of the file and what lies beside it are read before SQLite sees them. */
+/* The head of the file and the log beside it are checked before SQLite sees them. */
 static fst_status look_at_file(fst_sweep_file *file, int locked, fst_error *error)
 {
     int descriptor;
@@ -110,7 +122,7 @@ static fst_status look_at_file(fst_sweep_file *file, int locked, fst_error *erro
         return status;
     status = fst_open_regular(file->name, &descriptor, error);
     if (status == FST_BAD_INPUT && locked && access(file->name, F_OK) != 0)
-        return fst_fail(error, FST_IO, file->name, "this file was there a moment ago, and is removed");
+        return fst_fail(error, FST_IO, file->name, "this file was there a moment ago, and was removed");
     if (status != FST_OK)
         return status;
     status = fst_database_head(descriptor, file->name, locked, file->mark, error);
@@ -126,7 +138,7 @@ static fst_status look_at_file(fst_sweep_file *file, int locked, fst_error *erro
     return status;
 }
 
-/* SQLite's own look at the structure; what it finds does not keep sound rows from being read. */
+/* SQLite checks the structure.  What it finds wrong is noted, but sound rows are read all the same. */
 static fst_status check_structure(fst_sweep_file *file, fst_error *error)
 {
     sqlite3_stmt *check = NULL;
@@ -173,7 +185,7 @@ fst_status fst_sweep_file_open(const char *name, int locked, fst_sweep_file *fil
     fst_status status = open_once(name, locked, file, error);
     if (status != FST_BAD_INPUT && !(status == FST_OK && file->finding[0]))
         return status;
-    /* SQLite takes some reads that failed for damage: real damage is found again. */
+    /* SQLite reports some failed reads as damage.  A second look tells: real damage is found again. */
     fst_sweep_file_close(file);
     return open_once(name, locked, file, error);
 }
@@ -186,8 +198,8 @@ int fst_sweep_file_is_there(const char *path, const struct stat *opened)
 
 void fst_sweep_file_close(fst_sweep_file *file)
 {
-    /* The last connection tidies a log into the file and removes it by its name, which must still be its own.
-     */
+    /* The last connection to close writes the log into the file and removes the log by its name, so the name
+     * must still lead to this file. */
     if (file->opened && file->log != FST_LOG_DAMAGED && !file->finding[0] &&
         fst_sweep_file_is_there(file->path, &file->there))
         fst_database_allow_tidying(file->database);

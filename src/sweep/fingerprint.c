@@ -1,4 +1,8 @@
-/* fingerprint.c - a hash by which a resumed sweep knows that this machine computes the same bits. */
+/* fingerprint.c - a hash of a short fixed run, by which a sweep knows that it still computes the same bits.
+ *
+ * A sweep may be continued by another build or on another machine.  If the hash differs there, new rows would
+ * not fit the old ones, and the sweep refuses to go on.
+ */
 #include <string.h>
 
 #include "sweep/sweep.h"
@@ -23,7 +27,8 @@ static int next_probe(void *user, fst_row_job *job)
     return 1;
 }
 
-/* FNV-1a over the bits of numbers that every part of a run goes into. */
+/* Add a number's bits to the hash (FNV-1a).  The numbers are chosen so that every part of a run goes
+ * into them. */
 static void add(uint64_t *hash, double number)
 {
     unsigned char bytes[sizeof number];

@@ -1,3 +1,4 @@
+/* identity.c - writing, reading and comparing the record of what a database is a sweep of. */
 #include "sweep/identity.h"
 
 #include <stdlib.h>
@@ -24,7 +25,7 @@ static void add_line(fst_identity_lines *lines, const char *key, char *value)
     lines->values[lines->count++] = value;
 }
 
-/* All lines that must agree for a sweep to go on; the first is the scene. */
+/* All lines that must be the same for a sweep to go on; the first is the scene. */
 static void wanted_lines(const fst_sweep_identity *identity, fst_identity_lines *lines)
 {
     static const char *const carry[] = {"no", "up", "down"};
@@ -60,7 +61,7 @@ const char *fst_identity_text(const fst_identity_lines *lines, const char *key)
 
 /* ------------------------------------------------------------------ comparing */
 
-/* Which parameter differs between the scene of the file and the wanted one. */
+/* Say which parameter differs between the scene of the file and the wanted one. */
 static fst_status fail_scene(const char *path, const char *there, const fst_params *wanted, fst_error *error)
 {
     fst_params made = fst_default_params();
@@ -114,7 +115,7 @@ static int compare_keys(const void *a, const void *b)
     return strcmp(a, b);
 }
 
-/* The lines in the order of their keys, which is that of the table.  The values are moved. */
+/* Sort the lines by their keys, as the table has them.  The values move with the keys. */
 static void sort_lines(fst_identity_lines *lines)
 {
     fst_identity_lines sorted = *lines;
@@ -181,7 +182,7 @@ static fst_status fail_damaged(const char *path, fst_error *error)
         "checksum; nothing was changed: restore a copy, or choose another file");
 }
 
-/* One line of the table; 0 where it is none of ours. */
+/* Read one line of the table; 0 where it cannot be one of ours. */
 static int read_line(sqlite3_stmt *query, fst_identity_lines *lines)
 {
     if (lines->count == FST_IDENTITY_LIMIT || sqlite3_column_type(query, 0) != SQLITE_TEXT ||

@@ -1,8 +1,9 @@
-/* identity.h - what a sweep is, as the table `festoon` of its database says it.
+/* identity.h - the identity of a sweep: what it is a sweep of, as the table `festoon` of its database says.
  *
- * The table has a line for each thing that must agree for rows to belong together (scene, axes, seed, carrying,
- * arithmetic), the database's own mark, and a checksum of all these lines.  The checksum of each row begins
- * with that one, so that a row of another database, however it came here, is not taken for one of this.
+ * The table has a line for each thing that must be the same for two rows to belong together (scene, axes, seed,
+ * carrying, arithmetic), the mark of the file, and a checksum of these lines.  The checksum of each row begins
+ * with that checksum, so a row of another database is never taken for a row of this one, however it came into
+ * the file.
  */
 #ifndef FST_SWEEP_IDENTITY_H
 #define FST_SWEEP_IDENTITY_H
@@ -10,7 +11,7 @@
 #include "sweep/database.h"
 #include "sweep/journal.h"
 
-/* The table `festoon`: keys in rising order, and their texts. */
+/* The lines of the table: keys in rising order, and their texts. */
 enum { FST_IDENTITY_LIMIT = 32 };
 typedef struct fst_identity_lines {
     char keys[FST_IDENTITY_LIMIT][24];
@@ -18,17 +19,17 @@ typedef struct fst_identity_lines {
     int count;
 } fst_identity_lines;
 
-/* Read and check them.  FST_BAD_INPUT: damaged. */
+/* Read the lines and check them.  FST_BAD_INPUT: damaged. */
 fst_status fst_identity_read(sqlite3 *database, const char *path, fst_identity_lines *lines, fst_error *error);
 void fst_identity_free(fst_identity_lines *lines);
 
 /* The text of a key, or NULL. */
 const char *fst_identity_text(const fst_identity_lines *lines, const char *key);
 
-/* Their checksum, with which that of each row begins. */
+/* The checksum of the lines, with which the checksum of each row begins. */
 uint64_t fst_identity_checksum(const fst_identity_lines *lines);
 
-/* The grid of the scene and the axes. */
+/* The grid that scene and axes describe. */
 fst_status fst_identity_grid(const fst_identity_lines *lines, const char *path, fst_grid **grid,
                              fst_error *error);
 
@@ -36,7 +37,7 @@ fst_status fst_identity_grid(const fst_identity_lines *lines, const char *path, 
 fst_status fst_identity_write(sqlite3 *database, const char *path, const fst_sweep_identity *identity,
                               const char *mark, fst_error *error);
 
-/* FST_BAD_INPUT: the database was made by something else; the sentence says what differs. */
+/* Compare with a wanted sweep.  FST_BAD_INPUT: another one; the sentence says what differs. */
 fst_status fst_identity_compare(const fst_identity_lines *lines, const char *path,
                                 const fst_sweep_identity *identity, fst_error *error);
 

@@ -1,3 +1,4 @@
+/* images.c - lists of images of unfinished runs. */
 #include "sweep/images.h"
 
 #include <stdlib.h>

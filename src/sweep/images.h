@@ -1,4 +1,4 @@
-/* images.h - images of runs (fst_row_images) between threads, ranks and the journal: lists of them. */
+/* images.h - images of unfinished runs (fst_row_images) on their way between threads, ranks and the journal. */
 #ifndef FST_SWEEP_IMAGES_H
 #define FST_SWEEP_IMAGES_H
 
@@ -6,7 +6,7 @@
 
 #include <festoon/festoon.h>
 
-/* Between ranks, all that follows `next` is sent. */
+/* What follows `next` is sent between ranks as it is. */
 typedef struct fst_image {
     struct fst_image *next;
     int64_t point;
@@ -14,13 +14,13 @@ typedef struct fst_image {
     unsigned char bytes[];
 } fst_image;
 
-/* A copy of an image, or room for one where `bytes` is NULL; NULL: no memory. */
+/* A copy of an image, or room for one where `bytes` is NULL.  NULL: no memory. */
 fst_image *fst_image_new(int64_t point, const void *bytes, size_t size);
 
-/* Put an image into a list, in place of that of the same point. */
+/* Put an image into a list, in place of an older one of the same point. */
 void fst_image_put(fst_image **list, fst_image *image);
 
-/* Take the image of a point out of a list, or NULL. */
+/* Take the image of a point out of a list; NULL where there is none. */
 fst_image *fst_image_take(fst_image **list, int64_t point);
 
 void fst_images_free(fst_image *list);

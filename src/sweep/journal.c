@@ -1,3 +1,38 @@
+/* journal.c - the journal of a sweep: an SQLite database that one thread of one process fills, row by row.
+ *
+ * A row on its way from a worker to the disk:
+ *
+ *  worker ends a run
+ *     |  fst_workers_take()                 sweep.c
+ *     v
+ *  fst_journal_add()      INSERT, within an open transaction: a kill loses the row
+ *     |  every 256 rows, or 0.5 s after the last commit
+ *     v
+ *  fst_journal_commit()   COMMIT: SQLite appends the changed pages to FILE-wal and syncs it.  From here on
+ *     |                   the row survives a kill and a loss of power.
+ *     |  once the log has 1000 pages, and at the end
+ *     v
+ *  empty_log()            the pages are copied into FILE and synced, and FILE-wal is cut to length zero
+ *
+ * What this file adds to SQLite:
+ *
+ * - One writer.  Before anything is read the process takes a lock of the kernel on the file (lock.c), so that
+ * two sweeps never write one file; SQLite's own locks would let them take turns.
+ *
+ * - Its own log only.  SQLite believes any log of the right name.  So every database bears a random mark, every
+ * transaction writes the page with it (the table `seal`), and a log is checked before SQLite sees it (log.c).
+ *
+ * - Rows that are checked.  When a sweep is continued, every row is read against its checksum.  If one is
+ * damaged, check_rows() replaces the database by a new one with the sound rows (make.c), keeps the damaged file
+ * under another name, and the lost points are computed again.
+ *
+ * - The name that was given.  After each commit check_place() looks whether the name still leads to this file.
+ * If the file was renamed, the sweep ends and says where its rows are; if it was deleted or replaced, its rows
+ * are saved beside it first (rescue()).
+ *
+ * On a network file system a rollback journal takes the place of the write-ahead log, with the same promises.
+ * docs/sweeps.md lists the promises; docs/reliability.md says how they are attacked.
+ */
 #include "sweep/journal.h"
 
 #include <errno.h>
@@ -18,15 +53,16 @@
 
 struct fst_journal {
     fst_sweep_file file;
-    int descriptor; /* holds the lock; closed after SQLite's, whose locks end when any descriptor is closed */
+    int descriptor; /* holds the lock; closed after SQLite's own, because closing any descriptor ends SQLite's
+                       locks */
     sqlite3_stmt *insert, *next, *state;
     const fst_grid *grid;
-    char *path; /* as it was given */
+    char *path; /* the name that the user gave */
     int in_transaction;
-    int log_pages; /* in the log after the last commit */
+    int log_pages; /* pages in the log after the last commit */
     int64_t lost;
     int repaired;
-    int is_away; /* the file has lost its name, which has been told */
+    int is_away; /* the file lost its name, and the caller was told */
 };
 
 /* ------------------------------------------------------------------ opening */
@@ -42,8 +78,8 @@ static int note_log(void *user, sqlite3 *database, const char *name, int pages)
 static fst_status prepare(fst_journal *journal, fst_error *error)
 {
     sqlite3 *database = journal->file.database;
-    /* WAL is unsafe on network file systems: a rollback journal is used there, also for what began otherwise.
-     */
+    /* A write-ahead log is unsafe on network file systems: use a rollback journal there, also for a database
+     * that was begun with a write-ahead log. */
     const char *mode =
         fst_on_network(journal->path)
             ? "PRAGMA journal_mode = DELETE; PRAGMA locking_mode = NORMAL; PRAGMA synchronous = FULL"
@@ -83,7 +119,7 @@ static void release(fst_journal *journal)
     free(journal);
 }
 
-/* Open an existing file; *descriptor is -1 where it has gone in the meantime. */
+/* Open an existing file; *descriptor is -1 where it was removed meanwhile. */
 static fst_status open_existing(const char *name, const char *path, int *descriptor, fst_error *error)
 {
     *descriptor = -1;
@@ -100,7 +136,7 @@ static fst_status open_existing(const char *name, const char *path, int *descrip
     return fst_fail(error, FST_IO, name, "this database cannot be opened: %s", strerror(errno));
 }
 
-/* Open an existing file and take its lock; *descriptor is -1 where the file has gone in the meantime. */
+/* Open an existing file and take its lock; *descriptor is -1 where the file was removed meanwhile. */
 static fst_status lock_existing(const char *name, const char *path, int last, int *descriptor, fst_error *error)
 {
     char mark[FST_MARK_SIZE];
@@ -132,7 +168,8 @@ static fst_status lock_existing(const char *name, const char *path, int last, in
     return status;
 }
 
-/* Make the file or take it, and hold its lock.  A command that was just killed may take a moment to end. */
+/* Make the file or take an existing one, and hold its lock.  It is tried for two seconds, because a command
+ * that was just killed may take a moment to end. */
 static fst_status take_file(const char *name, const char *path, const fst_sweep_identity *identity,
                             int *descriptor, fst_error *error)
 {
@@ -147,11 +184,12 @@ static fst_status take_file(const char *name, const char *path, const fst_sweep_
                                          : fst_sweep_make(name, path, identity, descriptor, error);
     }
     if (status == FST_OK && *descriptor < 0)
-        status = fst_fail(error, FST_IO, name, "other commands make this file and remove it all the time");
+        status =
+            fst_fail(error, FST_IO, name, "other commands keep making and removing this file: try again later");
     return status;
 }
 
-/* Read every row; a damaged database is replaced by one with the sound ones. */
+/* Read every row.  Where one is damaged, replace the database by a new one that has the sound rows. */
 static fst_status check_rows(fst_journal *journal, const fst_sweep_identity *identity, fst_error *error)
 {
     fst_sweep_rows rows;
@@ -238,7 +276,7 @@ fst_status fst_journal_begin(fst_journal *journal, fst_error *error)
     if (status != FST_OK)
         return status;
     journal->in_transaction = 1;
-    /* Each transaction writes the page of the mark, by which its log is known. */
+    /* Each transaction writes the page that bears the mark: so the log can be recognised as this file's. */
     return fst_database_do(journal->file.database, journal->path, "UPDATE seal SET commits = commits + 1",
                            error);
 }
@@ -258,7 +296,7 @@ fst_status fst_journal_add(fst_journal *journal, const fst_sweep_record *record,
 
 /* ------------------------------------------------------------------ is it still there? */
 
-/* Where the open file is now, as the kernel tells it. */
+/* Where the open file is now, according to the kernel. */
 static void find_file(const fst_journal *journal, char *place, size_t size)
 {
     char link[40];
@@ -267,8 +305,8 @@ static void find_file(const fst_journal *journal, char *place, size_t size)
     place[length > 0 ? length : 0] = '\0';
 }
 
-/* The file has no name any more: write what it holds to FILE.rescued, or FILE.rescued-2, ..., if its folder is
- * there. */
+/* The file has no name any more: save its rows as FILE.rescued, or FILE.rescued-2 and so on, if its folder
+ * still exists. */
 static fst_status rescue(fst_journal *journal, fst_error *error)
 {
     enum { MOST = 1000 };
@@ -298,7 +336,8 @@ static fst_status rescue(fst_journal *journal, fst_error *error)
                             "saved beside it; they are lost");
 }
 
-/* FST_IO: rows that were committed went into a file that has no name, or another one. */
+/* FST_IO where the name no longer leads to this file, so that committed rows are in a file without a name or
+ * with another one. */
 static fst_status check_place(fst_journal *journal, fst_error *error)
 {
     struct stat mine;
@@ -320,8 +359,9 @@ static fst_status check_place(fst_journal *journal, fst_error *error)
 
 enum { LOG_PAGES = 1000 };
 
-/* Bring the log's pages into the file, and the log's length to zero: a log that is written over would have old
- * frames behind its end, among which damage could not be told.  A reader that is busy may put it off. */
+/* Write the log's pages into the file and cut the log to length zero.  A log that starts over without being cut
+ * would keep old frames behind its end, among which damage could not be told.  A busy reader may put this off.
+ */
 static void empty_log(fst_journal *journal)
 {
     sqlite3 *database = journal->file.database;
@@ -405,7 +445,7 @@ fst_status fst_journal_close(fst_journal *journal, fst_error *error)
     fst_status status = fst_journal_commit(journal, error);
     if (status == FST_OK)
         status = check_place(journal, error);
-    /* Where the checkpoint fails (a full disk), the rows are safe in the log beside the file. */
+    /* If this fails (a full disk), the rows are still safe in the log beside the file. */
     if (status == FST_OK)
         (void)sqlite3_wal_checkpoint_v2(journal->file.database, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL);
     release(journal);

@@ -1,9 +1,9 @@
-/* journal.h - the database of a sweep: SQLite, one row a point, committed in batches.
+/* journal.h - the journal of a sweep: an SQLite database with one row a point, committed in batches.
  *
- * The file is made whole (beside its place, then renamed) with its identity inside: scene, axes, seed,
- * direction of carrying, form of arithmetic.  From then on it only grows, by transactions.  It is written from
- * one thread of one process, which holds a lock on it.  Every row has a checksum; docs/sweeps.md says what that
- * and all the rest promises.
+ * The file appears whole (made beside its place, then renamed) with its identity inside: scene, axes, seed,
+ * direction of carrying, form of arithmetic.  Then it only grows, by transactions.  One thread of one process
+ * writes it and holds a lock on it.  Every row has a checksum.  journal.c explains the scheme, docs/sweeps.md
+ * the promises.
  */
 #ifndef FST_SWEEP_JOURNAL_H
 #define FST_SWEEP_JOURNAL_H
@@ -16,62 +16,61 @@ typedef struct fst_sweep_identity {
     uint64_t seed;
     fst_carry carry;
     fst_arithmetic arithmetic;
-    uint64_t fingerprint; /* of a short fixed run in this arithmetic */
+    uint64_t fingerprint; /* of a short fixed run in this arithmetic (fingerprint.c) */
 } fst_sweep_identity;
 
-/* A hash of all that must agree for rows to belong into one database. */
+/* A hash of everything that must be the same for rows to belong into one database. */
 uint64_t fst_journal_identity_hash(const fst_sweep_identity *identity);
 
 /* A finished point. */
 typedef struct fst_sweep_record {
     int64_t point;
-    int carried;       /* started from its neighbour's end */
-    fst_status status; /* other than FST_OK: the run failed, and the reason is in result.reason */
+    int carried;       /* it started from its neighbour's end state */
+    fst_status status; /* other than FST_OK: the run failed, and result.reason says why */
     int dynamics;      /* fst_dynamics */
     fst_run_result result;
 } fst_sweep_record;
 
 typedef struct fst_journal fst_journal;
 
-/* Open the database of a sweep, making it where there is none.  Of a damaged one the sound rows are kept.
- * FST_BAD_INPUT: a foreign file or log, a database whose record of what it is is damaged, or one made by other
- * parameters (the sentence says which); nothing is written then.  FST_IO: another command is at work on it (the
+/* Open the database of a sweep, or make it where there is none.  A damaged one is replaced by one with its
+ * sound rows.  FST_BAD_INPUT, and nothing is written: a foreign file or log, a damaged identity, or a sweep
+ * with other parameters (the sentence says which).  FST_IO: another command is at work on the file (the
  * sentence says which), no permission, full disk. */
 fst_status fst_journal_open(const char *path, const fst_sweep_identity *identity, fst_journal **journal,
                             fst_error *error);
 
-/* Whether the database was found damaged and replaced by one with its sound rows, and how many rows are known
- * to be lost. */
+/* Whether the database was damaged and was replaced, and how many rows are known to be lost. */
 int fst_journal_repaired(const fst_journal *journal, int64_t *lost);
 
-/* Add a row to the present transaction, beginning one where there is none; a point that is there is left as it
- * is. */
+/* Add a row to the present transaction, or begin one.  A point that has a row keeps it. */
 fst_status fst_journal_add(fst_journal *journal, const fst_sweep_record *record, fst_error *error);
 
 /* Begin a transaction unless one is open. */
 fst_status fst_journal_begin(fst_journal *journal, fst_error *error);
 
-/* The database and its path, for what is kept beside the rows in the same transactions. */
+/* The database and its path, for tables that are written in the same transactions as the rows. */
 struct sqlite3 *fst_journal_database(const fst_journal *journal);
 const char *fst_journal_path(const fst_journal *journal);
 
-/* Make safe what was added.  FST_IO, too: the file has been deleted, renamed or replaced. */
+/* Commit what was added: it is then on the disk.  Also FST_IO where the file was deleted, renamed
+ * or replaced. */
 fst_status fst_journal_commit(fst_journal *journal, fst_error *error);
 
-/* Number of rows. */
+/* The number of rows. */
 fst_status fst_journal_count(fst_journal *journal, int64_t *rows, fst_error *error);
 
-/* Points from *next on that have no row: at most `room` of them; *next moves behind what was looked at, and is
- * the number of points when all were. */
+/* Find at most `room` points without a row, beginning at *next. *next moves behind the last point looked at; it
+ * is the number of points when all were looked at. */
 fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *points, int room, int *found,
                                fst_error *error);
 
-/* The end state of a point and whether it can be carried on from (the motion is still on the plate); *there is
- * 0 where the point has no row. */
+/* The end state of a point, and whether a run may start from it (the bead is still on the plate). *there is 0
+ * where the point has no row. */
 fst_status fst_journal_end_state(fst_journal *journal, int64_t point, int *there, int *usable,
                                  double state[FST_STATE_SIZE], fst_error *error);
 
-/* Finish the present transaction and close; the file is then a single one again. */
+/* Commit and close.  The log is gone then, and the database is one file again. */
 fst_status fst_journal_close(fst_journal *journal, fst_error *error);
 
 #endif

@@ -1,3 +1,13 @@
+/* lock.c - one sweep at a time on a database, and which process it is, told by the positions of locked bytes.
+ *
+ *      2^48 + FST_LOCK_SWEEP          the lock itself
+ *      2^48 + 2^32 + process number   who holds it: only the position of the byte counts
+ *      2^48 + 2^33 + 512 i + letter   letter i of the host's name, likewise
+ *
+ * A second command that finds the first byte locked asks the kernel where the next locked bytes are, and so
+ * learns process and host.  Nothing is written to the disk, and the kernel removes it all when the process
+ * ends.
+ */
 #include "sweep/lock.h"
 
 #include <dirent.h>
@@ -12,11 +22,11 @@
 #include "base/error.h"
 #include "host/file_lock.h"
 
-/* Beside the lock itself, at FST_LOCK_SWEEP: one plus the number of the process, one for each letter of the
- * host. */
+/* More locked bytes: one whose position gives the number of the process, and one for each letter of the host's
+ * name.  Places are counted as in host/file_lock.h. */
 static const off_t PROCESS_PLACES = (off_t)1 << 32;
-static const off_t HOST_PLACES = (off_t)1 << 33; /* letter i: plus i * STRIDE + letter */
-enum { HOST_LETTERS = 64, HOST_STRIDE = 512 };   /* adjacent locks would merge */
+static const off_t HOST_PLACES = (off_t)1 << 33; /* letter i lies at i * HOST_STRIDE + its code */
+enum { HOST_LETTERS = 64, HOST_STRIDE = 512 };   /* wide apart, because adjacent locks would merge */
 
 fst_lock_state fst_lock_take(int descriptor)
 {
@@ -54,7 +64,7 @@ void fst_lock_owner(int descriptor, char owner[FST_LOCK_OWNER_SIZE])
 
 /* ------------------------------------------------------------------ a sweep of this process */
 
-/* How fst_lock_owner() names this process. */
+/* This process, in the words of fst_lock_owner(). */
 static void name_of_this(char owner[FST_LOCK_OWNER_SIZE])
 {
     char host[HOST_LETTERS + 1] = "";
@@ -77,8 +87,8 @@ static fst_status fail_own(const char *name, fst_error *error)
                     "until that call has ended, or read the file in another process");
 }
 
-/* The journal has two descriptors of its file at least, of which SQLite's does not hold the lock and sees it.
- */
+/* The journal has two descriptors of its file at least.  That of SQLite does not hold the lock, so the kernel
+ * shows it the lock. */
 fst_status fst_lock_check_own(const char *path, const char *name, fst_error *error)
 {
     struct stat wanted, found;
@@ -95,7 +105,7 @@ fst_status fst_lock_check_own(const char *path, const char *name, fst_error *err
     return own ? fail_own(name, error) : FST_OK;
 }
 
-/* The thread with the lock may be about to say whose it is. */
+/* The thread that has the lock may not have locked the bytes yet that say whose it is: wait for it. */
 int fst_lock_is_own(int descriptor, const char *name, fst_error *error)
 {
     enum { TRIES = 20 };

@@ -1,9 +1,9 @@
 /* lock.h - who works on a sweep's database: one command at a time.
  *
- * The lock is of the kernel, on an open file (F_OFD_SETLK): it ends with the process, however that ends,
- * follows the file when it is renamed, and leaves nothing behind.  It lies on bytes that no database reaches,
- * far from those that SQLite locks.  The positions of further locked bytes spell the number of the process and
- * the name of its computer, so that another command can say who is at work; nothing is written for it.
+ * The kernel keeps the lock for an open file (F_OFD_SETLK).  It ends with the process, however the process
+ * ends, follows the file when the file is renamed, and leaves nothing behind.  The locked bytes lie behind the
+ * end of any database, far from the bytes that SQLite locks.  lock.c says how another command learns who holds
+ * the lock.
  */
 #ifndef FST_SWEEP_LOCK_H
 #define FST_SWEEP_LOCK_H
@@ -13,11 +13,11 @@
 typedef enum {
     FST_LOCK_FREE,
     FST_LOCK_MINE,
-    FST_LOCK_TAKEN,     /* by another command, or another sweep of this process */
+    FST_LOCK_TAKEN,     /* another command has it, or another sweep of this process */
     FST_LOCK_IMPOSSIBLE /* this file system has no locks; errno tells more */
 } fst_lock_state;
 
-/* Take the lock of an open file, which must be open for writing; closing the descriptor gives it back. */
+/* Take the lock of an open file, which must be open for writing.  Closing the descriptor gives it back. */
 fst_lock_state fst_lock_take(int descriptor);
 
 /* Whether the file of a descriptor is locked: FST_LOCK_FREE or FST_LOCK_TAKEN. */
@@ -25,21 +25,22 @@ fst_lock_state fst_lock_look(int descriptor);
 
 enum { FST_LOCK_OWNER_SIZE = 96 };
 
-/* "process 123 on HOST", or what is known of it. */
+/* "process 123 on HOST", or as much of it as is known. */
 void fst_lock_owner(int descriptor, char owner[FST_LOCK_OWNER_SIZE]);
 
-/* A sweep of this very process on the file.  SQLite's own locks (F_SETLK) are those of a process: all of them
- * end as soon as any descriptor of the file is closed in it, whatever it was opened for, and then other
- * programs write into a database that is being written.  So this function, which opens nothing, comes before
- * any opening: FST_IO with a sentence where this process is at work on the file, which must not be opened then.
- */
+/* Whether this very process has a sweep at work on the file.  SQLite's own locks (F_SETLK) belong to a process:
+ * all of them end as soon as the process closes any descriptor of the file, whatever that was opened for, and
+ * then other programs may write into a database that is being written.  So call this, which opens nothing,
+ * before the file is opened.  FST_IO with a sentence: this process is at work on the file, which must not be
+ * opened. */
 fst_status fst_lock_check_own(const char *path, const char *name, fst_error *error);
 
-/* The same of a descriptor that found the lock taken, because another thread opened the file at the same time:
- * 1 if that thread has the lock, with a sentence in `error`; closing the descriptor would then do the harm. */
+/* The same for a descriptor that found the lock taken, because another thread opened the file at the same time.
+ * 1: that thread has the lock, and `error` says so; the descriptor must stay open, because closing it would end
+ * SQLite's locks. */
 int fst_lock_is_own(int descriptor, const char *name, fst_error *error);
 
-/* FST_IO: who is at work on `path`, the file of the descriptor. */
+/* FST_IO with a sentence that says who is at work on `path`, the file of the descriptor. */
 fst_status fst_lock_fail(int descriptor, const char *path, fst_error *error);
 
 #endif

@@ -1,3 +1,23 @@
+/* log.c - whose is the log beside a database?
+ *
+ * SQLite writes a log of the right name into a database before anything else, whatever the log belongs to:
+ *
+ *  rm a.db; mv b.db a.db     a.db-wal of the deleted file is still there, and would be written into b's rows
+ *  cp old/a.db .             the log beside it is newer, or older, than the copy
+ *
+ * So festoon reads the log itself before SQLite does.  A sweep's database bears a mark, 16 random bytes as
+ * text, on its first page (in the definition of the table `seal`) and on its second (in that table's only row,
+ * which also counts the transactions).  Every transaction changes the second page, so the log of every
+ * transaction contains it:
+ *
+ *  database   | page 1: mark | page 2: mark, commits = 41 | rows ...
+ *  its log    | ... page 2: mark, commits = 42 | rows | ... page 2: mark, commits = 43 | rows |
+ *
+ *  no mark, or another mark            FST_LOG_FOREIGN   refuse, and change nothing
+ *  our mark, but fewer commits         FST_LOG_FOREIGN   an older log: it would undo what was committed since
+ *  our mark, and a damaged frame       FST_LOG_DAMAGED   SQLite would silently stop there: tell of it
+ *  our mark                            FST_LOG_OWN       SQLite may use it
+ */
 #define _GNU_SOURCE /* memmem(), getrandom() */
 #include "sweep/log.h"
 
@@ -45,13 +65,13 @@ int fst_mark_find(const void *bytes, size_t size, char mark[FST_MARK_SIZE])
     return 0;
 }
 
-/* The number of transactions in the row of the table `seal`, which is alone on its page; -1: it is not there.
- * A cell: sizes of the payload and of the key, a byte each; a head of four bytes (its size, the types of the
- * three columns); the mark; the number. */
+/* Read the number of transactions from the page of the table `seal`, which holds one row; -1: the row is not
+ * there.  Its cell: the sizes of payload and key, a byte each; a head of four bytes (its own size, the types of
+ * the three columns); the mark; the number. */
 static int64_t transactions_on(const unsigned char *page, size_t size, const char *mark)
 {
     enum { MARK = FST_MARK_SIZE - 1, CELL = 6 + MARK };
-    static const int SIZES[] = {-1, 1, 2, 3, 4, 6, 8, -1, 0, 0}; /* of the types of SQLite's format */
+    static const int SIZES[] = {-1, 1, 2, 3, 4, 6, 8, -1, 0, 0}; /* bytes of SQLite's integer types */
     const size_t at = (size_t)page[8] << 8 | page[9];
     if (page[0] != 0x0d || page[3] != 0 || page[4] != 1 || at + CELL > size)
         return -1;
@@ -67,15 +87,15 @@ static int64_t transactions_on(const unsigned char *page, size_t size, const cha
 
 /* ------------------------------------------------------------------ the write-ahead log
  *
- * A head of 32 bytes, then frames: a head of 24 bytes and a page.
+ * SQLite's format: a head of 32 bytes, then frames; a frame is a head of 24 bytes and a page.
  *
  *     head    magic, version, size of a page, number, salt 1, salt 2, sum (2)
  *     frame   page, size of the database (0: the transaction goes on), salt 1, salt 2, sum (2)
  *
- * All are numbers of four bytes, the highest first.  A frame counts if its salts are those of the head and its
- * sum goes on from that of the frame before; SQLite reads up to the first that does not count.  Ours never
- * begins again over old frames but with other salts, so a whole frame that has the salts and does not count is
- * damage, or was being written when the power failed.
+ * Each is a number of four bytes, the highest byte first.  A frame is valid if its salts are those of the head
+ * and its sum continues the sum of the frame before; SQLite reads up to the first frame that is not.  Our logs
+ * are cut to length zero before they begin again, with new salts.  So a whole frame that has the salts of the
+ * head and is not valid is damaged, or was being written when the power failed.
  */
 
 enum { HEAD_SIZE = 32, FRAME_SIZE = 24, SEAL_PAGE = 2 };
@@ -87,12 +107,12 @@ static uint32_t number_at(const unsigned char *bytes)
 
 typedef struct log_walk {
     int descriptor;
-    int swapped; /* sums are over numbers with the lowest byte first */
+    int swapped; /* the sums take numbers with the lowest byte first */
     uint32_t page_size, salts[2], sum[2];
-    int own, foreign; /* marks were found */
-    int commits;      /* transactions that SQLite would use */
-    int64_t seal,
-        last; /* the number in the latest page of the seal, and in the last of these transactions; -1 */
+    int own, foreign;   /* whether such marks were found */
+    int commits;        /* transactions that SQLite would use */
+    int64_t seal, last; /* the count of transactions in the latest page of the seal, and in the last of the
+                           transactions above; -1: none */
     int damaged;
     int reason; /* errno of a read that failed; 0: none did */
 } log_walk;
@@ -110,7 +130,8 @@ static void add_up(const log_walk *w, const unsigned char *bytes, size_t size, u
     }
 }
 
-/* All of some bytes; 0 where the file ends before, or where reading failed: *reason is its errno then. */
+/* Read exactly `size` bytes; 0 where the file ends before, or where reading failed, with its errno
+ * in *reason. */
 static int read_all(int descriptor, void *bytes, size_t size, off_t place, int *reason)
 {
     const ssize_t got = fst_read_at(descriptor, bytes, size, place);
@@ -147,7 +168,8 @@ static void look_for_marks(log_walk *w, const unsigned char *page, const char *m
         w->foreign = 1;
 }
 
-/* Whether a frame that does not count was meant to: an older one has salts that agree in half their bits. */
+/* Whether an invalid frame belongs to this log and is damaged.  A frame of an older log has other salts, which
+ * agree in about half of their bits; a damaged one has nearly all of them right. */
 static int has_salts(const log_walk *w, const unsigned char *frame)
 {
     int differing = 0;
@@ -180,7 +202,7 @@ static void walk_frames(log_walk *w, unsigned char *frame, const char *mark)
     }
 }
 
-/* Transactions of which the database itself knows, without its log; -1: none. */
+/* The count of transactions in the database file itself, without its log; -1: none. */
 static int64_t transactions_in(int database, uint32_t page_size, const char *mark, int *reason)
 {
     unsigned char *page = malloc(page_size);
@@ -190,8 +212,9 @@ static int64_t transactions_in(int database, uint32_t page_size, const char *mar
     return number;
 }
 
-/* A checkpoint writes nothing into the database that its log has not: a whole log that ends before the database
- * was left behind when the database was moved away, and would undo what was committed since. */
+/* A checkpoint copies pages from the log into the database and adds nothing.  So an undamaged log whose last
+ * transaction is older than the database's was left behind when the database was moved away and back; it would
+ * undo newer transactions. */
 static fst_log_state look_at_wal(int descriptor, int database, const char *mark, int *reason)
 {
     struct stat there;
@@ -221,7 +244,7 @@ static fst_log_state look_at_wal(int descriptor, int database, const char *mark,
 
 /* ------------------------------------------------------------------ the rollback journal
  *
- * It holds pages as they were before the transaction; SQLite ignores one whose first byte is zero.
+ * It holds pages as they were before the transaction.  SQLite ignores a journal whose first byte is zero.
  */
 
 static fst_log_state look_at_journal(int descriptor, const char *mark, int *reason)
@@ -235,7 +258,7 @@ static fst_log_state look_at_journal(int descriptor, const char *mark, int *reas
         free(bytes);
         return FST_LOG_NONE;
     }
-    /* Pieces overlap by a mark. */
+    /* Pieces overlap by the length of a mark, so that none is cut in two. */
     for (off_t place = 0; place < there.st_size; place += PIECE - FST_MARK_SIZE) {
         const off_t rest = there.st_size - place;
         const size_t size = rest < PIECE ? (size_t)rest : PIECE;

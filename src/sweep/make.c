@@ -1,12 +1,14 @@
-/* make.c - the life of a database until it has its name.
+/* make.c - making a database: nothing has its name until it is whole, and two commands never make two.
  *
- *     .NAME.HOST-PROCESS-0.part   is filled, synced and locked,
- *     .NAME.lock              is locked, so that one command at a time goes through what follows,
- *     NAME-wal, -shm, -journal    of an earlier database are removed: SQLite would take them for the new one's,
- *     NAME                    is what the first is renamed to, if still nothing has that name.
+ *  1. .NAME.HOST-PROCESS-0.part   is made, filled, synced and locked; nobody else knows of it
+ *  2. .NAME.lock                  is locked: one command at a time goes through steps 3 to 5
+ *  3. NAME-wal, -shm, -journal    of an earlier database are removed: SQLite would take them for the new one's
+ *  4. NAME                        the file of step 1 is renamed to it, if nothing else has the name
+ *  5. .NAME.lock                  is removed
  *
- * Killed anywhere, this leaves a database of its name, locked by nobody, or none; the next command to that name
- * removes the first two.
+ * The file keeps its lock when it is renamed, so another command that finds NAME also finds that it is in use.
+ * A kill at any point leaves either no file of that name or a whole, unlocked database.  The next command to
+ * that name removes what steps 1 and 2 left.
  */
 #define _GNU_SOURCE /* renameat2() */
 #include "sweep/make.h"
@@ -31,7 +33,7 @@ int fst_sweep_is_made(const char *path)
 
 /* ------------------------------------------------------------------ filling */
 
-/* The sound rows of another database of the same sweep, with checksums of the new one. */
+/* Copy the sound rows of another database of the same sweep, with checksums of the new one. */
 static fst_status copy_rows(sqlite3 *database, const char *name, const fst_sweep_file *from, uint64_t seed,
                             fst_error *error)
 {
@@ -101,7 +103,7 @@ static fst_status fill(const char *file, const char *name, const fst_sweep_ident
     return status;
 }
 
-/* A filled, locked and synced file beside the place; *descriptor holds the lock. */
+/* Make a filled, locked and synced file beside the place; *descriptor holds the lock. */
 static fst_status make_part(const char *name, const char *path, const fst_sweep_identity *identity,
                             const fst_sweep_file *from, fst_whole_file *part, int *descriptor, fst_error *error)
 {
@@ -147,8 +149,9 @@ static void wait_a_little(void)
     (void)nanosleep(&time, NULL);
 }
 
-/* Lock the file of this name, which is made for it and removed by the command that holds its lock.  The file
- * that was locked may have been removed in the meantime: then another one is. */
+/* Make the file of this name, if it is missing, and lock it.  The command that holds the lock removes the file
+ * when it is done.  So the file that was locked may have lost its name meanwhile; then the next one is tried.
+ */
 static fst_status lock_making(const char *lock, const char *name, int *descriptor, fst_error *error)
 {
     enum { TRIES = 500 };
@@ -175,7 +178,7 @@ static fst_status lock_making(const char *lock, const char *name, int *descripto
         if (state == FST_LOCK_TAKEN)
             wait_a_little();
     }
-    return fst_fail(error, FST_IO, name, "other commands make this file and remove it all the time");
+    return fst_fail(error, FST_IO, name, "other commands keep making and removing this file: try again later");
 }
 
 void fst_sweep_tidy(const char *path)
@@ -193,7 +196,7 @@ void fst_sweep_tidy(const char *path)
     fst_whole_file_tidy_beside(path);
 }
 
-/* Give a name to a file unless something has it, other than an empty file. */
+/* Rename a file unless something other than an empty file has the new name. */
 static int rename_if_free(const char *from, const char *to)
 {
     struct stat there;
@@ -203,7 +206,7 @@ static int rename_if_free(const char *from, const char *to)
         return 0;
     if (errno == EEXIST)
         return -1;
-    /* File systems without that call have links, or are far too simple for two commands at once. */
+    /* A file system without that call has links, or is too simple for two commands at once. */
     if (link(from, to) == 0) {
         (void)unlink(from);
         return 0;
@@ -211,7 +214,7 @@ static int rename_if_free(const char *from, const char *to)
     return errno == EEXIST ? -1 : rename(from, to);
 }
 
-/* With the lock: *made is 0 where another command was faster. */
+/* Steps 3 and 4, with the lock held. *made is 0 where another command was faster. */
 static fst_status give_name(const char *name, const char *path, const fst_whole_file *part, int *made,
                             fst_error *error)
 {
@@ -247,7 +250,7 @@ fst_status fst_sweep_make(const char *name, const char *path, const fst_sweep_id
         (void)close(lock);
     }
     free(locked);
-    fst_whole_file_discard(&part); /* of a file that has its name, nothing is left to remove */
+    fst_whole_file_discard(&part); /* removes nothing where the file has its name */
     if (!made) {
         (void)close(*descriptor);
         *descriptor = -1;
@@ -257,7 +260,7 @@ fst_status fst_sweep_make(const char *name, const char *path, const fst_sweep_id
 
 /* ------------------------------------------------------------------ repairing */
 
-/* Keep a file under a second name, FILE.damaged or FILE.damaged-2, ..., with its logs. */
+/* Keep a damaged file as FILE.damaged, or FILE.damaged-2 and so on, with its logs. */
 static fst_status keep_damaged(const char *name, const char *path, fst_error *error)
 {
     enum { MOST = 1000 };

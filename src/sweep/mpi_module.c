@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A message on its way: it is freed when MPI has done with it. */
+/* A message on its way; it is freed once MPI has sent it. */
 typedef struct letter {
     struct letter *next;
     MPI_Request request;
@@ -14,7 +14,7 @@ typedef struct letter {
 
 struct fst_mpi_link {
     letter *outgoing;
-    int own; /* MPI was started here, and not by the program around */
+    int own; /* MPI was started here, not by the program around */
 };
 
 static fst_mpi_link *open_link(int *rank, int *ranks, int *neighbours)
@@ -27,7 +27,7 @@ static fst_mpi_link *open_link(int *rank, int *ranks, int *neighbours)
         return NULL;
     link->own = !started;
     MPI_Comm machine;
-    /* One thread of each rank speaks MPI, the others compute. */
+    /* Only one thread of each rank calls MPI; the others compute. */
     if ((!started && MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &level) != MPI_SUCCESS) ||
         MPI_Comm_rank(MPI_COMM_WORLD, rank) != MPI_SUCCESS ||
         MPI_Comm_size(MPI_COMM_WORLD, ranks) != MPI_SUCCESS ||
@@ -46,7 +46,7 @@ static int broadcast(fst_mpi_link *link, void *data, int size)
     return MPI_Bcast(data, size, MPI_BYTE, 0, MPI_COMM_WORLD) == MPI_SUCCESS;
 }
 
-/* Free the letters that have left; the number of those that have not. */
+/* Free the messages that were sent; returns how many are still on their way. */
 static int pending(fst_mpi_link *link)
 {
     int count = 0;
@@ -105,7 +105,7 @@ static int receive(fst_mpi_link *link, int from, int tag, void *data, size_t siz
 static void close_link(fst_mpi_link *link, int together)
 {
     if (!together)
-        return; /* MPI may still read the letters */
+        return; /* MPI may still read the messages */
     while (link->outgoing) {
         letter *here = link->outgoing;
         (void)MPI_Wait(&here->request, MPI_STATUS_IGNORE);

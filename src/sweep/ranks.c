@@ -1,4 +1,4 @@
-/* ranks.c - whether this process is one of several, and joining the others. */
+/* ranks.c - finding out whether this process is one of several, and joining the others. */
 #include "sweep/ranks.h"
 
 #include <stdlib.h>
@@ -13,7 +13,8 @@ static int number_in(const char *variable)
     return text ? atoi(text) : 0;
 }
 
-/* Number of processes that were started together, as those that start them tell; *by MPI's means? */
+/* The number of processes that were started together, according to the environment that mpirun or srun sets;
+ * *by_mpi: whether they were started so that MPI can join them. */
 static int started_together(int *by_mpi)
 {
     static const char *const sizes[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"};
@@ -21,7 +22,7 @@ static int started_together(int *by_mpi)
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i)
         if (number_in(sizes[i]) > 0)
             return number_in(sizes[i]);
-    /* srun starts the tasks of a step, with MPI's means (--mpi=pmix) or without. */
+    /* srun starts the tasks of a step for MPI (--mpi=pmix), or without MPI. */
     *by_mpi = getenv("PMIX_RANK") != NULL;
     return number_in("SLURM_STEP_NUM_TASKS");
 }

@@ -1,9 +1,17 @@
-/* ranks_messages.c - what leader and followers of a sweep say to each other.
+/* ranks_messages.c - the messages between the leader (rank 0) and the followers of a sweep.
  *
- * A follower says ASK (for so many tasks), ROWS, IMAGE (of a run that is not over) and at its end DONE; the
- * leader IMAGE (before the task that goes on from it), TASKS (none: there are no more), STOP, and BYE in answer
- * to DONE, the last word between the two.  All ranks run the same build on the same kind of machine - their
- * fingerprints agree - so structures are sent as they lie in memory.
+ *  follower                         leader
+ *    ASK    I have room for n tasks   -->
+ *                                     <--  IMAGE   of an unfinished run, before the task that goes on from it
+ *                                     <--  TASKS   an empty list: there are no more
+ *    ROWS   finished points           -->
+ *    IMAGE  of an unfinished run      -->
+ *                                     <--  STOP    the caller wants the work to end
+ *    DONE   my status and error       -->
+ *                                     <--  BYE     the last message between the two
+ *
+ * All ranks run the same build on the same kind of machine (their fingerprints agree), so structures are sent
+ * as they lie in memory.
  */
 #include "sweep/ranks.h"
 
@@ -13,6 +21,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/watch.h"
 
 enum { TAG_ASK = 1, TAG_TASKS, TAG_ROWS, TAG_STOP, TAG_DONE, TAG_BYE, TAG_IMAGE };
 enum { FOLLOWER_TASKS = 64, MOST_LETTERS = 16 };
@@ -30,11 +39,12 @@ static const size_t IMAGE_HEAD = offsetof(fst_image, bytes) - offsetof(fst_image
 
 static void post_image(const fst_ranks *r, int to, const fst_image *image)
 {
-    /* One that cannot be sent costs what it would have saved. */
+    /* If an image cannot be sent, its run begins anew: that costs time, and nothing else. */
     (void)r->mpi->post(r->link, to, TAG_IMAGE, &image->point, IMAGE_HEAD + image->size);
 }
 
-/* The image of a message of this size, or NULL where that is none or there is no memory; *received tells. */
+/* Receive an image of this size; NULL where the message is no image or there is no memory. *received tells
+ * whether a message was taken. */
 static fst_image *receive_image(const fst_ranks *r, int from, size_t size, int *received)
 {
     fst_image *image = size >= IMAGE_HEAD ? fst_image_new(0, NULL, size - IMAGE_HEAD) : NULL;
@@ -45,7 +55,7 @@ static fst_image *receive_image(const fst_ranks *r, int from, size_t size, int *
     return NULL;
 }
 
-/* The end of a follower's work. */
+/* What a follower says at its end. */
 typedef struct farewell {
     fst_status status;
     char machine[64];
@@ -56,7 +66,7 @@ typedef struct farewell {
 
 struct fst_leader {
     const fst_ranks *ranks;
-    int *room; /* tasks that a rank waits for */
+    int *room; /* tasks for which each rank has room and waits */
     int followers, stopped;
 };
 
@@ -95,7 +105,7 @@ void fst_leader_stop(fst_leader *leader)
     leader->stopped = 1;
 }
 
-/* The images of tasks that leave this process go with them. */
+/* Tasks that leave this process take their images with them. */
 static void hand_out_images(const fst_ranks *r, fst_workers *workers, int to, const fst_sweep_task *tasks,
                             int count)
 {
@@ -107,7 +117,7 @@ static void hand_out_images(const fst_ranks *r, fst_workers *workers, int to, co
     }
 }
 
-/* Hand tasks to those who wait for them. */
+/* Hand tasks to the ranks that wait for them. */
 static fst_status hand_out(fst_leader *leader, fst_workers *workers, fst_error *error)
 {
     const fst_ranks *r = leader->ranks;
@@ -119,7 +129,7 @@ static fst_status hand_out(fst_leader *leader, fst_workers *workers, fst_error *
         const int most = leader->room[to] < FOLLOWER_TASKS ? leader->room[to] : FOLLOWER_TASKS;
         const int count = fst_workers_withdraw(workers, tasks, most, 2 * r->count, &over);
         if (count == 0 && !over)
-            continue; /* the leader looks for more before it attends again */
+            continue; /* the leader fills its queue before it comes here again */
         leader->room[to] = 0;
         hand_out_images(r, workers, to, tasks, count);
         if (!r->mpi->post(r->link, to, TAG_TASKS, tasks, (size_t)count * sizeof *tasks))
@@ -165,7 +175,7 @@ fst_status fst_leader_attend(fst_leader *leader, fst_workers *workers, fst_sweep
                             : tag == TAG_ROWS ? FST_WORKERS_ROWS * sizeof *rows
                                               : sizeof last;
         if (size > most || !r->mpi->receive(r->link, from, tag, into, size))
-            return fst_fail(error, FST_IO, "MPI", "rank %d sent what nobody understands", from);
+            return fst_fail(error, FST_IO, "MPI", "rank %d sent a message of an unknown kind", from);
         if (tag == TAG_ASK)
             leader->room[from] = room;
         else if (tag == TAG_ROWS)
@@ -178,7 +188,7 @@ fst_status fst_leader_attend(fst_leader *leader, fst_workers *workers, fst_sweep
 
 /* ------------------------------------------------------------------ a follower's side */
 
-/* Hear the leader; *over becomes 1 at BYE. */
+/* Take the leader's messages; *over becomes 1 at BYE. */
 static void hear_leader(const fst_ranks *r, fst_workers *workers, int *over)
 {
     int from, tag;
@@ -206,11 +216,10 @@ static void hear_leader(const fst_ranks *r, fst_workers *workers, int *over)
     }
 }
 
-/* Speak with the leader until the workers have nothing more to do. */
+/* Exchange messages with the leader until the workers have nothing more to do. */
 static fst_status serve(const fst_ranks *r, fst_workers *workers, fst_sweep_record *rows,
                         const fst_sweep_options *options, fst_error *error)
 {
-    fst_sweep_progress progress = {.rank = r->rank, .ranks = r->count};
     fst_status outcome = FST_OK;
     int busy = 1, over = 0;
     while (busy) {
@@ -221,7 +230,7 @@ static fst_status serve(const fst_ranks *r, fst_workers *workers, fst_sweep_reco
         }
         hear_leader(r, workers, &over);
         const int letters = r->mpi->pending(r->link);
-        if (letters > MOST_LETTERS) { /* the leader is slower than the workers: let it wait */
+        if (letters > MOST_LETTERS) { /* the leader is slower than the workers: give it time */
             wait_a_little();
         } else {
             const int count = fst_workers_take(workers, rows, WAIT_SECONDS, &busy);
@@ -232,8 +241,8 @@ static fst_status serve(const fst_ranks *r, fst_workers *workers, fst_sweep_reco
                 post_image(r, 0, i);
             fst_images_free(images);
         }
-        if (outcome == FST_OK && options->progress)
-            outcome = options->progress(options->user, &progress, error);
+        if (outcome == FST_OK) /* only the leader knows how much is done */
+            outcome = fst_tell(options->progress, 0.0, NULL, error);
         if (outcome != FST_OK)
             fst_workers_stop(workers, 0);
     }

@@ -1,4 +1,8 @@
-/* rows.c - the rows of a sweep's database, past whatever is damaged. */
+/* rows.c - reading the rows of a sweep's database in order, past any damage.
+ *
+ * Each row is checked against its checksum, the types of its columns and the grid.  Where a page cannot be
+ * read, the reading starts again at the next point, and the points between are noted as lost.
+ */
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,8 +11,8 @@
 #include "sweep/columns.h"
 #include "sweep/file.h"
 
-/* A damaged page that leads to others hides some thousands of points: after so many failures in a row the
- * search for the next readable row takes longer and longer steps. */
+/* A damaged inner page of the tree hides thousands of points.  After so many failures in a row the search for
+ * the next readable row takes longer and longer steps. */
 enum { PATIENCE = 4096 };
 
 static void lose(fst_lost_points *lost, int64_t first, int64_t last)
@@ -46,7 +50,7 @@ void fst_sweep_rows_end(fst_sweep_rows *rows)
     rows->row = NULL;
 }
 
-/* Look for the first readable row from a point on. */
+/* Look for the first readable row at or behind a point. */
 static int seek(fst_sweep_rows *rows, int64_t point)
 {
     (void)sqlite3_reset(rows->row);
@@ -54,7 +58,7 @@ static int seek(fst_sweep_rows *rows, int64_t point)
     return sqlite3_step(rows->row);
 }
 
-/* Pass over what cannot be read from rows->next on. */
+/* Pass over the points from rows->next on that cannot be read. */
 static int pass_damage(fst_sweep_rows *rows)
 {
     const int64_t end = fst_grid_points(rows->file->grid);
@@ -84,7 +88,7 @@ fst_status fst_sweep_rows_next(fst_sweep_rows *rows, int *more, fst_error *error
         if (code != SQLITE_ROW)
             return fst_database_fail(file->database, file->name, error);
         const int64_t point = sqlite3_column_int64(rows->row, 0);
-        if (point < rows->next || point >= end) { /* of no point, or out of order */
+        if (point < rows->next || point >= end) { /* it belongs to no point, or is out of order */
             ++rows->lost.outside;
             continue;
         }
@@ -104,7 +108,7 @@ int fst_sweep_rows_are_whole(const fst_sweep_rows *rows)
            !rows->file->finding[0];
 }
 
-/* The points that are lost, in words. */
+/* Name the lost points: "3, 7-12 and 5 more". */
 static void name_points(const fst_lost_points *lost, char *text, size_t size)
 {
     size_t used = 0;
@@ -137,7 +141,7 @@ fst_status fst_sweep_rows_fail(const fst_sweep_rows *rows, const char *others, f
     else if (file->log == FST_LOG_DAMAGED)
         (void)snprintf(what, sizeof what, "part of its log cannot be read, and the last rows may be lost");
     else
-        (void)snprintf(what, sizeof what, "no row is seen to be lost, but some may be missing");
+        (void)snprintf(what, sizeof what, "no lost row was found, but some may be missing");
     return fst_fail(
         error, FST_BAD_INPUT, file->name,
         "this sweep database is damaged%s%s%s: %s. %sThe same sweep command computes lost rows again",

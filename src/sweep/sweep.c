@@ -1,7 +1,13 @@
-/* sweep.c - a sweep as a job: threads compute rows, one thread of one process keeps the journal.
+/* sweep.c - a sweep as a job: threads compute rows, and one thread of one process keeps the journal.
  *
- * That thread looks in the journal for points without a row, gives them to its own workers and, where mpirun
- * started several processes, to those of the others, and writes the rows that come back.
+ *  grid --> points without a row --> tasks queue --> workers --> rows queue --> journal --> FILE.db
+ *           look_for_tasks()         workers.c       workers.c   workers.c      journal.c
+ *
+ * That one thread, the caller's, goes round in keep_journal(): it fills the queue of tasks from the journal,
+ * hands tasks to the other ranks where mpirun started several processes (ranks.h), writes the rows and images
+ * that came back, commits now and then, and tells the caller's progress.  A stop (Ctrl-C, a failure) goes the
+ * same way: no new tasks, unfinished runs leave their images, and everything is committed before the call
+ * returns.
  */
 #include "sweep/sweep.h"
 
@@ -11,6 +17,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/watch.h"
 #include "host/threads.h"
 #include "sweep/checkpoints.h"
 #include "sweep/ranks.h"
@@ -18,8 +25,11 @@
 
 enum { OPTIONS_COOKIE = 0x53574550, COMMIT_ROWS = 256 };
 static const double COMMIT_SECONDS = 0.5;
-static const double WAIT_SECONDS = 0.05, WAIT_SECONDS_RANKS = 0.002; /* for rows; between looks for messages */
-static const double FAREWELL_SECONDS = 10.0;                         /* for followers that were told to stop */
+static const double
+    WAIT_SECONDS = 0.05,
+    WAIT_SECONDS_RANKS =
+        0.002; /* how long to wait for rows; the second, where messages of ranks are looked for */
+static const double FAREWELL_SECONDS = 10.0; /* how long to wait for followers that were told to stop */
 
 typedef struct job {
     fst_sweep_identity identity;
@@ -29,13 +39,13 @@ typedef struct job {
     fst_ranks ranks;
     fst_leader *leader; /* NULL where there is one rank */
     fst_workers *workers;
-    int64_t next; /* point or chain from which on the journal is yet to be looked through */
-    fst_sweep_progress progress;
+    int64_t next;             /* the points or chains before this one were looked up in the journal */
+    fst_sweep_counts *counts; /* the caller's, always up to date */
     double started, committed;
     double processor_started, journal_started;
-    int uncommitted; /* rows and images */
-    int stopping;    /* nothing waits for company any more: what comes is committed at once */
-    int no_answer;   /* a follower that was told to stop said nothing more */
+    int uncommitted; /* rows and images added since the last commit */
+    int stopping;    /* the sweep is ending: commit whatever comes at once */
+    int no_answer;   /* a follower was told to stop and did not answer */
 } job;
 
 fst_sweep_options fst_default_sweep_options(void)
@@ -55,17 +65,22 @@ static double read_clock(clockid_t clock)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* What the job has taken so far. */
+/* Note how much time the job has taken so far. */
 static void read_clocks(job *j)
 {
-    j->progress.seconds = fst_clock_seconds() - j->started;
-    j->progress.processor_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - j->processor_started;
-    j->progress.journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - j->journal_started;
+    j->counts->seconds = fst_clock_seconds() - j->started;
+    j->counts->processor_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - j->processor_started;
+    j->counts->journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - j->journal_started;
+}
+
+static double fraction_done(const job *j)
+{
+    return (double)j->counts->there / (double)j->counts->points;
 }
 
 /* ------------------------------------------------------------------ tasks */
 
-/* The task that goes on with a chain, if there is anything left of it. */
+/* The task that goes on with a chain; *found is 0 where the chain is finished. */
 static fst_status resume_chain(job *j, int64_t chain, fst_sweep_task *t, int *found, fst_error *error)
 {
     const int64_t count = fst_chain_length(&j->identity);
@@ -88,7 +103,7 @@ static fst_status resume_chain(job *j, int64_t chain, fst_sweep_task *t, int *fo
     return FST_OK;
 }
 
-/* Tasks from the journal into `fresh`; *found is 0 when there are no more. */
+/* Find tasks for points without a row; *found is 0 when there are no more. */
 static fst_status look_for_tasks(job *j, fst_sweep_task *fresh, int room, int *found, fst_error *error)
 {
     fst_status status = FST_OK;
@@ -110,7 +125,7 @@ static fst_status look_for_tasks(job *j, fst_sweep_task *fresh, int room, int *f
     return status;
 }
 
-/* The images of runs that were broken off go to the workers before their tasks. */
+/* Give the workers the images of unfinished runs, before the tasks that go on from them. */
 static void find_images(job *j, const fst_sweep_task *tasks, int count)
 {
     for (int i = 0; i < count; ++i) {
@@ -123,7 +138,7 @@ static void find_images(job *j, const fst_sweep_task *tasks, int count)
     }
 }
 
-/* Fill the workers' queue of tasks up. */
+/* Fill up the workers' queue of tasks. */
 static fst_status refill(job *j, fst_error *error)
 {
     const int room = fst_workers_room(j->workers);
@@ -152,7 +167,7 @@ static fst_status commit(job *j, fst_error *error)
     return status;
 }
 
-/* Write what has come, and commit now and then. */
+/* Write rows, and commit now and then. */
 static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fst_error *error)
 {
     fst_status status = FST_OK;
@@ -162,19 +177,19 @@ static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fs
             status = fst_checkpoints_drop(j->checkpoints, rows[i].point, error);
     }
     for (int i = 0; i < count; ++i)
-        j->progress.failed += rows[i].status != FST_OK;
+        j->counts->failed += rows[i].status != FST_OK;
     j->uncommitted += count;
     if (status == FST_OK && j->uncommitted > 0 &&
         (j->stopping || j->uncommitted >= COMMIT_ROWS || fst_clock_seconds() - j->committed > COMMIT_SECONDS))
         status = commit(j, error);
     if (status == FST_OK) {
-        j->progress.added += count;
-        j->progress.there += count;
+        j->counts->added += count;
+        j->counts->there += count;
     }
     return status;
 }
 
-/* Images of runs that are not over; the list is freed. */
+/* Write images of unfinished runs, and free the list. */
 static fst_status write_images(job *j, fst_image *images, fst_error *error)
 {
     fst_status status = FST_OK;
@@ -186,8 +201,8 @@ static fst_status write_images(job *j, fst_image *images, fst_error *error)
     return status;
 }
 
-/* The rows of the other ranks.  What failed there is put into *outcome: rows that have come are written all the
- * same, unless the journal has failed. */
+/* Write the rows of the other ranks.  A failure there is put into *outcome: rows that have come are written all
+ * the same, unless the journal itself has failed. */
 static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, fst_status *outcome,
                                  fst_error *error)
 {
@@ -213,7 +228,7 @@ static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, 
     return status;
 }
 
-/* What the workers have done: rows for which it is waited so long, and images of runs that are not over. */
+/* Write the rows and images of our own workers; wait up to `seconds` for rows. */
 static fst_status hear_workers(job *j, fst_sweep_record *rows, double seconds, int abandoned, int *busy,
                                fst_error *error)
 {
@@ -227,8 +242,8 @@ static fst_status hear_workers(job *j, fst_sweep_record *rows, double seconds, i
     return status == FST_OK ? write_rows(j, rows, count, error) : status;
 }
 
-/* No more runs are wanted.  The first thing to do is to make safe what there is: whoever ends the other ranks
- * may end this one soon. */
+/* Begin no more runs.  First commit what is there: the program that ends the other ranks may soon
+ * end this one. */
 static fst_status stop(job *j, fst_sweep_record *rows, fst_status status, fst_error *error)
 {
     int busy;
@@ -253,7 +268,7 @@ static void wait_for_messages(const job *j, int busy)
         (void)nanosleep(&time, NULL);
 }
 
-/* Keep the journal until nobody works any more.  An interruption still writes what was done. */
+/* Keep the journal until no worker works any more.  After an interruption this still writes what was done. */
 static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
 {
     const double seconds = j->leader ? WAIT_SECONDS_RANKS : WAIT_SECONDS;
@@ -269,8 +284,8 @@ static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
         const fst_status taken = hear_workers(j, rows, seconds, status != FST_OK, &busy, error);
         status = status == FST_OK ? taken : status;
         read_clocks(j);
-        if (status == FST_OK && outcome == FST_OK && j->options->progress)
-            outcome = j->options->progress(j->options->user, &j->progress, error);
+        if (status == FST_OK && outcome == FST_OK)
+            outcome = fst_tell(j->options->progress, fraction_done(j), NULL, error);
         if (stopped == 0.0 && (status != FST_OK || outcome != FST_OK)) {
             status = stop(j, rows, status, error);
             stopped = fst_clock_seconds();
@@ -293,7 +308,7 @@ static int thread_count(const job *j)
     return wanted > tasks ? (int)tasks : wanted;
 }
 
-/* Images are written by one process: the more runs there are, the rarer each is saved. */
+/* One process writes all images.  So the more runs there are, the more rarely each is saved. */
 static fst_workers_plan workers_plan(const job *j)
 {
     enum { THREADS_AT_FULL_RATE = 8 };
@@ -347,7 +362,7 @@ static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid
     return FST_OK;
 }
 
-/* The rank with the journal, or the only one. */
+/* The part of rank 0, or of the only process: it has the journal. */
 static fst_status lead(job *j, const char *path, fst_error *error)
 {
     fst_status status =
@@ -355,9 +370,9 @@ static fst_status lead(job *j, const char *path, fst_error *error)
     if (status == FST_OK)
         status = fst_journal_open(path, &j->identity, &j->journal, error);
     if (status == FST_OK)
-        j->progress.repaired = fst_journal_repaired(j->journal, &j->progress.lost);
+        j->counts->repaired = fst_journal_repaired(j->journal, &j->counts->lost);
     if (status == FST_OK)
-        status = fst_journal_count(j->journal, &j->progress.there, error);
+        status = fst_journal_count(j->journal, &j->counts->there, error);
     if (status == FST_OK)
         status =
             fst_checkpoints_open(j->journal, fst_journal_identity_hash(&j->identity), &j->checkpoints, error);
@@ -365,7 +380,7 @@ static fst_status lead(job *j, const char *path, fst_error *error)
     fst_error silence;
     const fst_status shared = fst_ranks_share_start(&j->ranks, &start, status == FST_OK ? error : &silence);
     status = status == FST_OK ? shared : status;
-    if (status == FST_OK && (j->progress.there < j->progress.points || j->ranks.link))
+    if (status == FST_OK && (j->counts->there < j->counts->points || j->ranks.link))
         status = work(j, error);
     if (status == FST_OK && j->checkpoints)
         status = fst_checkpoints_drop_all(j->checkpoints, error);
@@ -380,7 +395,7 @@ static fst_status lead(job *j, const char *path, fst_error *error)
     return status;
 }
 
-/* Another rank: it computes what the leader computes, or says that it cannot. */
+/* The part of any other rank: it computes what the leader computes, or says that it cannot. */
 static fst_status follow(job *j, fst_error *error)
 {
     fst_ranks_start start;
@@ -398,7 +413,7 @@ static fst_status follow(job *j, fst_error *error)
     return fst_follow(&j->ranks, &j->identity, j->options, &plan, status, error);
 }
 
-/* Lead, follow, or work alone.  What happened to followers, the leader tells. */
+/* Lead, follow, or work alone.  The leader reports what happened to followers. */
 static fst_status run_job(job *j, const char *path, fst_error *error)
 {
     fst_status status = j->options->with_ranks ? fst_ranks_open(&j->ranks, error) : FST_OK;
@@ -406,8 +421,8 @@ static fst_status run_job(job *j, const char *path, fst_error *error)
         fst_ranks_close(&j->ranks, 0);
         return status;
     }
-    j->progress.rank = j->ranks.rank;
-    j->progress.ranks = j->ranks.count;
+    j->counts->rank = j->ranks.rank;
+    j->counts->ranks = j->ranks.count;
     status = j->ranks.rank == 0 ? lead(j, path, error) : follow(j, error);
     if (j->ranks.rank != 0 && error)
         *error = (fst_error){status, "", ""};
@@ -416,9 +431,9 @@ static fst_status run_job(job *j, const char *path, fst_error *error)
 }
 
 fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep_options *options,
-                     fst_sweep_progress *result, fst_error *error)
+                     fst_sweep_counts *counts, fst_error *error)
 {
-    memset(result, 0, sizeof *result);
+    memset(counts, 0, sizeof *counts);
     if (options->cookie != OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep",
                         "the options were not made by fst_default_sweep_options()");
@@ -430,15 +445,15 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
     if (status == FST_OK) {
         job j = {.identity = {grid, options->seed, options->carry, options->arithmetic, 0},
                  .options = options,
+                 .counts = counts,
                  .ranks = {.count = 1, .neighbours = 1}};
-        j.progress.points = fst_grid_points(grid);
+        counts->points = fst_grid_points(grid);
         j.started = fst_clock_seconds();
-        j.committed = j.started - COMMIT_SECONDS; /* the first row does not wait */
+        j.committed = j.started - COMMIT_SECONDS; /* the first row is committed at once */
         j.processor_started = read_clock(CLOCK_PROCESS_CPUTIME_ID);
         j.journal_started = read_clock(CLOCK_THREAD_CPUTIME_ID);
         status = run_job(&j, path, error);
         read_clocks(&j);
-        *result = j.progress;
     }
     fst_grid_free(grid);
     return status;

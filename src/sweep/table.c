@@ -1,4 +1,4 @@
-/* table.c - columns of a sweep's database by point, for figures. */
+/* table.c - columns of a sweep's database in the order of the points, for figures. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,7 +30,7 @@ static fst_status check_key(const char *key, fst_error *error)
     return fst_fail(error, FST_BAD_INPUT, "--key", "unknown key \"%.60s\"; the nearest is %s", key, nearest);
 }
 
-/* Regimes and symmetries by their number. */
+/* A value as a number; regimes and symmetries by their index. */
 static double number_of(sqlite3_stmt *rows, int column)
 {
     if (sqlite3_column_type(rows, column) == SQLITE_NULL)
@@ -47,7 +47,7 @@ static double number_of(sqlite3_stmt *rows, int column)
     return NAN;
 }
 
-/* Places of the keys among the columns of the table. */
+/* Find the keys among the columns of the table. */
 static void find_columns(sqlite3_stmt *row, const char *const *keys, int count, int *places)
 {
     for (int i = 0; i < count; ++i)
@@ -56,7 +56,7 @@ static void find_columns(sqlite3_stmt *row, const char *const *keys, int count, 
                 places[i] = k;
 }
 
-/* All rows, or none: a figure does not show that some are lost. */
+/* Read all rows, or fail: a figure cannot show that some are lost. */
 static fst_status read_rows(const fst_sweep_file *file, const char *const *keys, int count, double *values,
                             fst_error *error)
 {

@@ -1,3 +1,12 @@
+/* workers.c - the threads that compute the rows of a sweep.
+ *
+ *      fst_workers_give()                                     fst_workers_take()
+ *    journal's thread --> [ tasks, at most 1024 ] --> threads --> [ rows, at most 512 ] --> journal's thread
+ *
+ * Both queues are bounded, so the memory of a sweep does not grow with its points.  A thread waits where there
+ * is no task, or no room for a row; the journal's thread waits for rows, but never for long.  One lock guards
+ * both queues.
+ */
 #include "sweep/workers.h"
 
 #include <pthread.h>
@@ -18,12 +27,12 @@ struct fst_workers {
     int first_task, task_count, expecting, no_more_tasks;
     fst_sweep_record rows[FST_WORKERS_ROWS];
     int first_row, row_count;
-    fst_image *found;  /* images that runs to come go on from */
-    fst_image *made;   /* images of runs at work, yet to be taken */
+    fst_image *found;  /* images of runs that a thread will go on from */
+    fst_image *made;   /* images of runs at work, to be taken by the other side */
     int busy;          /* threads at work */
-    int stopping;      /* no new tasks, runs are broken off */
-    int abandoned;     /* rows are not taken any more */
-    fst_status status; /* of threads */
+    int stopping;      /* begin no more tasks, break runs off */
+    int abandoned;     /* the other side takes no more rows */
+    fst_status status; /* of the first thread that failed */
     fst_error error;
 };
 
@@ -47,7 +56,7 @@ static int next_task(void *user, fst_row_job *row)
             pthread_cond_signal(&w->row_came);
     }
     pthread_mutex_unlock(&w->lock);
-    if (more) /* the values were checked when the grid was made */
+    if (more) /* cannot fail: the values were checked when the grid was made */
         (void)fst_grid_params(w->identity->grid, row->point, &row->params, NULL);
     return more;
 }
@@ -59,7 +68,7 @@ static void hand_over(fst_workers *w, const fst_sweep_record *record)
         pthread_cond_wait(&w->room_came, &w->lock);
     if (!w->abandoned)
         w->rows[(w->first_row + w->row_count++) % FST_WORKERS_ROWS] = *record;
-    free(fst_image_take(&w->made, record->point)); /* the run is over */
+    free(fst_image_take(&w->made, record->point)); /* the run is over, so its image is of no use */
     if (w->row_count == FST_WORKERS_ROWS / 2)
         pthread_cond_signal(&w->row_came);
     pthread_mutex_unlock(&w->lock);
@@ -107,7 +116,7 @@ static void save_image(void *user, const fst_row_job *job, const void *bytes, si
     fst_workers *w = user;
     fst_image *image = fst_image_new(job->point, bytes, size);
     if (!image)
-        return; /* the run goes on all the same */
+        return; /* without memory for the image the run goes on all the same */
     pthread_mutex_lock(&w->lock);
     fst_image_put(&w->made, image);
     pthread_mutex_unlock(&w->lock);
@@ -257,7 +266,7 @@ static void begin_locks(fst_workers *w)
 {
     pthread_mutex_init(&w->lock, NULL);
     pthread_cond_init(&w->task_came, NULL);
-    fst_condition_init(&w->row_came); /* which is waited for with a limit */
+    fst_condition_init(&w->row_came); /* it is waited for with a limit */
     pthread_cond_init(&w->room_came, NULL);
 }
 

@@ -95,7 +95,7 @@ def parse(room, text):
 
 def read_all(folder=HERE):
     """Every entry, room by room in the order of the rooms."""
-    order = "base host model ode observe ensemble study orbit io sweep draw film paper cli tables".split()
+    order = "base host model ode observe lanes study orbit io sweep draw film paper cli tables".split()
     files = [name for name in os.listdir(folder) if name.endswith(".mutants")]
     rooms = sorted((name[:-len(".mutants")] for name in files), key=lambda room: (room not in order, room)
                    if room not in order else (False, f"{order.index(room):02}"))

@@ -3,8 +3,8 @@
  * As with fst_lane_engine, an engine is one body (tangents.inl) compiled for one width and form of arithmetic,
  * value i of lane l lying at [i * width + l]; a width of 1 is the scalar form.
  */
-#ifndef FST_ENSEMBLE_TANGENTS_H
-#define FST_ENSEMBLE_TANGENTS_H
+#ifndef FST_LANES_TANGENTS_H
+#define FST_LANES_TANGENTS_H
 
 #include "model/model.h"
 

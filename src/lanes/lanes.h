@@ -4,10 +4,10 @@
  * memory: value i of lane l of an array lies at [i * width + l].  Each lane has its own parameters, state and
  * step size; what the lanes share are the integers of the model (number of lines, material, dynamics).
  */
-#ifndef FST_ENSEMBLE_LANES_H
-#define FST_ENSEMBLE_LANES_H
+#ifndef FST_LANES_LANES_H
+#define FST_LANES_LANES_H
 
-#include "ensemble/tangents.h"
+#include "lanes/tangents.h"
 #include "observe/quadrature.h"
 #include "ode/flow.h"
 

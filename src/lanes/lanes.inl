@@ -429,13 +429,13 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     return events;
 }
 
-#include "ensemble/lane_observables.inl"
+#include "lanes/lane_observables.inl"
 #ifdef FST_FUSED
-#include "ensemble/lane_extremes.inl"
+#include "lanes/lane_extremes.inl"
 #endif
 
 #define TANGENT_WIDTH FST_LANES
-#include "ensemble/tangents.inl"
+#include "lanes/tangents.inl"
 
 const fst_lane_engine ENGINE = {
     .name = ENGINE_NAME,

@@ -1,5 +1,5 @@
 /* engines.c - choosing an engine by the processor. */
-#include "ensemble/engines.h"
+#include "lanes/engines.h"
 
 #ifdef FST_HAVE_LANES
 /* What the flags of the engines' files ask of the processor and the operating system (src/CMakeLists.txt). */

@@ -1,8 +1,8 @@
 /* engines.h - the engines that this build has. */
-#ifndef FST_ENSEMBLE_ENGINES_H
-#define FST_ENSEMBLE_ENGINES_H
+#ifndef FST_LANES_ENGINES_H
+#define FST_LANES_ENGINES_H
 
-#include "ensemble/lanes.h"
+#include "lanes/lanes.h"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 #define FST_HAVE_LANES 1

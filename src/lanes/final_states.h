@@ -1,8 +1,8 @@
 /* final_states.h - many trajectories to their ends, in lanes: nothing is observed on the way. */
-#ifndef FST_ENSEMBLE_FINAL_STATES_H
-#define FST_ENSEMBLE_FINAL_STATES_H
+#ifndef FST_LANES_FINAL_STATES_H
+#define FST_LANES_FINAL_STATES_H
 
-#include "ensemble/lanes.h"
+#include "lanes/lanes.h"
 
 /* Take the flows[0..count[, which stand at their start, to t_end[i] each; the end states go to ends[i], and the
  * flows keep time and counters.  Models must share the integers of their coefficients.  FST_STEP_UNDERFLOW,

@@ -1,5 +1,5 @@
 /* lanes_portable8.c - eight lanes of AVX-512 in the portable form */
-#include "ensemble/engines.h"
+#include "lanes/engines.h"
 
 #ifdef FST_HAVE_LANES
 #define FST_LANES 8
@@ -9,5 +9,5 @@
 #define ENGINE fst_lanes_portable8
 #define ENGINE_NAME "portable"
 #define ENGINE_FUSED 0
-#include "ensemble/lanes.inl"
+#include "lanes/lanes.inl"
 #endif

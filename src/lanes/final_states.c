@@ -1,6 +1,6 @@
 /* final_states.c - many flows, one batch: as soon as one flow has landed at its end, the next takes its lane.
  */
-#include "ensemble/final_states.h"
+#include "lanes/final_states.h"
 
 #include <stdlib.h>
 #include <string.h>

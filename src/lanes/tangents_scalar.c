@@ -1,5 +1,5 @@
 /* tangents_scalar.c - one bead and its tangent vector */
-#include "ensemble/tangents.h"
+#include "lanes/tangents.h"
 
 #include <string.h>
 
@@ -15,6 +15,6 @@ static void load_coefficients(fst_coefficients_double *to, int lane, const fst_c
     *to = *from;
 }
 
-#include "ensemble/tangents.inl"
+#include "lanes/tangents.inl"
 
 const fst_tangent_engine fst_tangents_scalar = TANGENT_ENGINE;

@@ -1,5 +1,5 @@
 /* lanes_avx2.c - four lanes of AVX2 with fused operations */
-#include "ensemble/engines.h"
+#include "lanes/engines.h"
 
 #ifdef FST_HAVE_LANES
 #define FST_LANES 4
@@ -9,5 +9,5 @@
 #define ENGINE fst_lanes_avx2
 #define ENGINE_NAME "avx2"
 #define ENGINE_FUSED 1
-#include "ensemble/lanes.inl"
+#include "lanes/lanes.inl"
 #endif
