@@ -1,5 +1,6 @@
 /* units.c - the units that values may carry: reading "2.5 mm", and writing values in the units that
  * people use. */
+#include "base/constants.h"
 #include "base/units.h"
 
 #include <stdio.h>
@@ -18,8 +19,6 @@ typedef struct unit_row {
     double times, over;
 } unit_row;
 
-#define PI 3.14159265358979323846
-
 static const unit_row unit_rows[] = {
     {FST_UNIT_LENGTH, "m", 0, 1, 1},
     {FST_UNIT_LENGTH, "cm", -2, 1, 1},
@@ -37,13 +36,13 @@ static const unit_row unit_rows[] = {
     {FST_UNIT_FREQUENCY, "Hz", 0, 1, 1},
     {FST_UNIT_FREQUENCY, "kHz", 3, 1, 1},
     {FST_UNIT_FREQUENCY, "rpm", 0, 1, 60},
-    {FST_UNIT_FREQUENCY, "rad/s", 0, 1, 2 * PI},
+    {FST_UNIT_FREQUENCY, "rad/s", 0, 1, 2 * FST_PI},
     {FST_UNIT_RATE, "1/s", 0, 1, 1},
     {FST_UNIT_RATE, "s-1", 0, 1, 1},
     {FST_UNIT_RATE, "1/ms", 3, 1, 1},
     {FST_UNIT_ACCELERATION, "m/s2", 0, 1, 1},
     {FST_UNIT_ANGLE, "deg", 0, 1, 1},
-    {FST_UNIT_ANGLE, "rad", 0, 180, PI},
+    {FST_UNIT_ANGLE, "rad", 0, 180, FST_PI},
     {FST_UNIT_ANGLE, "turn", 0, 360, 1},
 };
 static const size_t unit_row_count = sizeof unit_rows / sizeof unit_rows[0];

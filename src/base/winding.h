@@ -6,6 +6,7 @@
 #ifndef FST_BASE_WINDING_H
 #define FST_BASE_WINDING_H
 
+#include "base/constants.h"
 #include <math.h>
 #include <stdint.h>
 
@@ -42,7 +43,7 @@ static inline int fst_winding_is_doubtful(const fst_winding *w, double x, double
 static inline double fst_winding_angle(const fst_winding *w)
 {
     /* y = -0 counts as +0: both lie on the same side of the half-axis. */
-    return 6.283185307179586476925287 * (double)w->turns + atan2(w->y + 0.0, w->x);
+    return FST_TWO_PI * (double)w->turns + atan2(w->y + 0.0, w->x);
 }
 
 #endif

@@ -140,7 +140,7 @@ static void print_forces(FILE *out, const fst_groups *g, const fst_run_result *s
 
 void print_run(FILE *out, const fst_groups *groups, const fst_run_result *result)
 {
-    const char *dynamics = groups->dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020";
+    const char *dynamics = fst_dynamics_name(groups->dynamics);
     print_sentence(out, groups, result);
     (void)fprintf(out, "\n  dynamics %s, symmetry %s, %.6g turns of the magnet", dynamics,
                   fst_symmetry_name(result->symmetry) ? fst_symmetry_name(result->symmetry) : "none",

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "draw/chart.h"
 
@@ -162,8 +163,7 @@ static int add_diagram(const fst_branch *b, const struct observable *what, colum
 static int add_circle(const fst_branch *b, columns *c, fst_chart_curve *curves)
 {
     for (int i = 0; i < CIRCLE && b->kind != FST_BRANCH_LOCKED; ++i)
-        put(&c[2], cos(2.0 * 3.14159265358979323846 * i / (CIRCLE - 1)),
-            sin(2.0 * 3.14159265358979323846 * i / (CIRCLE - 1)));
+        put(&c[2], cos(FST_TWO_PI * i / (CIRCLE - 1)), sin(FST_TWO_PI * i / (CIRCLE - 1)));
     put_multipliers(&c[0], b, 1);
     put_multipliers(&c[1], b, 0);
     style_curve(&curves[0], &c[2], NULL, FST_COLOUR_BLACK, FST_CURVE_LINE);

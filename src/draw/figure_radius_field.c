@@ -1,13 +1,12 @@
 /* figure_radius_field.c - r and |B| while the magnet passes under the bead (the paper's Fig. 13). */
 #include "draw/figure_trajectory.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "draw/chart.h"
 #include "draw/view.h"
 
 #include <stdlib.h>
-
-#define PI 3.14159265358979323846
 
 /* Fold Phi into half a revolution of the magnet.  Each fold gets a row of NAN, so that the line
  * breaks there. */
@@ -20,14 +19,14 @@ static void fold(const fst_view *view, const double *phi, const double *r, const
 {
     double previous = NAN;
     for (size_t row = view->first; row < view->last; ++row) {
-        double half_turn = floor(phi[row] / PI);
+        double half_turn = floor(phi[row] / FST_PI);
         size_t i = curve->count;
         if (!isnan(previous) && half_turn != previous) {
             curve->phi[i] = curve->r[i] = curve->b[i] = NAN;
             ++i;
         }
         previous = half_turn;
-        curve->phi[i] = phi[row] - half_turn * PI;
+        curve->phi[i] = phi[row] - half_turn * FST_PI;
         curve->r[i] = r[row];
         curve->b[i] = b[row];
         curve->count = i + 1;
@@ -51,7 +50,7 @@ static fst_status draw(const fst_view *view, const char *out, const folded *curv
     fst_chart chart = {.title = view->title,
                        .x_label = "Φ = α − ωt, the bead's angle against the magnet (0: over its lines' ends)",
                        .x_low = 0.0,
-                       .x_high = PI,
+                       .x_high = FST_PI,
                        .x_tics = "('0' 0, 'π/4' 0.785398163, 'π/2' 1.570796327, '3π/4' 2.35619449, 'π' "
                                  "3.141592654)",
                        .height = 420,

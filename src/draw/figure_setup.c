@@ -1,6 +1,8 @@
 /* figure_setup.c - the sketch of the experiment, and the path as the paper's camera would see it. */
 #include "draw/figure_setup.h"
 
+#include "base/constants.h"
+
 #include "draw/style.h"
 
 #include <math.h>
@@ -176,8 +178,7 @@ fst_status fst_figure_camera(const double *t, const double *x, const double *y, 
         "set xrange [-300:300]\nset yrange [-300:300]\n"
         "set xlabel 'x (pixels, %g a millimetre)'\nset ylabel 'y (pixels)'\n"
         "plot data index 'frames' using 1:2 with linespoints pt 7 ps 0.35 lw 0.8 lc rgb '%s' notitle\n",
-        (isfinite(params->drive_omega) ? params->drive_omega * gamma / 6.283185307179586
-                                       : params->drive_frequency),
+        (isfinite(params->drive_omega) ? params->drive_omega * gamma / FST_TWO_PI : params->drive_frequency),
         FRAMES_A_SECOND, CAMERA_SECONDS, PIXELS_A_MM, fst_colour_code(FST_COLOUR_BLUE));
     return fst_figure_finish(&figure, error);
 }

@@ -1,6 +1,7 @@
 /* figure_sweep_axes.c - axes and keys of a sweep, converted into the units that the figure shows. */
 #include "draw/figure_sweep_axes.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 
 #include <stdio.h>
@@ -37,8 +38,6 @@ static fst_status units_of(const fst_grid *grid, const char *what, double *lengt
     return FST_OK;
 }
 
-static const double TWO_PI = 6.283185307179586;
-
 /* The drive, by its frequency in Hz or by its scaled angular velocity. */
 static fst_status drive_axis(const fst_grid *grid, fst_shown_units units, fst_sweep_axis *axis,
                              fst_error *error)
@@ -48,7 +47,7 @@ static fst_status drive_axis(const fst_grid *grid, fst_shown_units units, fst_sw
     const int to_hertz = units == FST_SHOWN_LAB || (units == FST_SHOWN_AS_GIVEN && in_hertz);
     double time = 1.0;
     const fst_status status = in_hertz == to_hertz ? FST_OK : units_of(grid, key, NULL, &time, error);
-    axis->factor = in_hertz == to_hertz ? 1.0 : in_hertz ? TWO_PI * time : 1.0 / (TWO_PI * time);
+    axis->factor = in_hertz == to_hertz ? 1.0 : in_hertz ? FST_TWO_PI * time : 1.0 / (FST_TWO_PI * time);
     (void)snprintf(axis->label, sizeof axis->label, "%s",
                    to_hertz ? "drive frequency (Hz)" : "drive ω (scaled)");
     return status;

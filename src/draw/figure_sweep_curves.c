@@ -1,6 +1,7 @@
 /* figure_sweep_curves.c - keys of a sweep against its one axis, in the style of the paper's Fig. 6. */
 #include "draw/figure_sweep.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "draw/chart.h"
 
@@ -117,7 +118,7 @@ static void lay_abscissa(drawing *d, const fst_grid *grid, const fst_sweep_axis 
 static double scale_of_drive(const fst_grid *grid, const fst_sweep_axis *axis)
 {
     const char *key = fst_grid_key(grid, axis->index);
-    const double factor = 6.283185307179586 / fst_grid_base(grid)->friction_gamma;
+    const double factor = FST_TWO_PI / fst_grid_base(grid)->friction_gamma;
     const int in_hertz = strcmp(key, "drive.frequency") == 0
                              ? axis->factor == 1.0
                              : strcmp(key, "drive.omega") == 0 && axis->factor != 1.0;

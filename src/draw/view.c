@@ -1,13 +1,12 @@
 /* view.c - finding the part of a trajectory that a figure shows, and its columns. */
 #include "draw/view.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 static fst_status no_such_column(const char *name, fst_error *error)
 {
@@ -91,9 +90,9 @@ static fst_status choose_rows(fst_view *view, const fst_figure_options *options,
         ++first;
     size_t last = first;
     while (last < rows) {
-        if (!isnan(options->to)
-                ? drive[last] > options->to + 1e-9
-                : drive[last] - drive[first] > periods || fabs(alpha[last] - alpha[first]) > 2.0 * PI * turns)
+        if (!isnan(options->to) ? drive[last] > options->to + 1e-9
+                                : drive[last] - drive[first] > periods ||
+                                      fabs(alpha[last] - alpha[first]) > 2.0 * FST_PI * turns)
             break;
         ++last;
     }
@@ -115,7 +114,7 @@ static void make_title(fst_view *view, const char *title)
         return;
     }
     (void)snprintf(view->title, sizeof view->title, "ω = %.4g (%.4g Hz), dynamics %s", view->omega,
-                   view->omega * view->gamma / (2.0 * PI), view->dynamics);
+                   view->omega * view->gamma / (2.0 * FST_PI), view->dynamics);
 }
 
 fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options, double turns,
@@ -124,7 +123,7 @@ fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_
     *view = (fst_view){.table = table,
                        .gamma = table->params.friction_gamma,
                        .millimetres = 1e3 * table->params.magnet_half_length,
-                       .dynamics = table->params.model_dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020"};
+                       .dynamics = fst_dynamics_name((fst_dynamics)table->params.model_dynamics)};
     fst_status status = choose_rows(view, options, turns, periods, error);
     const double *omega;
     if (status == FST_OK)

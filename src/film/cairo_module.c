@@ -4,10 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "film/frame.h"
-
-#define PI 3.14159265358979323846
 
 struct fst_film_canvas {
     cairo_surface_t *surface;
@@ -101,7 +100,7 @@ static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, in
     cairo_set_line_width(pen, 0.07 * radius);
     int drawing = 0;
     for (int i = 0; i <= 72; ++i) {
-        double angle = 2.0 * PI * i / 72, body[3] = {cos(angle), sin(angle), 0.0};
+        double angle = 2.0 * FST_PI * i / 72, body[3] = {cos(angle), sin(angle), 0.0};
         seen(turn, body, view, &x, &y, &towards);
         if (towards <= 0.0)
             drawing = 0;
@@ -117,7 +116,7 @@ static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, in
         seen(turn, marks[i], view, &x, &y, &towards);
         if (towards <= 0.05)
             continue;
-        cairo_arc(pen, radius * x, radius * y, 0.08 * radius, 0.0, 2.0 * PI);
+        cairo_arc(pen, radius * x, radius * y, 0.08 * radius, 0.0, 2.0 * FST_PI);
         cairo_fill(pen);
     }
     for (int sign = 1; sign >= -1; sign -= 2) {
@@ -130,7 +129,7 @@ static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, in
         cairo_translate(pen, radius * x, radius * y);
         cairo_rotate(pen, atan2(y, x));
         cairo_scale(pen, fmax(towards, 0.15), 1.0); /* a cap seen from its side is an ellipse */
-        cairo_arc(pen, 0.0, 0.0, 0.3 * radius, 0.0, 2.0 * PI);
+        cairo_arc(pen, 0.0, 0.0, 0.3 * radius, 0.0, 2.0 * FST_PI);
         cairo_restore(pen);
         cairo_set_source_rgb(pen, colour[0], colour[1], colour[2]);
         cairo_fill(pen);
@@ -145,7 +144,7 @@ static void paint_bead(cairo_t *pen, const fst_film_stage *stage, const fst_film
     cairo_pattern_add_color_stop_rgb(shade, 0.0, 1.0, 1.0, 1.0);
     cairo_pattern_add_color_stop_rgb(shade, 0.5, 0.82, 0.83, 0.85);
     cairo_pattern_add_color_stop_rgb(shade, 1.0, 0.40, 0.41, 0.44);
-    cairo_arc(pen, 0.0, 0.0, radius, 0.0, 2.0 * PI);
+    cairo_arc(pen, 0.0, 0.0, radius, 0.0, 2.0 * FST_PI);
     cairo_set_source(pen, shade);
     cairo_fill_preserve(pen);
     cairo_pattern_destroy(shade);
@@ -153,7 +152,7 @@ static void paint_bead(cairo_t *pen, const fst_film_stage *stage, const fst_film
     cairo_clip(pen);
     paint_marks(pen, frame->turn, radius, view);
     cairo_restore(pen);
-    cairo_arc(pen, 0.0, 0.0, radius, 0.0, 2.0 * PI);
+    cairo_arc(pen, 0.0, 0.0, radius, 0.0, 2.0 * FST_PI);
     cairo_set_source_rgb(pen, 0.2, 0.2, 0.2);
     cairo_set_line_width(pen, 0.05 * radius);
     cairo_stroke(pen);
@@ -165,7 +164,7 @@ static void paint_plate(cairo_t *pen, const fst_film_stage *stage, const fst_fil
     cairo_translate(pen, 0.5 * stage->width, 0.5 * stage->height);
     cairo_scale(pen, scale, -scale);
     paint_magnet(pen, stage, frame->magnet_angle);
-    cairo_arc(pen, 0.0, 0.0, stage->reach / 120.0, 0.0, 2.0 * PI);
+    cairo_arc(pen, 0.0, 0.0, stage->reach / 120.0, 0.0, 2.0 * FST_PI);
     cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);
     cairo_fill(pen);
     paint_trail(pen, stage, frame);

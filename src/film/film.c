@@ -9,6 +9,7 @@
  * in order and given away at once, so memory does not grow with the film.  If ffmpeg is missing, the frames are
  * kept in a folder beside the place of the film, and the error names that folder.
  */
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/number.h"
 #include "base/watch.h"
@@ -110,9 +111,9 @@ static void set_stage(film *f, const fst_table *table)
     double reach = 0.0, omega = fst_collected(table, "omega")[m->first];
     for (size_t row = m->first; row <= m->last; ++row)
         reach = fmax(reach, fmax(fabs(m->x[row]), fabs(m->y[row])));
-    double hertz = omega * p->friction_gamma / 6.283185307179586;
+    double hertz = omega * p->friction_gamma / FST_TWO_PI;
     (void)snprintf(f->title, sizeof f->title, "%.3g Hz (ω = %.4g), %s", hertz, omega,
-                   p->model_dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
+                   fst_dynamics_name((fst_dynamics)p->model_dynamics));
     f->slower = hertz * f->options->seconds_per_turn;
     char unit[32];
     fst_unit_symbols(m->colour_info->unit, unit, sizeof unit);

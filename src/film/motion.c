@@ -7,13 +7,12 @@
  */
 #include "film/motion.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "io/collect.h"
 
 #include <stdio.h>
 #include <string.h>
-
-#define PI 3.14159265358979323846
 
 static fst_status find_colour(fst_film_motion *motion, const char *colour, fst_error *error)
 {
@@ -161,7 +160,7 @@ void fst_film_motion_frame(const fst_film_motion *motion, fst_film_frame *frame)
     frame->x = motion->millimetres * (motion->x[row] + part * (motion->x[row + 1] - motion->x[row]));
     frame->y = motion->millimetres * (motion->y[row] + part * (motion->y[row + 1] - motion->y[row]));
     double turns = motion->drive_turns[row] + part * (motion->drive_turns[row + 1] - motion->drive_turns[row]);
-    frame->magnet_angle = 2.0 * PI * fmod(turns, 1.0);
+    frame->magnet_angle = 2.0 * FST_PI * fmod(turns, 1.0);
     memcpy(frame->turn, motion->turn, sizeof frame->turn);
     roll(motion, row, part, frame->turn);
 }

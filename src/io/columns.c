@@ -1,7 +1,9 @@
 /* columns.c - the table of the columns of a trajectory, and a sample as a row of numbers. */
 #include "io/columns.h"
 
-#define DEGREES (180.0 / 3.14159265358979323846)
+#include "base/constants.h"
+
+#define DEGREES (180.0 / FST_PI)
 
 static const fst_column_info infos[FST_COLUMN_COUNT] = {
 #define FST_COLUMN(name, unit, value, doc) {#name, unit, doc},

@@ -1,11 +1,10 @@
 /* charts.c - the paper's figures of curves over the drive (Figs. 3, 4, 6, 11, 12). */
+#include "base/constants.h"
 #include "base/error.h"
 #include "draw/chart.h"
 #include "paper/figures.h"
 
 #include <stdlib.h>
-
-#define PI 3.14159265358979323846
 
 enum { MOST_CURVES = 16 };
 
@@ -157,7 +156,7 @@ fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_pap
                                    .curves = both,
                                    .curve_count = 2 * FST_PAPER_DYNAMICS,
                                    .inset = &inset};
-    double per_hertz = 2.0 * PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma;
+    double per_hertz = 2.0 * FST_PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma;
     const fst_chart_mark marks[] = {{7.0 * per_hertz, "7 Hz: lets go"},
                                     {10.7 * per_hertz, "10.7 Hz: 4 festoons"},
                                     {16.0 * per_hertz, "16 Hz: slowest"},
@@ -207,7 +206,8 @@ fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_f
                        .x_low = 7.0,
                        .x_high = 25.0,
                        .x2_label = "drive ω (γ)",
-                       .x2_factor = 2.0 * PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma,
+                       .x2_factor =
+                           2.0 * FST_PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma,
                        .panels = panels,
                        .panel_count = 2};
     return draw_and_free(&all, out, &chart, error);
@@ -217,7 +217,7 @@ fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_f
 
 static double bead_hertz(const fst_paper_run *run)
 {
-    return run->result.mean_alpha_dot * run->params.friction_gamma / (2.0 * PI);
+    return run->result.mean_alpha_dot * run->params.friction_gamma / (2.0 * FST_PI);
 }
 
 REGULAR(counter_hertz, bead_hertz(run))
@@ -260,7 +260,7 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
                                    .curves = all.curve,
                                    .curve_count = all.count,
                                    .inset = &inset};
-    double per_hertz = 2.0 * PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma;
+    double per_hertz = 2.0 * FST_PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma;
     const fst_chart_mark marks[] = {{7.0, "7 Hz: lets go"}, {16.0, "16 Hz: slowest"}};
     fst_chart chart = {.title = figure->title,
                        .x_label = "drive (Hz); dotted: what the paper's text tells of the experiment",
@@ -352,8 +352,7 @@ fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_pape
                              .curves = all.curve,
                              .curve_count = all.count};
     char title[128];
-    (void)snprintf(title, sizeof title, "%s, %s", figure->title,
-                   figure->dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
+    (void)snprintf(title, sizeof title, "%s, %s", figure->title, fst_dynamics_name(figure->dynamics));
     fst_chart chart = {.title = title,
                        .x_label = "drive ω (γ)",
                        .x_low = 0.15,

@@ -11,9 +11,6 @@
 #include <jansson.h>
 #include <stdlib.h>
 
-static const char *const dynamics_names[FST_PAPER_DYNAMICS] = {
-    [FST_DYNAMICS_RIGID] = "rigid", [FST_DYNAMICS_FARAGO2020] = "farago2020"};
-
 static json_t *symmetry(double a)
 {
     return isfinite(a) ? json_string(a < 1.5 ? "S1" : "S2") : json_null();
@@ -35,7 +32,7 @@ static json_t *orbits_object(const fst_paper_state *paper)
         json_object_set_new(one, "period_halving", fst_json_number(exact->halving));
         json_object_set_new(one, "end_of_counter_rotation", fst_json_number(exact->fold));
         json_object_set_new(one, "missing", exact->missing[0] ? json_string(exact->missing) : json_null());
-        json_object_set_new(object, dynamics_names[d], one);
+        json_object_set_new(object, fst_dynamics_name((fst_dynamics)d), one);
     }
     return object;
 }
@@ -52,7 +49,8 @@ static json_t *table1_array(const fst_paper_state *paper)
         json_object_set_new(object, "published_symmetry", symmetry(fst_table1[row].published_a));
         for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; --d) {
             const fst_run_result *result = &paper->scans[FST_SCAN_TABLE][d][row].result;
-            const char *name = fst_symmetry_name(result->symmetry), *dynamics = dynamics_names[d];
+            const char *name = fst_symmetry_name(result->symmetry),
+                       *dynamics = fst_dynamics_name((fst_dynamics)d);
             char key[48], command[320];
             fst_paper_table1_command(paper, row, (fst_dynamics)d, command, sizeof command);
             (void)snprintf(key, sizeof key, "%s_command", dynamics);
@@ -102,7 +100,7 @@ static json_t *figures_array(const fst_paper_state *paper)
         fst_paper_figure_command(paper, &figure, command, sizeof command);
         json_object_set_new(object, "command", json_string(command));
         json_object_set_new(object, "dynamics",
-                            figure.each ? json_string(dynamics_names[figure.dynamics]) : json_null());
+                            figure.each ? json_string(fst_dynamics_name(figure.dynamics)) : json_null());
         json_object_set_new(object, "verdict", figure_verdict(paper, &figure, figure.dynamics));
         if (!figure.each)
             json_object_set_new(object, "rigid_verdict", figure_verdict(paper, &figure, FST_DYNAMICS_RIGID));
@@ -121,7 +119,7 @@ static json_t *statement_value(const fst_statement *statement, double value)
 static void add_dynamics(json_t *object, const fst_statement *statement, const fst_paper_state *paper,
                          const fst_finding *finding, fst_dynamics dynamics)
 {
-    const char *name = dynamics_names[dynamics], *prefix = dynamics == FST_DYNAMICS_RIGID ? "rigid_" : "";
+    const char *name = fst_dynamics_name(dynamics), *prefix = dynamics == FST_DYNAMICS_RIGID ? "rigid_" : "";
     char key[48], command[320];
     json_object_set_new(object, name, statement_value(statement, finding->value[dynamics]));
     (void)snprintf(key, sizeof key, "%s_verdict", name);

@@ -111,7 +111,7 @@ MEASURE(fold15_festoons)
         ++count;
     }
     (void)snprintf(note, size, "a(1 + ω/|⟨α′⟩|); counted on the path: %.3f turning points a revolution",
-                   2.0 * PI * count / fabs(last - first));
+                   2.0 * FST_PI * count / fabs(last - first));
     return single(paper, FST_SCAN_FOLD15, dynamics)->festoons;
 }
 
@@ -155,7 +155,7 @@ static void eigenvalues(double a[3][3], double values[3])
                          b[0][2] * (b[1][0] * b[2][1] - b[1][1] * b[2][0]));
     double angle = acos(fmax(-1.0, fmin(1.0, half))) / 3.0;
     values[2] = mean + 2.0 * p * cos(angle);
-    values[0] = mean + 2.0 * p * cos(angle + 2.0 * PI / 3.0);
+    values[0] = mean + 2.0 * p * cos(angle + 2.0 * FST_PI / 3.0);
     values[1] = 3.0 * mean - values[0] - values[2];
 }
 
@@ -281,7 +281,7 @@ MEASURE(onset)
 MEASURE(corotation)
 {
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_SLOW, dynamics);
-    double hertz = run->params.friction_gamma / (2.0 * PI);
+    double hertz = run->params.friction_gamma / (2.0 * FST_PI);
     fst_paper_bracket locked = paper->changes[FST_CHANGE_LOCKED][dynamics],
                       swinging = paper->changes[FST_CHANGE_COROTATION][dynamics];
     const double end = 0.5 * (locked.low + locked.high) * hertz,

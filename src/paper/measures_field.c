@@ -34,7 +34,7 @@ MEASURE(ball_mean)
     const double place[3] = {0.9, 0.0, 0.0};
     int good = add_field(p, place, 1.0, centre);
     for (int i = 0; i < 3 * 6 * 12 && good; ++i) {
-        double s = ss[i / 72], z = zs[i / 12 % 6], turn = 2.0 * PI * (i % 12) / 12.0;
+        double s = ss[i / 72], z = zs[i / 12 % 6], turn = 2.0 * FST_PI * (i % 12) / 12.0;
         double weight = sw[i / 72] * s * s * zw[i / 12 % 6], flat = s * eps * sqrt(1.0 - z * z);
         const double here[3] = {0.9 + flat * cos(turn), flat * sin(turn), s * eps * z};
         good = add_field(p, here, weight, mean);
@@ -57,7 +57,7 @@ static void averages_at(const fst_model *model, double r, double rate, double ch
     for (int k = 0; k < 4; ++k)
         terms[k] = 0.0;
     for (int i = 0; i < ANGLES; ++i) {
-        double turn = 2.0 * PI * i / ANGLES, c = cos(turn), s = sin(turn), moment = chi + rate * turn, b[3],
+        double turn = 2.0 * FST_PI * i / ANGLES, c = cos(turn), s = sin(turn), moment = chi + rate * turn, b[3],
                g[3][3];
         fst_field(model, r * c, r * s, b, g);
         const double n[3] = {-sin(moment) * s, sin(moment) * c, -cos(moment)};
@@ -87,7 +87,7 @@ MEASURE(resonance)
     for (int rate = -3; rate <= 3; ++rate) {
         double in_phase[4], quarter[4];
         averages_at(model, r, rate, 0.0, in_phase);
-        averages_at(model, r, rate, 0.5 * PI, quarter);
+        averages_at(model, r, rate, 0.5 * FST_PI, quarter);
         size_of[rate + 3] = hypot(in_phase[0], quarter[0]);
     }
     for (int rate = -3; rate <= 3; ++rate) {
@@ -115,7 +115,7 @@ MEASURE(field_structure)
     if (!model)
         return NAN;
     for (int i = 0; i < ANGLES; ++i) {
-        double turn = 2.0 * PI * i / ANGLES, c = cos(turn), s = sin(turn), b[3], g[3][3];
+        double turn = 2.0 * FST_PI * i / ANGLES, c = cos(turn), s = sin(turn), b[3], g[3][3];
         fst_field(model, r * c, r * s, b, g);
         along += ((b[1] * c - b[0] * s) * s + b[2] * c) / ANGLES;
         square += (b[0] * b[0] + b[1] * b[1] + b[2] * b[2]) / ANGLES;
@@ -133,9 +133,9 @@ MEASURE(sine_law)
     if (!model)
         return NAN;
     averages(model, r, 0.0, amplitude);
-    averages(model, r, 0.5 * PI, quarter);
+    averages(model, r, 0.5 * FST_PI, quarter);
     for (int i = 0; i < 24; ++i) {
-        double chi = 2.0 * PI * i / 24.0 + 0.1;
+        double chi = 2.0 * FST_PI * i / 24.0 + 0.1;
         averages(model, r, chi, now);
         worst = fmax(worst, fabs(now[0] - amplitude[0] * cos(chi)) / fabs(amplitude[0]));
         for (int k = 1; k < 3; ++k)
@@ -153,7 +153,7 @@ MEASURE(least_energy)
     double at_pi[4], at_zero[4], r = single(paper, FST_SCAN_FOLD15, dynamics)->mean_r;
     if (!model)
         return NAN;
-    averages(model, r, PI, at_pi);
+    averages(model, r, FST_PI, at_pi);
     averages(model, r, 0.0, at_zero);
     fst_model_free(model);
     /* The energy is -n.B. -1: it changes its sign between 0 and pi; it is negative at pi if n.B is positive
@@ -286,8 +286,8 @@ static pulls pulls_of(const fst_paper_state *paper, fst_dynamics dynamics)
     pulls sum = {{0.0, 0.0}, {0.0, 0.0}, {0, 0}};
     for (size_t row = 0; model && row < table->rows; ++row) {
         double pull[2], along = fabs(x[row]) / r[row];
-        int across = along < sin(PI / 8.0);
-        if (!across && along < cos(PI / 8.0))
+        int across = along < sin(FST_PI / 8.0);
+        if (!across && along < cos(FST_PI / 8.0))
             continue;
         pull_at(model, table, row, pull);
         sum.force[across] += hypot(pull[0], pull[1]);

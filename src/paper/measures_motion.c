@@ -153,7 +153,7 @@ static double trochoid_share(const fst_paper_run *run, int *best)
     if (table->rows < 2)
         return NAN;
     /* The samples over whole meetings of bead and magnet, two at a time, which suits both S1 and S2. */
-    double turn = 2.0 * PI / meeting, last = turn * floor((t[table->rows - 1] - t[0]) / turn);
+    double turn = 2.0 * FST_PI / meeting, last = turn * floor((t[table->rows - 1] - t[0]) / turn);
     size_t rows = 0;
     for (; rows < table->rows && t[rows] - t[0] < last; ++rows)
         all += x[rows] * x[rows] + y[rows] * y[rows];
@@ -289,7 +289,7 @@ MEASURE(asymptotic_rolling)
         "the bead circles ever further out, and at ω = %.4f (%.0f Hz) its orbit ends in a fold",
         last->result.omega, fst_paper_counter_rotates(last) ? "" : ", where no such motion exists",
         runs[0].result.omega, off_rolling(&runs[0]), runs[0].result.mean_r, fold,
-        fold * last->params.friction_gamma / (2.0 * PI));
+        fold * last->params.friction_gamma / (2.0 * FST_PI));
     return off_rolling(last);
 }
 

@@ -2,6 +2,7 @@
 #ifndef FST_PAPER_MEASURES_PARTS_H
 #define FST_PAPER_MEASURES_PARTS_H
 
+#include "base/constants.h"
 #include "paper/measures.h"
 #include "paper/runs.h"
 
@@ -9,8 +10,7 @@
 
 #include <stdio.h>
 
-#define PI 3.14159265358979323846
-#define DEGREES (180.0 / PI)
+#define DEGREES (180.0 / FST_PI)
 
 #define MEASURE(name)                                                                                          \
     double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)

@@ -36,7 +36,7 @@ MEASURE(orthoradial)
     if (!model)
         return NAN;
     for (int i = 0; i < 360; ++i) {
-        double phi = PI * i / 180.0, c = cos(phi), s = sin(phi), b[3], gradient[3][3];
+        double phi = FST_PI * i / 180.0, c = cos(phi), s = sin(phi), b[3], gradient[3][3];
         fst_field(model, 0.9 * c, 0.9 * s, b, gradient);
         double radial = b[0] * c + b[1] * s;
         along += radial * radial;
@@ -67,7 +67,7 @@ MEASURE(estimate_corotation)
 {
     const fst_params *p = scene(paper, dynamics);
     double force = energy_scale(p) / p->magnet_half_length;
-    double hertz = force / (p->bead_mass * p->friction_gamma * p->bead_radius) / (2.0 * PI);
+    double hertz = force / (p->bead_mass * p->friction_gamma * p->bead_radius) / (2.0 * FST_PI);
     (void)snprintf(
         note, size,
         "with μB₀ = %.2g J; the paper's rounded 4e-4 J gives %.1f Hz; the field at the bead is not B₀ but "
@@ -84,7 +84,7 @@ MEASURE(estimate_moment)
         note, size,
         "R³ BH_max/B_rem = %.1e A m² with the values given; a sphere of remanence 1 T has %.1e A m². The "
         "paper's unit, A m⁻¹, is a misprint for A m²",
-        cube * 1e5, 4.0 * PI / 3.0 * cube / (4e-7 * PI));
+        cube * 1e5, 4.0 * FST_PI / 3.0 * cube / (4e-7 * FST_PI));
     return cube * 1e5;
 }
 
@@ -92,7 +92,7 @@ MEASURE(estimate_field)
 {
     const fst_params *p = scene(paper, dynamics);
     double cube = p->bead_radius * p->bead_radius * p->bead_radius,
-           sphere = 4.0 * PI / 3.0 * cube / (4e-7 * PI), paper_moment = 1e-2;
+           sphere = 4.0 * FST_PI / 3.0 * cube / (4e-7 * FST_PI), paper_moment = 1e-2;
     (void)snprintf(
         note, size,
         "with the paper's own μ, 1e-2 A m²; with that of a sphere of remanence 1 T, %.1e A m², B₀ is "
@@ -104,7 +104,7 @@ MEASURE(estimate_field)
 MEASURE(dry_friction_weight)
 {
     const fst_params *p = scene(paper, dynamics);
-    double rate = p->friction_mu * p->plate_gravity / (p->bead_radius * 2.0 * PI * 10.0);
+    double rate = p->friction_mu * p->plate_gravity / (p->bead_radius * 2.0 * FST_PI * 10.0);
     (void)snprintf(note, size, "μ_d g/(Rω₀) at 10 Hz with μ_d = %g is %.1f 1/s", p->friction_mu, rate);
     return rate;
 }

@@ -2,13 +2,12 @@
  * identities hold, and how much remanence do they need? */
 #include "paper/paramagnet.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/watch.h"
 
 #include <stdio.h>
 #include <stdlib.h>
-
-#define PI 3.14159265358979323846
 
 static const double STANDS = 1e-4; /* a mean |alpha'| below this, in units of omega, is no circling */
 
@@ -29,7 +28,7 @@ static fst_status begin(followed *bead, const fst_params *params, fst_error *err
     if (status != FST_OK)
         return status;
     bead->groups = fst_model_groups(bead->model);
-    bead->period = 2.0 * PI / bead->groups.omega;
+    bead->period = 2.0 * FST_PI / bead->groups.omega;
     fst_flow_options options = fst_default_flow_options();
     options.rtol = params->run_rtol;
     for (int i = 0; i < FST_STATE_SIZE; ++i)

@@ -133,8 +133,7 @@ fst_status fst_paper_draw_supercritical(const fst_paper_state *paper, const fst_
     halving_curves c;
     read_halving(paper, figure->dynamics, &c);
     char title[160];
-    (void)snprintf(title, sizeof title, "%s, %s", figure->title,
-                   figure->dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
+    (void)snprintf(title, sizeof title, "%s, %s", figure->title, fst_dynamics_name(figure->dynamics));
     if (isfinite(c.threshold))
         return draw_halving(&paper->halving[figure->dynamics], &c, title, out, error);
     const fst_chart_panel nothing = {.left_label = "p", .low = 0.0, .high = 1.0};

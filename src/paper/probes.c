@@ -1,11 +1,10 @@
 /* probes.c - the period halving seen by long runs close to it, and beads set on the corotating motion. */
 #include "paper/probes.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 
 #include <stdlib.h>
-
-#define PI 3.14159265358979323846
 
 /* A model and a flow on it, made and freed together. */
 typedef struct probe {
@@ -21,7 +20,7 @@ static fst_status probe_begin(probe *p, const fst_params *params, fst_error *err
     fst_status status = fst_model_new(params, &p->model, error);
     if (status == FST_OK) {
         p->groups = fst_model_groups(p->model);
-        p->period = 2.0 * PI / p->groups.omega;
+        p->period = 2.0 * FST_PI / p->groups.omega;
     }
     return status;
 }
@@ -140,7 +139,7 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
             partial += 0.5 * (nz_before + info.state[FST_NZ]);
         nz_before = info.state[FST_NZ];
         /* Only whole turns of Phi count; the last complete one is kept. */
-        double turns = fabs(info.phi - phi_first) / (2.0 * PI);
+        double turns = fabs(info.phi - phi_first) / (2.0 * FST_PI);
         if (i > 0 && floor(turns) > weight) {
             weight = floor(turns);
             nz_sum = partial / i;
@@ -226,9 +225,9 @@ double fst_ansatz_force(const fst_model *model, double r, int sense)
     fst_groups g = fst_model_groups(model);
     double sum = 0.0;
     for (int i = 0; i < ANGLES; ++i) {
-        double phi = 2.0 * PI * i / ANGLES, c = cos(phi), s = sin(phi), b[3], gradient[3][3];
+        double phi = 2.0 * FST_PI * i / ANGLES, c = cos(phi), s = sin(phi), b[3], gradient[3][3];
         fst_field(model, r * c, r * s, b, gradient);
-        double moment = sense * phi + PI;
+        double moment = sense * phi + FST_PI;
         double n[3] = {-sin(moment) * s, sin(moment) * c, -cos(moment)}, e[3] = {c, s, 0.0};
         for (int k = 0; k < 3; ++k)
             for (int j = 0; j < 3; ++j)
@@ -240,7 +239,7 @@ double fst_ansatz_force(const fst_model *model, double r, int sense)
 void fst_ansatz_state(const fst_model *model, double r, double phi, double state[FST_STATE_SIZE])
 {
     fst_groups g = fst_model_groups(model);
-    double c = cos(phi), s = sin(phi), moment = phi + PI, rate = g.omega / (r + g.eps);
+    double c = cos(phi), s = sin(phi), moment = phi + FST_PI, rate = g.omega / (r + g.eps);
     double v = r * g.eps * rate, w = -r * rate; /* v_alpha + eps W_r = 0 */
     const double start[FST_STATE_SIZE] = {r * c,           r * s,        -v * s, v * c, -sin(moment) * s,
                                           sin(moment) * c, -cos(moment), w * c,  w * s, 0.0};

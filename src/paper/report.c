@@ -71,7 +71,7 @@ static void write_orbits_missing(FILE *out, const fst_paper_state *paper)
 {
     for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
         const fst_paper_exact *exact = &paper->exact[order[i]];
-        const char *name = order[i] == FST_DYNAMICS_RIGID ? "rigid" : "farago2020";
+        const char *name = fst_dynamics_name(order[i]);
         if (exact->missing[0]) {
             fprintf(out, "<p class=\"fine\">No exact drives for %s: ", name);
             fst_report_text(out, exact->missing);
@@ -124,8 +124,7 @@ static void write_values(FILE *out, const fst_statement *statement, const fst_fi
     for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
         char value[64];
         fst_statement_value(statement, finding->value[order[i]], value, sizeof value);
-        fprintf(out, "<tr><td>%s</td><td class=\"n\">",
-                order[i] == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
+        fprintf(out, "<tr><td>%s</td><td class=\"n\">", fst_dynamics_name(order[i]));
         fst_report_text(out, value);
         fputs("</td><td>", out);
         fst_report_badge(out, finding->verdict[order[i]]);
@@ -216,7 +215,7 @@ static fst_status write_figure(FILE *out, const fst_paper_state *paper, int inde
     fprintf(out, "<figure id=\"figure-%s\"><h3>", figure.file);
     fst_report_text(out, figure.title);
     if (figure.each)
-        fprintf(out, " <small>%s</small>", figure.dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020");
+        fprintf(out, " <small>%s</small>", fst_dynamics_name(figure.dynamics));
     fputs("</h3>\n", out);
     char *path = fst_paper_path(paper, figure.file, "svg");
     fst_status status = path ? fst_report_image(out, path, figure.title, error)

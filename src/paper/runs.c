@@ -96,7 +96,7 @@ static fst_status make_run(fst_paper_state *paper, fst_scan scan, fst_paper_run 
 {
     fst_table *trajectory = scans[scan].samples ? &run->trajectory : NULL;
     const fst_status status =
-        fst_paper_run_settled(&run->params, &paper->obedience, &run->result, trajectory, error);
+        fst_paper_run_settled(&run->params, &paper->until_refused, &run->result, trajectory, error);
     run->done = status == FST_OK;
     return status;
 }
@@ -107,7 +107,7 @@ static void write_command(const fst_params *params, fst_scan scan, fst_dynamics 
 {
     const fst_params usual = fst_default_params();
     size_t used = (size_t)snprintf(text, size, "festoon run --set drive.omega=%s --set model.dynamics=%s%s%s",
-                                   omega, dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020",
+                                   omega, fst_dynamics_name(dynamics),
                                    strcmp(scans[scan].spin, "rest") == 0 ? " --set start.spin=rest" : "",
                                    scan == FST_SCAN_CONJUGATE ? " --set start.phi=183" : "");
     for (size_t i = 0; scan == FST_SCAN_ANISOTROPIC && i < sizeof anisotropic / sizeof anisotropic[0]; ++i)
@@ -194,7 +194,7 @@ static fst_status probe(const fst_paper_state *paper, fst_change change, fst_dyn
         status = set(&params, "run.discard", changes[change].discard, status, error);
     }
     if (status == FST_OK)
-        status = fst_paper_run_settled(&params, &paper->obedience, &result, NULL, error);
+        status = fst_paper_run_settled(&params, &paper->until_refused, &result, NULL, error);
     if (status == FST_OK)
         *below = isnan(result.mean_r) && fst_paper_may_settle(&result) ? -1 : is_below(change, &result);
     return status;

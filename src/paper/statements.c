@@ -78,7 +78,7 @@ void fst_statement_command(const fst_statement *statement, const fst_paper_state
 
 const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dynamics)
 {
-    return statement->reads ? statement->reads : dynamics == FST_DYNAMICS_RIGID ? "rigid" : "farago2020";
+    return statement->reads ? statement->reads : fst_dynamics_name(dynamics);
 }
 
 /* ------------------------------------------------------------------ the list */
