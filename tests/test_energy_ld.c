@@ -63,7 +63,8 @@ static void test_balances(void **unused)
             const long double jacobi = change - c.omega * along_flow(&c, y, angular_momentum);
             const long double *n = y + FST_NX, *w = y + FST_WX;
             const long double wxn_z = w[0] * n[1] - w[1] * n[0];
-            const long double lost = c.kinds.gyroscopic_term_lost ? 0.4L * c.eps * c.eps * seen.spin * wxn_z : 0;
+            const long double lost =
+                c.kinds.gyroscopic_term_lost ? 0.4L * c.eps * c.eps * seen.spin * wxn_z : 0;
             CHECK_CLOSE_LD(jacobi, -c.omega * lost, 1e-13);
             lost_most = fmax(lost_most, (double)fabsl(lost));
         }

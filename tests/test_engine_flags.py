@@ -1,7 +1,7 @@
 """The lane engines are compiled with -O3 whatever the flags of the build: a distribution's -O2 does not undo it.
 
 Configures the library alone with CMAKE_C_FLAGS=-O2 and no build type, and looks at the commands that would be run: of
-several -O options the last one counts.  Builds for debugging keep their own.
+several -O options the last one counts.  Builds for debugging and sanitizers keep their own.
 """
 
 import json
@@ -15,11 +15,11 @@ SOURCE = os.environ["SOURCE_DIR"]
 ENGINE = re.compile(r"/lanes_(avx2|avx512|portable4|portable8)\.c$")
 
 
-def commands(build_type, flags):
+def commands(build_type, flags, *options):
     """The command that compiles each source file."""
     with tempfile.TemporaryDirectory() as folder:
         made = subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-DFESTOON_TOOLS=OFF", "-DFESTOON_TESTS=OFF",
-                               f"-DCMAKE_BUILD_TYPE={build_type}", f"-DCMAKE_C_FLAGS={flags}"],
+                               f"-DCMAKE_BUILD_TYPE={build_type}", f"-DCMAKE_C_FLAGS={flags}", *options],
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         assert made.returncode == 0, made.stdout
         with open(os.path.join(folder, "compile_commands.json"), encoding="utf-8") as file:
@@ -41,8 +41,9 @@ def test_engines_keep_their_level():
     assert len(engines) == 4, engines
     for path, level in levels.items():
         assert level == ("-O3" if path in engines else "-O2"), f"{path}: {level}"
-    for path, words in commands("Debug", "-Og").items():
-        assert last_level(words) == "-Og", f"{path}: {last_level(words)} in a debug build"
+    for build in ("Debug", "-Og"), ("None", "-Og", "-DFESTOON_SANITIZE=address,undefined"):
+        for path, words in commands(*build).items():
+            assert last_level(words) == "-Og", f"{path}: {last_level(words)} in the build {build}"
 
 
 if __name__ == "__main__":

@@ -306,6 +306,20 @@ static void locale_does_not_matter(void **state)
         print_message("no locale with a decimal comma here: only the C locale was tried\n");
 }
 
+/* The names of the dynamics are those of the table of parameters. */
+static void dynamics_have_names(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 2; ++i) {
+        fst_params params = fst_default_params();
+        char name[32];
+        params.model_dynamics = i;
+        (void)fst_params_get(&params, fst_param_find("model.dynamics"), name, sizeof name);
+        assert_string_equal(fst_dynamics_name((fst_dynamics)i), name);
+    }
+    assert_string_equal(fst_dynamics_name((fst_dynamics)2), "unknown");
+}
+
 /* A strength that the bead's material does not use is refused by whoever asks the library. */
 static void values_without_effect(void **state)
 {
@@ -386,6 +400,7 @@ int main(void)
         cmocka_unit_test(names_of_dynamics),
         cmocka_unit_test(statuses_have_texts),
         cmocka_unit_test(nearest_names),
+        cmocka_unit_test(dynamics_have_names),
         cmocka_unit_test(locale_does_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -253,7 +253,7 @@ class Paths(Figures):
     def test_a_zoom_beside_the_path(self):
         self.good("run", *SHORT, "-o", self.path("t.csv"))
         words = ("plot", self.path("t.csv"), "-o", self.path("t.svg"), "--zoom")
-        self.assertIn("beside the path", self.refused(*words, "500,600,0,20"))
+        self.assertIn("outside of the path", self.refused(*words, "500,600,0,20"))
         self.assertFalse(os.path.exists(self.path("t.svg")))
         self.plot("t.csv", "--zoom", "0,30,0,30")
 

@@ -184,11 +184,32 @@ static void texts_are_tamed(void **state)
     assert_string_equal(fst_quote("a\nb", quoted), "\"a?b\"");
 }
 
+/* A sweep gives its file the name by itself.  The next file of this process then has the same temporary name,
+ * and stays when the first one is given up. */
+static void a_name_that_came_free(void **state)
+{
+    (void)state;
+    fst_whole_file first, second;
+    fst_error error;
+    const char *place = inside("same");
+    assert_int_equal(fst_whole_file_open(&first, place, &error), FST_OK);
+    assert_int_equal(rename(first.temporary, place), 0);
+    assert_int_equal(fst_whole_file_open(&second, place, &error), FST_OK);
+    assert_string_equal(second.temporary, first.temporary);
+    assert_false(fst_holds_lock(place, FST_LOCK_SWEEP));
+    assert_true(fst_holds_lock(place, FST_LOCK_WRITING)); /* of the first one, under its new name */
+    fst_whole_file_discard(&first);
+    assert_false(fst_holds_lock(place, FST_LOCK_WRITING));
+    assert_true(exists(second.temporary));
+    assert_int_equal(fst_whole_file_commit(&second, &error), FST_OK);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(leftovers_are_removed), cmocka_unit_test(files_in_work_stay),
         cmocka_unit_test(foreign_files_stay),    cmocka_unit_test(a_removed_file_is_no_success),
-        cmocka_unit_test(a_link_is_followed),    cmocka_unit_test(texts_are_tamed)};
+        cmocka_unit_test(a_link_is_followed),    cmocka_unit_test(texts_are_tamed),
+        cmocka_unit_test(a_name_that_came_free)};
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

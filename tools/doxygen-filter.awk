@@ -11,7 +11,7 @@ function plain(text)
     gsub(/</, "\\&lt;", text)
     gsub(/>/, "\\&gt;", text)
     gsub(/[\\@#%]/, "\\\\&", text)
-    gsub(/'/, "\\&#39;", text)
+    gsub(/'/, "\\&apos;", text)
     gsub(/"/, "\\&quot;", text)
     return text
 }
@@ -28,6 +28,27 @@ function inside(text,    end)
     return plain(substr(text, 1, end - 1)) substr(text, end)
 }
 
+# The rows of a table of physics.def, ROW(NAME, name, ..., "doc"), as "name: doc; name: doc.".
+function rows_of(table,    line, here, text, docs, names, strings)
+{
+    while ((getline line < (folder "physics.def")) > 0) {
+        if (line ~ /^#define/)
+            here = index(line, "#define " table "(ROW)") == 1
+        if (!here || line !~ /ROW\(|"/)
+            continue
+        text = text line
+        if (line !~ /"\)/)
+            continue
+        split(text, strings, "\"")
+        sub(/.*ROW\(/, "", strings[1])
+        split(strings[1], names, /[(, ]+/)
+        docs = docs (docs == "" ? "" : "; ") names[2] ": " strings[2]
+        text = ""
+    }
+    close(folder "physics.def")
+    return docs "."
+}
+
 # One row of a .def table, FST_KIND(group, name, ... "doc") or FST_RESULT(name, "unit", "doc"), as a field.
 function put_field(row,    words, strings, count, kind, name, i, doc)
 {
@@ -40,17 +61,21 @@ function put_field(row,    words, strings, count, kind, name, i, doc)
         doc = doc strings[i]
     if (kind == "FST_RESULT")
         doc = doc " [" strings[2] "]"
+    if (row ~ /FST_SOURCE_DOCS/)
+        doc = rows_of("FST_SOURCES")
+    if (row ~ /FST_CONTACT_DOCS/)
+        doc = rows_of("FST_CONTACTS")
     print (kind == "FST_REAL" || kind == "FST_RESULT" ? "double " : "int ") name "; /**< " plain(doc) " */"
 }
 
 function put_table(file,    line, row)
 {
     while ((getline line < file) > 0) {
-        if (line ~ /^FST_/)
+        if (line ~ /^FST_[A-Z]+\(/)
             row = line
         else if (row != "")
             row = row line
-        if (row != "" && line ~ /"\)$/) {
+        if (row != "" && line ~ /("|_DOCS)\)$/) {
             put_field(row)
             row = ""
         }
@@ -60,7 +85,7 @@ function put_table(file,    line, row)
 
 in_comment { print inside($0); next }
 
-/^#include <festoon\/.*\.def>/ {
+/^#include <festoon\/(params|run)\.def>/ {
     folder = FILENAME
     sub(/[^\/]*$/, "", folder)
     match($0, /\/.*\.def/)

@@ -183,6 +183,9 @@ FST_API fst_status fst_params_check_effects(const fst_params *params, fst_error 
  * scaled scene, with model.eps, the radius plays no part and 0 is returned. */
 FST_API int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size);
 
+/* "rigid", "farago2020" */
+FST_API const char *fst_dynamics_name(fst_dynamics dynamics);
+
 /* The key of the other form of a quantity, which fst_params_set() clears; NULL: there is none. */
 FST_API const char *fst_param_other_form(const char *key);
 

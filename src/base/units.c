@@ -1,5 +1,6 @@
 /* units.c - the units that values may carry: reading "2.5 mm", and writing values in the units that
  * people use. */
+#include "base/constants.h"
 #include "base/units.h"
 
 #include <stdio.h>

@@ -6,6 +6,7 @@
 #ifndef FST_BASE_WINDING_H
 #define FST_BASE_WINDING_H
 
+#include "base/constants.h"
 #include <math.h>
 #include <stdint.h>
 

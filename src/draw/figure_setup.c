@@ -2,6 +2,7 @@
 #include "draw/figure_setup.h"
 
 #include "base/constants.h"
+
 #include "draw/style.h"
 
 #include <math.h>

@@ -21,6 +21,10 @@ enum { FST_LOCK_SWEEP = 0, FST_LOCK_WRITING = 1 << 20 };
  * errno: EAGAIN or EACCES where another open file has the lock. */
 int fst_lock_byte(int descriptor, off_t place, int wait);
 
+/* Whether this process holds the lock of a byte of a file, which is not opened for it: /proc tells.  0 where
+ * that is not to be found out. */
+int fst_holds_lock(const char *path, off_t place);
+
 /* The first place that another open file has locked, counted from `place`; -1: none of the `count` places is
  * locked. */
 off_t fst_locked_byte(int descriptor, off_t place, off_t count);

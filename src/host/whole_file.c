@@ -308,6 +308,14 @@ static int is_ours(const fst_whole_file *file)
            held.st_dev == named.st_dev && held.st_ino == named.st_ino;
 }
 
+/* Remove the temporary file, if it is still the one of that name: once it has been renamed, another thread may
+ * be writing a new one. */
+static void remove_ours(const fst_whole_file *file)
+{
+    if (is_ours(file))
+        (void)unlink(file->temporary);
+}
+
 /* 0, or errno. */
 static int flush_and_sync(const fst_whole_file *file)
 {
@@ -341,7 +349,7 @@ fst_status fst_whole_file_commit(fst_whole_file *file, fst_error *error)
     if (reason != 0)
         status = fail_write(file, reason, error);
     if (status != FST_OK) {
-        (void)unlink(file->temporary);
+        remove_ours(file);
     } else if ((reason = fst_sync_directory_of(file->path)) != 0) {
         status = fst_fail(
             error, FST_IO, file->path,
@@ -355,6 +363,6 @@ fst_status fst_whole_file_commit(fst_whole_file *file, fst_error *error)
 void fst_whole_file_discard(fst_whole_file *file)
 {
     if (file->temporary)
-        (void)unlink(file->temporary);
+        remove_ours(file);
     forget(file);
 }

@@ -1,6 +1,10 @@
 /* columns.c - the table of the columns of a trajectory, and a sample as a row of numbers. */
 #include "io/columns.h"
 
+#include "base/constants.h"
+
+#define DEGREES (180.0 / FST_PI)
+
 static const fst_column_info infos[FST_COLUMN_COUNT] = {
 #define FST_COLUMN(name, unit, value, doc) {#name, unit, doc},
 #include "base/constants.h"

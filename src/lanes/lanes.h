@@ -18,20 +18,20 @@ typedef struct fst_lane_view {
     const double *y, *end;         /* states at the step's start and end */
     double *turns[2];              /* whole turns of Phi and of phi at the end (base/winding.h) */
     const double *turns_before[2]; /* and at the start */
-    double *activity;              /* greatest |component of d(state)/dt| since it was last set, */
-    const double *speed;           /* and that at the end */
-    double *next_mark;             /* time of the next mark; the step that reaches it is eventful */
-    double *phi_least, *phi_most; /* directions between which Phi has stayed, two numbers; 0: to be asked for */
+    double *activity;              /* greatest |component of d(state)/dt| since it was last set */
+    const double *speed;           /* the same at the end of the step */
+    double *next_mark;             /* time of the next mark */
+    double *phi_least, *phi_most;  /* unit vectors: the directions between which Phi has stayed; 0: not known */
     double *r_reference, *b_reference; /* from where deviations are taken */
-    double *records;                   /* of the tracked quantities, times their signs, FST_RECORD_COUNT */
+    double *records; /* greatest values so far of tracked quantities times their signs, FST_RECORD_COUNT */
 } fst_lane_view;
 
 /* Lanes, one bit each: what is to be done after an accepted step. */
 typedef struct fst_lane_events {
-    unsigned ending;    /* the bead may have left the plate: all that have, and a few more */
+    unsigned ending;    /* the bead may have left the plate or lifted off; no such lane is left out */
     unsigned at_mark;   /* the time of the next mark is reached */
-    unsigned close;     /* to be looked at closely: these, those at their limit of time, those where X has
-                           changed its sign in the window, or where an angle is doubtful */
+    unsigned close;     /* worth a close look: it may be ending, it has reached its limit of time, X has changed
+                           its sign in the window, or an angle is doubtful */
     unsigned wandering; /* Phi may have left its bounds */
 } fst_lane_events;
 
@@ -39,7 +39,7 @@ typedef struct fst_lane_events {
 typedef struct fst_lane_tries {
     unsigned accepted; /* the step's error is within the tolerance: time has gone on */
     unsigned landed;   /* of these, those at their limit of time */
-    unsigned failed;   /* the steps have become too small */
+    unsigned failed;   /* the step was given up */
 } fst_lane_tries;
 
 typedef struct fst_lane_engine {
@@ -53,8 +53,8 @@ typedef struct fst_lane_engine {
     void (*load)(void *batch, int lane, const fst_flow *flow, double t_limit);
     void (*release)(void *batch, int lane);
 
-    /* All that a lane knows between two steps, as so many numbers; and back into a lane, after load() of the
-     * same trajectory, which then goes on to the same bits. */
+    /* All that a lane knows between two steps, as `numbers` doubles.  restore() follows load() of the same
+     * trajectory, which then goes on with the same bits as if it had never left. */
     int numbers;
     void (*save)(const void *batch, int lane, double *numbers);
     void (*restore)(void *batch, int lane, const double *numbers);
@@ -62,12 +62,13 @@ typedef struct fst_lane_engine {
     /* Try a step in every lane that is in use, and accept or reject it (ode/step_control.inl). */
     fst_lane_tries (*try_steps)(void *batch);
 
-    /* What the last step of the lanes `accepted` may hold; phi counts in the lanes `observed`. */
+    /* What the last step of the lanes `accepted` may hold; phi is followed in the lanes `observed`. */
     fst_lane_events (*watch)(void *batch, unsigned accepted, unsigned observed, unsigned in_window);
 
-    /* Take the last step of the lanes `accepted` into their integrals; references are renewed in lanes that are
-     * not in their window yet.  beaten[]: the lanes among `tracked` in which a record may be beaten.  In the
-     * fast form the records are of the ends of steps alone, and go on by themselves in these lanes. */
+    /* Add the last step of the lanes `accepted` to their integrals; lanes that are not in their window yet
+     * renew their references.  beaten[]: the lanes among `tracked` in which a record may be beaten.  In the
+     * fast form the records of these lanes follow the ends of steps by themselves; in the portable form the
+     * caller sets them. */
     void (*observe)(void *batch, unsigned accepted, unsigned in_window, unsigned tracked,
                     unsigned beaten[FST_RECORD_COUNT]);
 

@@ -59,7 +59,7 @@ typedef struct batch {
     FN(twofold) t_start, t;
     REAL t_limit;
     REAL norm_drift, accepted, rejected;
-    REAL drift, speed; /* of the last try: | |n| - 1 |, greatest component of |d(state)/dt| at its end */
+    REAL drift, speed; /* at the end of the last try: | |n| - 1 |, greatest component of |d(state)/dt| */
     /* what is watched */
     REAL plate_radius, next_mark, activity;
     REAL turns[2], turns_before[2], phi_least[2], phi_most[2];
@@ -68,8 +68,8 @@ typedef struct batch {
     REAL peak_from[FST_RECORD_COUNT], peak_to[FST_RECORD_COUNT]; /* the nodes between which the extreme lies */
     /* No REAL below this line: save() and restore() take all that are above it. */
     unsigned in_use;
-    unsigned observed; /* the lanes whose last step was */
-    unsigned known;    /* those whose integrands at the start of the present step are there */
+    unsigned observed; /* lanes whose last step was observed */
+    unsigned known;    /* lanes in which the integrands at the start of the present step are known */
 } batch;
 
 /* A wide value's lanes as doubles in memory. */
@@ -183,7 +183,7 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     for (int i = 0; i < 2; ++i)
         b->phi_least[i][lane] = b->phi_most[i][lane] = 0.0;
     for (int i = 0; i < FST_Q_COUNT; ++i)
-        b->sums.total_high[i][lane] = b->sums.total_low[i][lane] = b->sums.increment[i][lane] = 0.0;
+        b->sums.total[i].high[lane] = b->sums.total[i].low[lane] = b->sums.increment[i][lane] = 0.0;
     b->sums.r_reference[lane] = b->sums.b_reference[lane] = 0.0;
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
         b->records[i][lane] = -1e300;
@@ -238,8 +238,9 @@ static void extract_clock(const void *memory, int lane, fst_flow *flow)
     flow->control.worst_error = b->control.worst_error[lane];
     flow->norm_drift = b->norm_drift[lane];
     const uint64_t accepted = (uint64_t)b->accepted[lane], rejected = (uint64_t)b->rejected[lane];
-    /* The flow's own count is of what came before, and of what was extracted already. */
-    flow->rhs_calls += 12 * (accepted - flow->accepted) + 11 * (rejected - flow->rejected);
+    /* The flow has counted what came before the lane, and what was extracted already. */
+    flow->rhs_calls += DOP_TRY_EVALUATIONS * (accepted - flow->accepted + rejected - flow->rejected) +
+                       (accepted - flow->accepted);
     flow->accepted = accepted;
     flow->rejected = rejected;
     flow->has_step = accepted > 0;
@@ -413,8 +414,8 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     close |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
     if (observed) {
         REAL u0, w0, u, w;
-        FN(small_phi_point)(y, &u0, &w0);
-        FN(small_phi_point)(end, &u, &w);
+        FN(moment_angle_point)(y, &u0, &w0);
+        FN(moment_angle_point)(end, &u, &w);
         close |= wind(&b->turns[1], u0, w0, u, w) & observed;
         b->turns[1] = fst_wide_select(fst_wide_mask_of(observed), b->turns[1], b->turns_before[1]);
     }

@@ -10,8 +10,8 @@
  *
  * The source gives B and its gradient (source/sources.inl), the contact law f (contact/contacts.inl).
  *
- * A hard magnet has F = kappa eps^2 (n.grad)B and tau = kappa eps^2 n x B (paper, Eqs. (r), (sigz) and, with
- * the gyroscopic term that it lacks, (nseconde)).  Magnetisable beads of energy -kappa eps^2 n.B - a B^2 - b
+ * A hard magnet has F = kappa eps^2 (n.grad)B and tau = kappa eps^2 n x B (paper, Eqs. (9), (10) and, with
+ * the gyroscopic term that it lacks, (7)).  Magnetisable beads of energy -kappa eps^2 n.B - a B^2 - b
  * (n.B)^2: F = s G n + 2 a G B and tau = s n x B with s = kappa eps^2 + 2 b (n.B). The last line is what
  * Lagrange's equations give if psi' = W.n is taken for the derivative of a coordinate, as the paper does; it
  * turns no energy over.

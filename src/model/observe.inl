@@ -94,7 +94,7 @@ static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, con
     q[FST_Q_CENTRIFUGAL] = o->centrifugal;
     q[FST_Q_FORCE_R] = o->force_r;
     q[FST_Q_TORQUE_ALPHA] = o->r * o->force_alpha;
-    /* Printed Eq. (eq21), (eq23): n = sin(phi) e_alpha - cos(phi) e_z with the actual phi, n_r dropped. */
+    /* Printed Eq. (12), (14): n = sin(phi) e_alpha - cos(phi) e_z with the actual phi, n_r dropped. */
     const REAL inverse_sine = REAL_RECIPROCAL_SQRT(SUM_2(o->n[1], o->n[1], o->n[2], o->n[2]) + R(1e-290));
     const REAL n_alpha = o->n[1] * inverse_sine, n_z = o->n[2] * inverse_sine;
     const REAL ex = o->cos_phi, ey = o->sin_phi;

@@ -342,3 +342,10 @@ fst_status fst_params_validate(const fst_params *params, fst_error *error)
                         params->run_discard, params->run_periods);
     return FST_OK;
 }
+
+const char *fst_dynamics_name(fst_dynamics dynamics)
+{
+    static const char *const names[] = {
+        [FST_DYNAMICS_RIGID] = "rigid", [FST_DYNAMICS_FARAGO2020] = "farago2020"};
+    return (unsigned)dynamics < sizeof names / sizeof *names ? names[dynamics] : "unknown";
+}

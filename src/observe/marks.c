@@ -58,9 +58,9 @@ void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, 
         fst_flow_at(flow, x, mark->state);
     if (!whole)
         return;
-    fst_quadrature_at(q, flow, x, mark->integrals, &mark->small_phi);
+    fst_quadrature_at(q, flow, x, mark->integrals, &mark->moment_angle);
     const fst_winding phi = fst_flow_phi(flow, x);
-    mark->big_phi = fst_winding_angle(&phi);
+    mark->bead_angle = fst_winding_angle(&phi);
     fst_pull_double p;
     fst_magnetic_pull_double(&flow->step.context.coefficients, mark->state, &p);
     mark->energy = fst_energy_double(&flow->step.context.coefficients, mark->state, &p);

@@ -9,9 +9,9 @@ typedef struct fst_mark {
     fst_twofold t;
     double omega; /* drive */
     double integrals[FST_Q_COUNT];
-    double big_phi;   /* unwrapped Phi */
-    double small_phi; /* unwrapped phi */
-    double energy;    /* kinetic and magnetic, per mass */
+    double bead_angle;   /* unwrapped Phi */
+    double moment_angle; /* unwrapped phi */
+    double energy;       /* kinetic and magnetic, per mass */
     double state[FST_STATE_SIZE];
     double half_distance; /* marks of returns: from the state half a return ago, its image under S2 */
     double full_distance; /* marks of returns: from the state a whole return ago */

@@ -41,8 +41,8 @@ void fst_means_between(const fst_window *w, const fst_mark *first, const fst_mar
     means->mean_r = mean(first, last, FST_Q_R);
     means->std_r = deviation(mean(first, last, FST_Q_R2), means->mean_r - w->quadrature.sums.r_reference);
     means->mean_alpha_dot =
-        means->omega + (last->big_phi - first->big_phi) / time; /* alpha = Phi + drive phase */
-    means->mean_phi_dot = (last->small_phi - first->small_phi) / time;
+        means->omega + (last->bead_angle - first->bead_angle) / time; /* alpha = Phi + drive phase */
+    means->mean_phi_dot = (last->moment_angle - first->moment_angle) / time;
     means->mean_nz = mean(first, last, FST_Q_N_Z);
 }
 

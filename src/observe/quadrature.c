@@ -39,31 +39,31 @@ static void see_place(const fst_flow *flow, int place, fst_seen_double *seen)
 /* ------------------------------------------------------------------ phi */
 
 /* Follow phi over the fractions [x0, x1] of the last step, bisecting where n comes close to e_r. */
-static void follow_small_phi(fst_flow *flow, fst_winding *phi, double x0, double x1, const double *state)
+static void follow_moment_angle(fst_flow *flow, fst_winding *angle, double x0, double x1, const double *state)
 {
     double u, w;
-    fst_small_phi_point_double(state, &u, &w);
+    fst_moment_angle_point_double(state, &u, &w);
     const double middle = 0.5 * (x0 + x1);
-    if (x1 - x0 > 1e-9 && fst_winding_is_doubtful(phi, u, w)) {
+    if (x1 - x0 > 1e-9 && fst_winding_is_doubtful(angle, u, w)) {
         double between[FST_STATE_SIZE];
         fst_flow_at(flow, middle, between);
-        follow_small_phi(flow, phi, x0, middle, between);
-        follow_small_phi(flow, phi, middle, x1, state);
+        follow_moment_angle(flow, angle, x0, middle, between);
+        follow_moment_angle(flow, angle, middle, x1, state);
         return;
     }
-    fst_winding_advance(phi, u, w);
+    fst_winding_advance(angle, u, w);
 }
 
-void fst_quadrature_begin_phi(fst_quadrature *q, const double *state)
+void fst_quadrature_begin_moment_angle(fst_quadrature *q, const double *state)
 {
-    fst_small_phi_point_double(state, &q->small_phi.x, &q->small_phi.y);
-    q->small_phi_start = q->small_phi;
+    fst_moment_angle_point_double(state, &q->moment_angle.x, &q->moment_angle.y);
+    q->moment_angle_start = q->moment_angle;
 }
 
 void fst_quadrature_follow(fst_quadrature *q, fst_flow *flow, const double *end)
 {
-    q->small_phi_start = q->small_phi;
-    follow_small_phi(flow, &q->small_phi, 0.0, 1.0, end);
+    q->moment_angle_start = q->moment_angle;
+    follow_moment_angle(flow, &q->moment_angle, 0.0, 1.0, end);
 }
 
 /* ------------------------------------------------------------------ integrals */
@@ -71,7 +71,7 @@ void fst_quadrature_follow(fst_quadrature *q, fst_flow *flow, const double *end)
 void fst_quadrature_begin(fst_quadrature *q, const fst_flow *flow)
 {
     memset(q, 0, sizeof *q);
-    fst_quadrature_begin_phi(q, flow->step.end);
+    fst_quadrature_begin_moment_angle(q, flow->step.end);
 }
 
 void fst_quadrature_set_references(fst_quadrature *q, const fst_flow *flow)
@@ -112,23 +112,22 @@ static void make_dense(fst_quadrature *q, fst_flow *flow)
     q->has_dense = 1;
 }
 
-void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integrals[FST_Q_COUNT], double *phi)
+void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integrals[FST_Q_COUNT],
+                       double *moment_angle)
 {
     double part[FST_Q_COUNT];
     if (x == 1.0) {
         memcpy(part, q->sums.increment, sizeof part);
-        *phi = fst_winding_angle(&q->small_phi);
+        *moment_angle = fst_winding_angle(&q->moment_angle);
     } else {
         make_dense(q, flow);
         fst_bead_evaluate_dense_double(FST_Q_COUNT, &q->dense[0][0], FST_Q_COUNT, x, part);
-        fst_winding small_phi = q->small_phi_start;
+        fst_winding angle = q->moment_angle_start;
         double state[FST_STATE_SIZE];
         fst_flow_at(flow, x, state);
-        follow_small_phi(flow, &small_phi, 0.0, x, state);
-        *phi = fst_winding_angle(&small_phi);
+        follow_moment_angle(flow, &angle, 0.0, x, state);
+        *moment_angle = fst_winding_angle(&angle);
     }
-    for (int i = 0; i < FST_Q_COUNT; ++i) {
-        const fst_twofold total = {q->sums.total_high[i], q->sums.total_low[i]};
-        integrals[i] = fst_twofold_add(total, part[i]).high;
-    }
+    for (int i = 0; i < FST_Q_COUNT; ++i)
+        integrals[i] = fst_twofold_add(q->sums.total[i], part[i]).high;
 }

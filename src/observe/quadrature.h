@@ -13,14 +13,15 @@ typedef struct fst_quadrature {
     double between[FST_DENSE_PLACES - FST_PATH_PLACES][FST_Q_COUNT];
     double dense[8][FST_Q_COUNT];
     int has_dense;
-    fst_winding small_phi_start, small_phi; /* phi = atan2(n_alpha, -n_z), unwrapped: at the step's ends */
+    fst_winding moment_angle_start,
+        moment_angle; /* phi = atan2(n_alpha, -n_z), unwrapped: at the step's ends */
 } fst_quadrature;
 
 /* Begin at the flow's present state. */
 void fst_quadrature_begin(fst_quadrature *q, const fst_flow *flow);
 
 /* Begin to follow phi at a state. */
-void fst_quadrature_begin_phi(fst_quadrature *q, const double *state);
+void fst_quadrature_begin_moment_angle(fst_quadrature *q, const double *state);
 
 /* Follow phi to the end of the flow's last step; where the path passes the origin of its plane closely, the
  * step must be in flow->step. */
@@ -33,6 +34,7 @@ void fst_quadrature_set_references(fst_quadrature *q, const fst_flow *flow);
 void fst_quadrature_step(fst_quadrature *q, fst_flow *flow, int renew);
 
 /* The integrals up to the fraction x of the last step, and phi there. */
-void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integrals[FST_Q_COUNT], double *phi);
+void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integrals[FST_Q_COUNT],
+                       double *moment_angle);
 
 #endif

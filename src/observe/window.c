@@ -31,8 +31,8 @@ void fst_window_begin(fst_window *w, const fst_span *span, double period, const 
     fst_extremes_begin(w->extremes);
     fst_returns_begin(&w->returns);
     fst_marks_begin(&w->periods);
-    w->least_phi = INFINITY;
-    w->greatest_phi = -INFINITY;
+    w->least_bead_angle = INFINITY;
+    w->greatest_bead_angle = -INFINITY;
 }
 
 void fst_window_mark(fst_window *w, fst_flow *flow, double x, fst_mark *mark)
@@ -96,20 +96,20 @@ int fst_window_period_needs_integrals(const fst_window *w, const fst_flow *flow)
 /* ------------------------------------------------------------------ steps */
 
 /* Phi's range, which decides whether it is bounded: beyond a whole turn it no longer matters by how much. */
-static void watch_phi(fst_window *w, const fst_winding *winding)
+static void watch_bead_angle(fst_window *w, const fst_winding *bead_angle)
 {
-    if (w->greatest_phi - w->least_phi > FST_TWO_PI)
+    if (w->greatest_bead_angle - w->least_bead_angle > FST_TWO_PI)
         return;
-    const double phi = fst_winding_angle(winding);
-    w->least_phi = phi < w->least_phi ? phi : w->least_phi;
-    w->greatest_phi = phi > w->greatest_phi ? phi : w->greatest_phi;
+    const double angle = fst_winding_angle(bead_angle);
+    w->least_bead_angle = angle < w->least_bead_angle ? angle : w->least_bead_angle;
+    w->greatest_bead_angle = angle > w->greatest_bead_angle ? angle : w->greatest_bead_angle;
 }
 
-void fst_window_pass(fst_window *w, const fst_winding *phi, double speed)
+void fst_window_pass(fst_window *w, const fst_winding *bead_angle, double speed)
 {
     w->activity = speed > w->activity ? speed : w->activity;
     if (fst_window_is_open(w))
-        watch_phi(w, phi);
+        watch_bead_angle(w, bead_angle);
 }
 
 void fst_window_look(fst_window *w, fst_flow *flow, int seek_extremes)

@@ -19,10 +19,11 @@ typedef struct fst_window {
     fst_quadrature quadrature;
     fst_extreme extremes[FST_TRACK_COUNT];
     fst_returns returns;
-    fst_mark_series periods;        /* one mark a whole drive period */
-    double activity;                /* greatest speed in the turning frame since the last of these */
-    double least_phi, greatest_phi; /* range of Phi; once wider than a whole turn it is followed no more */
-    double opens_at;                /* where in the last step the window opened; 0 in the steps after it */
+    fst_mark_series periods; /* one mark a whole drive period */
+    double activity;         /* greatest speed in the turning frame since the last of these */
+    double least_bead_angle,
+        greatest_bead_angle; /* range of Phi; once wider than a whole turn it is followed no more */
+    double opens_at;         /* where in the last step the window opened; 0 in the steps after it */
 } fst_window;
 
 void fst_window_begin(fst_window *w, const fst_span *span, double period, const fst_flow *flow);
@@ -65,6 +66,6 @@ int fst_window_period_needs_integrals(const fst_window *w, const fst_flow *flow)
 
 /* The end of a step: the speed there, and where the window is open the range of Phi.  This is all there is to
  * do for a step that holds no mark, no return and no extreme. */
-void fst_window_pass(fst_window *w, const fst_winding *phi, double speed);
+void fst_window_pass(fst_window *w, const fst_winding *bead_angle, double speed);
 
 #endif

@@ -7,6 +7,9 @@
 #ifndef FST_ODE_DOP853_TABLEAU_H
 #define FST_ODE_DOP853_TABLEAU_H
 
+/* Evaluations of a try, for stages 2 to 12; an accepted step needs one more, for stage 13. */
+enum { DOP_TRY_EVALUATIONS = 11 };
+
 /* Nodes; stages 12 and 13 lie at the end of the step. */
 #define DOP_C2 R(0.526001519587677318785587544488e-01)
 #define DOP_C3 R(0.789002279381515978178381316732e-01)

@@ -142,7 +142,7 @@ static inline int FLOW_NAME(go)(FLOW_NAME(type) * flow, REAL t_limit)
     for (;;) {
         s->h = control->size;
         FLOW_STEP(try_step)(s);
-        flow->rhs_calls += 11;
+        flow->rhs_calls += DOP_TRY_EVALUATIONS;
         const REAL error = FLOW_STEP(step_error)(s, flow->rtol, flow->atol), factor = FN(step_factor)(error);
         if (error <= R(1.0)) {
             flow->norm_drift += FLOW_FINISH(s);

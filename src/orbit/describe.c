@@ -126,7 +126,7 @@ static void conclude(const round_trip *trip, const fst_solution *s, fst_descript
 {
     const fst_mark *first = &trip->ends.kept[0], *last = &trip->ends.latest;
     const fst_groups *groups = &trip->model->groups;
-    const double turned = (last->big_phi - first->big_phi) / FST_TWO_PI, omega = groups->omega;
+    const double turned = (last->bead_angle - first->bead_angle) / FST_TWO_PI, omega = groups->omega;
     out->turns = (int)floor(turned + 0.5);
     fst_run_result *means = &out->means;
     fst_means_fill(&trip->window, &trip->ends, &trip->params, means);

@@ -29,8 +29,8 @@
 
 /* ------------------------------------------------------------------ the state with its tangents */
 
-/* What a try of a step costs, in evaluations of the equations alone: twelve stages, each with the changes of all
- * columns. */
+/* What a try of a step costs, in evaluations of the equations alone: twelve stages, each with the changes of
+ * all columns. */
 enum { TRY_WORK = 50 };
 static const double FIRST_SIZE = 0.1; /* of a step; the controller mends it within a few */
 

@@ -129,7 +129,7 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
 {
     fst_dynamics dynamics = (fst_dynamics)index;
     fst_paper_exact *exact = &paper->exact[dynamics];
-    const fst_progress *progress = &paper->obedience;
+    const fst_progress *progress = &paper->until_refused;
     fst_params params = params_at(dynamics, BRANCH_START);
     fst_branch_options options = fst_default_branch_options();
     options.from = BRANCH_FROM;

@@ -100,8 +100,7 @@ static json_t *figures_array(const fst_paper_state *paper)
         fst_paper_figure_command(paper, &figure, command, sizeof command);
         json_object_set_new(object, "command", json_string(command));
         json_object_set_new(object, "dynamics",
-                            figure.each ? json_string(fst_dynamics_name((fst_dynamics)figure.dynamics))
-                                        : json_null());
+                            figure.each ? json_string(fst_dynamics_name(figure.dynamics)) : json_null());
         json_object_set_new(object, "verdict", figure_verdict(paper, &figure, figure.dynamics));
         if (!figure.each)
             json_object_set_new(object, "rigid_verdict", figure_verdict(paper, &figure, FST_DYNAMICS_RIGID));
@@ -120,8 +119,7 @@ static json_t *statement_value(const fst_statement *statement, double value)
 static void add_dynamics(json_t *object, const fst_statement *statement, const fst_paper_state *paper,
                          const fst_finding *finding, fst_dynamics dynamics)
 {
-    const char *name = fst_dynamics_name((fst_dynamics)dynamics),
-               *prefix = dynamics == FST_DYNAMICS_RIGID ? "rigid_" : "";
+    const char *name = fst_dynamics_name(dynamics), *prefix = dynamics == FST_DYNAMICS_RIGID ? "rigid_" : "";
     char key[48], command[320];
     json_object_set_new(object, name, statement_value(statement, finding->value[dynamics]));
     (void)snprintf(key, sizeof key, "%s_verdict", name);

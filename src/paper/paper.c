@@ -37,6 +37,7 @@ fst_paper_options fst_default_paper_options(void)
 
 /* ------------------------------------------------------------------ the whole */
 
+/* The answer to every run and search at work, in whatever thread. */
 static fst_status obey(void *user, double fraction, const char *what, fst_error *error)
 {
     fst_paper_state *paper = user;
@@ -185,7 +186,7 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
         return fst_fail(error, FST_BAD_INPUT, "fst_paper",
                         "the options were not made by fst_default_paper_options()");
     fst_paper_state paper = {.options = options, .directory = directory};
-    paper.obedience = (fst_progress){&paper, obey};
+    paper.until_refused = (fst_progress){&paper, obey};
     fst_status status = options->only ? FST_OK : make_directory(&paper, error);
     if (status != FST_OK)
         return status;

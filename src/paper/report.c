@@ -71,7 +71,7 @@ static void write_orbits_missing(FILE *out, const fst_paper_state *paper)
 {
     for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
         const fst_paper_exact *exact = &paper->exact[order[i]];
-        const char *name = fst_dynamics_name((fst_dynamics)order[i]);
+        const char *name = fst_dynamics_name(order[i]);
         if (exact->missing[0]) {
             fprintf(out, "<p class=\"fine\">No exact drives for %s: ", name);
             fst_report_text(out, exact->missing);
@@ -124,7 +124,7 @@ static void write_values(FILE *out, const fst_statement *statement, const fst_fi
     for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
         char value[64];
         fst_statement_value(statement, finding->value[order[i]], value, sizeof value);
-        fprintf(out, "<tr><td>%s</td><td class=\"n\">", fst_dynamics_name((fst_dynamics)order[i]));
+        fprintf(out, "<tr><td>%s</td><td class=\"n\">", fst_dynamics_name(order[i]));
         fst_report_text(out, value);
         fputs("</td><td>", out);
         fst_report_badge(out, finding->verdict[order[i]]);

@@ -96,7 +96,7 @@ static fst_status make_run(fst_paper_state *paper, fst_scan scan, fst_paper_run 
 {
     fst_table *trajectory = scans[scan].samples ? &run->trajectory : NULL;
     const fst_status status =
-        fst_paper_run_settled(&run->params, &paper->obedience, &run->result, trajectory, error);
+        fst_paper_run_settled(&run->params, &paper->until_refused, &run->result, trajectory, error);
     run->done = status == FST_OK;
     return status;
 }
@@ -194,7 +194,7 @@ static fst_status probe(const fst_paper_state *paper, fst_change change, fst_dyn
         status = set(&params, "run.discard", changes[change].discard, status, error);
     }
     if (status == FST_OK)
-        status = fst_paper_run_settled(&params, &paper->obedience, &result, NULL, error);
+        status = fst_paper_run_settled(&params, &paper->until_refused, &result, NULL, error);
     if (status == FST_OK)
         *below = isnan(result.mean_r) && fst_paper_may_settle(&result) ? -1 : is_below(change, &result);
     return status;

@@ -134,7 +134,7 @@ static fst_status remanence_piece(fst_paper_state *paper, int index, fst_error *
     params.bead_a = fst_remanence_strengths[strength];
     params.run_rtol = 1e-8;
     fst_kappa_scan scan = paper->options->reduced ? reduced_remanence_scan : fst_remanence_scan;
-    scan.progress = &paper->obedience;
+    scan.progress = &paper->until_refused;
     return fst_least_kappa(&params, &scan, least, error);
 }
 

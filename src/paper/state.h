@@ -130,8 +130,8 @@ typedef struct fst_paper_state {
     int complete;                   /* all steps are, and the figures are drawn */
     const fst_paper_options *options;
     const char *directory;
-    atomic_int refused;     /* the caller wants the work to end */
-    fst_progress obedience; /* what threads give to long computations: these end once `refused` is set */
+    atomic_int refused;         /* the caller wants the work to end */
+    fst_progress until_refused; /* the progress of all runs and searches, which end once `refused` is set */
     int counts[FST_SCAN_COUNT];
     int films;                   /* films that are made */
     int first_scan;              /* no run of the scans before this one is made */

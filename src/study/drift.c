@@ -18,7 +18,8 @@
  * line by up to 6 sqrt(2)/(pi k) standard deviations.  The changes of sign of what is left of the line count
  * the cycles.
  *
- * What is kept of a run is at most FST_MARKS blocks however long it is, so this costs nothing while it runs.
+ * At most FST_MARKS blocks are kept of a run, however long it is: nothing has to be done for this while it
+ * runs.
  */
 #include "study/drift.h"
 
@@ -97,7 +98,7 @@ static line line_through(const double *values, int count)
     }
     found.change = slope * count;
     found.noise = count * sqrt(scatter / (count - 2) / spread);
-    found.hidden = 12.0 * sqrt(2.0) / (0.5 * FST_TWO_PI) * sqrt(scatter / count) / (turns + 1);
+    found.hidden = 12.0 * sqrt(2.0) / FST_PI * sqrt(scatter / count) / (turns + 1);
     return found;
 }
 

@@ -1,7 +1,21 @@
 /* exponent.c - largest Lyapunov exponents across the flow, by the variational equations.
  *
- * The vector that is followed is made short again after each piece of the time; the logarithms of what it had
- * grown to are averaged as growth.h tells.
+ * Beside each bead a tangent vector is carried along: the difference to a neighbour that starts infinitely
+ * close. Its length grows as exp(lambda t), and lambda is the exponent.
+ *
+ *     |v|        .|        .|        .|      the time is cut into pieces; at the end of each the vector
+ *              .  |      .  |      .  |      is made short again, and the logarithms of what it had grown
+ *           .     |   .     |   .     |      to are averaged as growth.h tells
+ *         +-------+---------+---------+-- t
+ *           piece     piece     piece
+ *
+ * Two directions say nothing of neighbouring orbits and are taken out at the end of each piece: along the flow,
+ * where a difference only means to be ahead on the same orbit, and along |n|, which does not change.  At first
+ * the vector turns towards the direction that grows fastest; the growth counts from then on.
+ *
+ * As many beads as the engine is wide are followed side by side, each with its own steps.  A bead with its
+ * vector can be put down between two tries (keep_way()) and taken up again, so that an interrupted sweep loses
+ * nothing.
  */
 #include "study/exponent.h"
 
@@ -19,19 +33,20 @@
  * what the steps' errors change is far less than the exponent's error bar (docs/regimes.md).  Without friction
  * nothing damps the errors of the steps. */
 static const double LOOSEST = 1e-7, LOOSEST_WITHOUT_FRICTION = 1e-9;
-/* The first eleventh of the time turns the vector into place.  Pieces, at whose ends the vector is made short
- * again, are so many at least, and short enough for no direction to shrink to nothing meanwhile. */
+/* The vector turns into place during the first eleventh of the time.  There are at least so many pieces, and
+ * they are short enough for no direction to shrink to nothing within one. */
 static const double ALIGNING = 1.0 / 11, LONGEST_PIECE = 16.0;
 static const double ALIGNING_PIECES = 32, PIECES = 320;
-/* Where another direction shrinks at nearly the same rate, the vector turns from it so slowly that no part of
- * the time differs from another: its length is then known to a factor of some e. */
+/* Where another direction shrinks at nearly the same rate, the vector turns away from it so slowly that all
+ * parts of the time look alike, and none of them shows the error.  The length is then known up to a factor of
+ * about e. */
 static const double TURNING = 1.0;
-/* What the errors of the steps leave of a growth rate, in units of the tolerance: docs/regimes.md. */
+/* Error of a growth rate due to the errors of the steps, in units of the tolerance (docs/regimes.md). */
 static const double OF_TOLERANCE = 10.0;
 static const double FIRST_SIZE = 0.1; /* of a step; the controller mends it within a few */
 enum { STEPS_UNTOLD = 64 };
 
-/* One bead and its vector on their way. */
+/* One bead and its vector. */
 typedef struct follower {
     fst_exponent *asked;
     double t, piece; /* the time in the present piece, and a piece's length */
@@ -43,14 +58,14 @@ typedef struct follower {
     int over;
 } follower;
 
-typedef struct crew {
+typedef struct batch {
     const fst_tangent_engine *engine;
     void *memory;
     double *y;
     const double *slope;
     follower followers[FST_MOST_LANES];
     int count;
-} crew;
+} batch;
 
 static double dot(const double *a, const double *b, int n)
 {
@@ -60,7 +75,7 @@ static double dot(const double *a, const double *b, int n)
     return sum;
 }
 
-/* Take out of the tangent vector what is no growth across the flow: along |n|, and along the flow itself.
+/* Take the parts along |n| and along the flow out of the tangent vector.
  * Returns its length, and scales it to 1. */
 static double project(double *y, const double *flow_direction)
 {
@@ -81,72 +96,72 @@ static double project(double *y, const double *flow_direction)
     return length;
 }
 
-static double project_lane(crew *c, int l)
+static double project_lane(batch *b, int l)
 {
-    const int width = c->engine->width;
+    const int width = b->engine->width;
     double y[FST_TANGENT_DIM], flow_direction[FST_STATE_SIZE];
     for (int i = 0; i < FST_TANGENT_DIM; ++i)
-        y[i] = c->y[i * width + l];
+        y[i] = b->y[i * width + l];
     for (int i = 0; i < FST_STATE_SIZE; ++i)
-        flow_direction[i] = c->slope[i * width + l];
+        flow_direction[i] = b->slope[i * width + l];
     const double length = project(y, flow_direction);
     for (int i = FST_STATE_SIZE; i < FST_TANGENT_DIM; ++i)
-        c->y[i * width + l] = y[i];
+        b->y[i * width + l] = y[i];
     return length;
 }
 
 _Static_assert(sizeof(follower) <= FST_EXPONENT_WAY, "the way of an exponent has room for its follower");
 
-/* Keep what a lane knows between two tries, so that it can be taken up again. */
-static void keep_way(crew *c, int l)
+/* Note all that a lane knows between two tries, so that the work can go on from there. */
+static void keep_way(batch *b, int l)
 {
-    follower kept = c->followers[l];
+    follower kept = b->followers[l];
     fst_exponent *asked = kept.asked;
     kept.asked = NULL;
     memcpy(asked->way, &kept, sizeof kept);
     for (int i = 0; i < FST_TANGENT_DIM; ++i)
-        asked->way_state[i] = c->y[i * c->engine->width + l];
+        asked->way_state[i] = b->y[i * b->engine->width + l];
     asked->has_way = 1;
 }
 
-static void take_up_way(crew *c, int l, fst_exponent *asked)
+static void take_up_way(batch *b, int l, fst_exponent *asked)
 {
-    memcpy(&c->followers[l], asked->way, sizeof c->followers[l]);
-    c->followers[l].asked = asked;
+    memcpy(&b->followers[l], asked->way, sizeof b->followers[l]);
+    b->followers[l].asked = asked;
     for (int i = 0; i < FST_TANGENT_DIM; ++i)
-        c->y[i * c->engine->width + l] = asked->way_state[i];
+        b->y[i * b->engine->width + l] = asked->way_state[i];
 }
 
-/* Put what is asked into a lane. */
-static void begin(crew *c, int l, fst_exponent *asked)
+/* Put a bead and a fresh vector into a lane. */
+static void begin(batch *b, int l, fst_exponent *asked)
 {
     double y[FST_TANGENT_DIM], atol[FST_TANGENT_DIM];
     const double loosest = fst_kinds_brake(&asked->coefficients->kinds) ? LOOSEST : LOOSEST_WITHOUT_FRICTION;
     const double rtol = asked->rtol > loosest ? asked->rtol : loosest;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
         y[i] = asked->state[i];
-        y[FST_STATE_SIZE + i] = 1.0 / (1.0 + i); /* any direction will do; this one is nothing special */
+        y[FST_STATE_SIZE + i] = 1.0 / (1.0 + i); /* any direction will do */
         atol[i] = rtol;
         atol[FST_STATE_SIZE + i] = 1e-6;
     }
-    c->engine->load(c->memory, l, asked->coefficients, y, rtol, atol);
-    if (l >= c->count || asked->has_way)
+    b->engine->load(b->memory, l, asked->coefficients, y, rtol, atol);
+    if (l >= b->count || asked->has_way)
         return;
     asked->rhs_calls = 0;
     asked->failed = 0;
     const double aligned = asked->duration * ALIGNING, measured = asked->duration - aligned;
     const double finer = fmax(1.0, ceil(measured / PIECES / LONGEST_PIECE));
-    c->followers[l] = (follower){.asked = asked,
+    b->followers[l] = (follower){.asked = asked,
                                  .piece = measured / PIECES / finer,
                                  .aligning = ALIGNING_PIECES * finer,
                                  .pieces = (ALIGNING_PIECES + PIECES) * finer,
                                  .rtol = rtol,
                                  .clock = {.duration = measured},
                                  .control = fst_begin_control_double(FIRST_SIZE, INFINITY)};
-    fst_plan_step_double(&c->followers[l].control, REAL_EVERYWHERE, c->followers[l].piece);
+    fst_plan_step_double(&b->followers[l].control, REAL_EVERYWHERE, b->followers[l].piece);
 }
 
-/* What became of a try; 1 if it is accepted. */
+/* Accept or reject a try: 1 or 0. */
 static int judge(follower *f, double error, double factor)
 {
     f->asked->rhs_calls += 12;
@@ -160,7 +175,7 @@ static int judge(follower *f, double error, double factor)
     return 1;
 }
 
-/* The end of a piece, over which the vector has grown to `length`. */
+/* A piece is over, and the vector has grown to `length`. */
 static void end_piece(follower *f, double length)
 {
     f->t = 0.0;
@@ -178,22 +193,22 @@ static void end_piece(follower *f, double length)
 }
 
 /* One try in every lane; 0 if all are over. */
-static int step(crew *c)
+static int step(batch *b)
 {
     double h[FST_MOST_LANES] = {0}, errors[FST_MOST_LANES], factors[FST_MOST_LANES];
     unsigned accepted = 0;
     int at_work = 0, projected = 0;
-    for (int l = 0; l < c->count; ++l)
-        h[l] = c->followers[l].over ? 0.0 : c->followers[l].control.size;
-    c->engine->try_steps(c->memory, h, errors, factors);
-    for (int l = 0; l < c->count; ++l)
-        if (!c->followers[l].over && judge(&c->followers[l], errors[l], factors[l]))
+    for (int l = 0; l < b->count; ++l)
+        h[l] = b->followers[l].over ? 0.0 : b->followers[l].control.size;
+    b->engine->try_steps(b->memory, h, errors, factors);
+    for (int l = 0; l < b->count; ++l)
+        if (!b->followers[l].over && judge(&b->followers[l], errors[l], factors[l]))
             accepted |= 1u << l;
-    c->engine->accept(c->memory, accepted);
-    for (int l = 0; l < c->count; ++l) {
-        follower *f = &c->followers[l];
+    b->engine->accept(b->memory, accepted);
+    for (int l = 0; l < b->count; ++l) {
+        follower *f = &b->followers[l];
         if (accepted & 1u << l && f->control.lands > 0) {
-            end_piece(f, project_lane(c, l));
+            end_piece(f, project_lane(b, l));
             projected = 1;
         }
         if (accepted & 1u << l)
@@ -201,46 +216,46 @@ static int step(crew *c)
         at_work |= !f->over;
     }
     if (projected)
-        c->engine->evaluate(c->memory);
+        b->engine->evaluate(b->memory);
     return at_work;
 }
 
 /* The share of its work that the slowest bead has done. */
-static double fraction_done(const crew *c)
+static double fraction_done(const batch *b)
 {
     double least = 1.0;
-    for (int l = 0; l < c->count; ++l)
-        if (!c->followers[l].over)
-            least = fmin(least, c->followers[l].done / c->followers[l].pieces);
+    for (int l = 0; l < b->count; ++l)
+        if (!b->followers[l].over)
+            least = fmin(least, b->followers[l].done / b->followers[l].pieces);
     return least;
 }
 
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
                                  const fst_progress *progress, fst_error *error)
 {
-    crew c = {.engine = engine, .count = count};
+    batch b = {.engine = engine, .count = count};
     const size_t bytes = (engine->bytes + 63) / 64 * 64;
-    c.memory = aligned_alloc(64, bytes);
-    if (!c.memory)
+    b.memory = aligned_alloc(64, bytes);
+    if (!b.memory)
         return fst_fail(error, FST_NO_MEMORY, "Lyapunov exponent", "out of memory");
-    memset(c.memory, 0, bytes);
-    engine->view(c.memory, &c.y, &c.slope);
+    memset(b.memory, 0, bytes);
+    engine->view(b.memory, &b.y, &b.slope);
     for (int l = 0; l < engine->width; ++l)
-        begin(&c, l, asked[l < count ? l : 0]);
-    engine->evaluate(c.memory);
+        begin(&b, l, asked[l < count ? l : 0]);
+    engine->evaluate(b.memory);
     for (int l = 0; l < count; ++l)
         if (asked[l]->has_way)
-            take_up_way(&c, l, asked[l]);
+            take_up_way(&b, l, asked[l]);
         else
-            (void)project_lane(&c, l);
-    engine->evaluate(c.memory);
+            (void)project_lane(&b, l);
+    engine->evaluate(b.memory);
     fst_status status = FST_OK;
-    for (unsigned steps = 1; status == FST_OK && step(&c); ++steps)
+    for (unsigned steps = 1; status == FST_OK && step(&b); ++steps)
         if (progress && steps % STEPS_UNTOLD == 0) {
             for (int l = 0; l < count; ++l)
-                keep_way(&c, l);
-            status = fst_tell(progress, fraction_done(&c), NULL, error);
+                keep_way(&b, l);
+            status = fst_tell(progress, fraction_done(&b), NULL, error);
         }
-    free(c.memory);
+    free(b.memory);
     return status;
 }

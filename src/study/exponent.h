@@ -8,27 +8,28 @@
 
 enum { FST_EXPONENT_WAY = 1024 };
 
-/* What is asked, and the answer. */
+/* A question, and its answer. */
 typedef struct fst_exponent {
     const fst_coefficients_double *coefficients;
     double state[FST_STATE_SIZE]; /* where to begin */
     double duration, rtol;
     double value,
         standard_error; /* weighted mean over the time after the alignment (growth.h), and its error */
-    /* The part of the error that chance makes: what decides whether the exponent is positive.  A rate that
-     * differs from one half of the time to the other widens the error, though it be positive in both. */
+    /* The part of the error that is due to chance: it decides whether the exponent is positive.  A rate that
+     * differs between the halves of the time widens the error too, even where it is positive in both. */
     double chance;
     uint64_t rhs_calls;
     int failed; /* the step size underflowed */
-    /* How far it has got; zeros: it has not begun.  Asked for again, it goes on from there to the same bits. */
+    /* How far the work has got (zeros: it has not begun); asked again, it goes on from there to the same bits.
+     */
     int has_way;
     double way_state[FST_TANGENT_DIM];
     unsigned char way[FST_EXPONENT_WAY];
 } fst_exponent;
 
 /* The largest exponents of `count` beads, at most as many as the engine is wide.  Tangent vectors along the
- * flow and along |n| are projected out.  `progress` (may be NULL) is told between steps, when the ways are up
- * to date; what it returns other than FST_OK ends the work.  FST_NO_MEMORY. */
+ * flow and along |n| are projected out.  `progress` (may be NULL) is told between steps, when the
+ * members way and way_state are up to date; a status other than FST_OK ends the work.  FST_NO_MEMORY. */
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
                                  const fst_progress *progress, fst_error *error);
 

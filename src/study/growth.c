@@ -1,4 +1,4 @@
-/* growth.c - weighted means of growth, and what their differences say of the error. */
+/* growth.c - weighted means of growth, and what the differences between them say about the error. */
 #include "study/growth.h"
 
 #include <math.h>
@@ -58,8 +58,8 @@ static double scatter(const fst_growth *growth, int group)
 }
 
 /* Half of what the halves differ by, which is the standard error of the whole from two values.  Where the
- * thirds drift one way and the halves differ by more than twice as much as chance makes them (two errors of the
- * whole, `chance`), the mean has not arrived: then all of it. */
+ * thirds drift one way, and the halves differ by more than twice as much as by chance (two errors of the whole,
+ * `chance`), the mean has not settled yet, and the whole difference is taken. */
 static double drift(const fst_growth *growth, double chance)
 {
     const double *halves = growth->rate + GROUPS[HALVES].first, *thirds = growth->rate + GROUPS[THIRDS].first;

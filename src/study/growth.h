@@ -3,13 +3,13 @@
  * The logarithm of a length grows as  log(length) = rate t + B(t):  B is bounded where the motion is regular
  * (the directions that are followed stand at angles that change along the orbit, and two of them may turn
  * around each other), and wanders where it is chaotic.  A plain mean over a time T is off by (B(T) - B(0))/T,
- * which no scatter of blocks tells.  Here the growth is weighted by a window that rises from zero and falls
- * back to it,
+ * which the scatter of blocks does not show.  Here the growth is weighted by a window that rises from zero and
+ * falls back to it,
  *
  *     w(s) = 1 - cos(2 pi s),  0 < s < 1,
  *
- * so that what swings m times within the window is left over by a part 1/m^2 of that.  A chaotic motion costs
- * this a factor of sqrt(3/2) in the error.  The error comes from the same means over parts of the time; see
+ * so that a swing of m cycles within the window leaves 1/m^2 of that error.  The price is an error larger by
+ * sqrt(3/2) where the motion is chaotic.  The error comes from the same means over parts of the time; see
  * growth.c.
  */
 #ifndef FST_STUDY_GROWTH_H
@@ -18,7 +18,7 @@
 /* The parts over which means are taken beside the whole: halves, thirds, overlapping quarters and eighths. */
 enum { FST_GROWTH_WINDOWS = 1 + 2 + 3 + 7 + 15 };
 
-/* The time that is averaged over, and how far it has been passed. */
+/* The time over which means are taken, and how much of it has passed. */
 typedef struct fst_growth_clock {
     double duration, passed;
     double
@@ -40,9 +40,9 @@ typedef struct fst_growth_rate {
 void fst_growth_pass(fst_growth_clock *clock, double piece);
 void fst_growth_add(fst_growth *growth, const fst_growth_clock *clock, double logarithm);
 
-/* The rate over the whole time.  The error tells what differs from one part of the time to another, and so
- * nothing of a length that is off by a factor spread evenly over it: what a direction that has not turned into
- * its place does.  Where that can be, it is the caller's to add. */
+/* The rate over the whole time.  The error is seen from differences between parts of the time.  It does not see
+ * a drift of the length that is spread evenly over the time, as from a direction that still turns into its
+ * place: where that can happen, the caller adds an error for it. */
 fst_growth_rate fst_growth_conclude(const fst_growth *growth);
 
 #endif

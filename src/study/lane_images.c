@@ -1,4 +1,4 @@
-/* lane_images.c - images of the runs that are at work in lanes. */
+/* lane_images.c - images of unfinished runs in lanes: made when they are due, taken up when a job begins. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,12 +58,12 @@ static void save(fst_row_worker *w, fst_lane *at, const fst_lane_batch *b, int l
     if (!at->run || time - at->saved < images->seconds)
         return;
     at->saved = time;
-    if (at->image) { /* nothing has happened to it */
+    if (at->image) { /* the run has not moved since it was taken up */
         images->save(images->user, &at->job, at->image, at->image_size);
         return;
     }
     if (w->pending_count > 0)
-        fst_worker_locate(w); /* extremes that were set aside belong to the runs */
+        fst_worker_locate(w); /* an image holds the extremes found so far */
     const unsigned bit = fst_lane_bit(l);
     const int observed = stage == FST_STAGE_OBSERVED;
     const fst_run_place place = {stage, observed && w->in_window & bit, observed && w->tracked & bit,
@@ -73,7 +73,7 @@ static void save(fst_row_worker *w, fst_lane *at, const fst_lane_batch *b, int l
     void *image =
         fst_run_image_make(at->run, at->exponent, &place, b ? w->engine->numbers : 0, &numbers, &size);
     if (!image)
-        return; /* without memory there is no image, which costs nothing but what it would have saved */
+        return; /* out of memory: after a kill this run would start from an older image, no more */
     if (b)
         w->engine->save(b->memory, l, numbers);
     images->save(images->user, &at->job, image, size);

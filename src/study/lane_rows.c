@@ -148,7 +148,7 @@ static void enter_observed(fst_row_worker *w, int l, fst_lane *from)
         w->tracked |= fst_lane_bit(l);
         b->view.r_reference[l] = run->window.quadrature.sums.r_reference;
         b->view.b_reference[l] = run->window.quadrature.sums.b_reference;
-        fst_worker_keep_phi_range(w, l);
+        fst_worker_keep_angle_range(w, l);
     }
     if (b->lanes[l].image)
         fst_worker_restore(w, b, l);
@@ -339,7 +339,7 @@ static void open_window(fst_row_worker *w, int l)
     fst_lane_batch *b = &w->run_up;
     fst_watched_run *run = b->lanes[l].run;
     run->window.activity = b->view.activity[l];
-    fst_quadrature_begin_phi(&run->window.quadrature, run->flow->step.end);
+    fst_quadrature_begin_moment_angle(&run->window.quadrature, run->flow->step.end);
     fst_window_mark_periods(&run->window, run->flow);
     fst_flow_restart(run->flow);
     fst_quadrature_set_references(&run->window.quadrature, run->flow);

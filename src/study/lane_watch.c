@@ -1,8 +1,24 @@
-/* lane_watch.c - what the steps of runs in lanes hold, looked at by the code of fst_run(). */
+/* lane_watch.c - a close look at steps that were made in lanes, by the code that observes one run.
+ *
+ * After each round of the observed batch the engine names the lanes whose steps may hold something:
+ *
+ *     ending      the bead may have left the plate     step and path go to the run's flow, which looks exactly
+ *     at_mark     a drive period ends                  a mark, and integrals for it if it will be kept
+ *     close       X changed its sign, or an angle      the window looks for a crossing, as in fst_run(); the
+ *                 is doubtful                          lane is told the turns that were counted
+ *     wandering   Phi may have left its range so far   the window widens the range, and tells the lane
+ *     beaten      a record may be beaten               the portable form: the window seeks extremes;
+ *                                                      the fast form: the step is set aside, and located later
+ *
+ * Most steps hold nothing, and cost nothing here.  What the lane and the window both know (turns, activity,
+ * time of the next mark, records) is copied back and forth around the look, so that both go on with the same
+ * numbers.
+ */
+#include "study/lane_worker.h"
+
 #include <math.h>
 
 #include "base/constants.h"
-#include "study/lane_worker.h"
 
 /* Locate the extremes of the steps that were set aside. */
 void fst_worker_locate(fst_row_worker *w)
@@ -15,7 +31,7 @@ void fst_worker_locate(fst_row_worker *w)
     w->pending_count = 0;
 }
 
-/* The portable form's records are those of the run. */
+/* The portable form: the lane goes on with the records of its window. */
 static void keep_records(fst_row_worker *w, int l, const fst_window *window)
 {
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
@@ -53,33 +69,33 @@ static void read_end(const fst_row_worker *w, int l, double end[FST_STATE_SIZE])
         end[i] = w->observed.view.end[i * w->engine->width + l];
 }
 
-/* Tell the lanes between which directions Phi has stayed; where that is more than half a turn, they cannot
- * know. */
-void fst_worker_keep_phi_range(fst_row_worker *w, int l)
+/* Tell a lane between which directions Phi has stayed, two numbers each; zeros where the range is wider than
+ * the lane can judge. */
+void fst_worker_keep_angle_range(fst_row_worker *w, int l)
 {
     const int width = w->engine->width;
     const fst_watched_run *run = w->observed.lanes[l].run;
-    const double range = run->window.greatest_phi - run->window.least_phi;
+    const double range = run->window.greatest_bead_angle - run->window.least_bead_angle;
     if (range > FST_TWO_PI) { /* as fst_window_pass() has it */
         w->turning |= fst_lane_bit(l);
         return;
     }
     const int known = range >= 0 && range < 3.0;
-    w->observed.view.phi_least[l] = known ? cos(run->window.least_phi) : 0.0;
-    w->observed.view.phi_least[width + l] = known ? sin(run->window.least_phi) : 0.0;
-    w->observed.view.phi_most[l] = known ? cos(run->window.greatest_phi) : 0.0;
-    w->observed.view.phi_most[width + l] = known ? sin(run->window.greatest_phi) : 0.0;
+    w->observed.view.phi_least[l] = known ? cos(run->window.least_bead_angle) : 0.0;
+    w->observed.view.phi_least[width + l] = known ? sin(run->window.least_bead_angle) : 0.0;
+    w->observed.view.phi_most[l] = known ? cos(run->window.greatest_bead_angle) : 0.0;
+    w->observed.view.phi_most[width + l] = known ? sin(run->window.greatest_bead_angle) : 0.0;
 }
 
-/* A step of which nothing but Phi's range is of interest. */
-static void watch_phi(fst_row_worker *w, int l)
+/* A step that may widen the range of Phi and holds nothing else. */
+static void watch_bead_angle(fst_row_worker *w, int l)
 {
     fst_watched_run *run = w->observed.lanes[l].run;
     double end[FST_STATE_SIZE];
     read_end(w, l, end);
     run->flow->phi = (fst_winding){(int64_t)w->observed.view.turns[0][l], end[FST_X], end[FST_Y]};
     fst_window_pass(&run->window, &run->flow->phi, 0.0);
-    fst_worker_keep_phi_range(w, l);
+    fst_worker_keep_angle_range(w, l);
 }
 
 /* A lane's step as the run's own flow has it, the clock, and Phi at its end. */
@@ -101,7 +117,7 @@ int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l)
     return fst_watched_run_ends(b->lanes[l].run);
 }
 
-/* Whether a step that is looked at is wanted with its integrals. */
+/* Whether the look at a step needs its integrals. */
 static int needs_integrals(const fst_row_worker *w, const fst_watched_run *run, int at_mark)
 {
     const fst_window *window = &run->window;
@@ -124,7 +140,7 @@ static void follow_window(fst_row_worker *w, int l)
     const int is_open = fst_window_is_open(&run->window);
     b->view.activity[l] = run->window.activity;
     b->view.turns[0][l] = (double)run->flow->phi.turns;
-    b->view.turns[1][l] = (double)run->window.quadrature.small_phi.turns;
+    b->view.turns[1][l] = (double)run->window.quadrature.moment_angle.turns;
     b->view.next_mark[l] = fst_window_next_mark(&run->window);
     w->in_window |= is_open ? fst_lane_bit(l) : 0;
     w->tracked &= ~fst_lane_bit(l);
@@ -132,7 +148,7 @@ static void follow_window(fst_row_worker *w, int l)
         w->tracked |= fst_lane_bit(l);
     if (!w->engine->fused)
         keep_records(w, l, &run->window);
-    fst_worker_keep_phi_range(w, l);
+    fst_worker_keep_angle_range(w, l);
 }
 
 /* Look closely at a lane's accepted step; 1 if its run is over. */
@@ -143,8 +159,8 @@ static int watch(fst_row_worker *w, int l, fst_lane_events events)
     fst_flow *flow = run->flow;
     fst_quadrature *q = &run->window.quadrature;
     fst_worker_extract_step(w, b, l);
-    fst_quadrature_begin_phi(q, flow->step.y);
-    q->small_phi.turns = (int64_t)b->view.turns_before[1][l];
+    fst_quadrature_begin_moment_angle(q, flow->step.y);
+    q->moment_angle.turns = (int64_t)b->view.turns_before[1][l];
     fst_quadrature_follow(q, flow, flow->step.end);
     if ((events.ending & fst_lane_bit(l)) && fst_worker_ends_run(w, b, l))
         return 1;
@@ -186,7 +202,7 @@ unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events)
         if (close)
             over |= watch(w, l, events) ? fst_lane_bit(l) : 0;
         else if (wandering & fst_lane_bit(l))
-            watch_phi(w, l);
+            watch_bead_angle(w, l);
     }
     return over;
 }

@@ -78,7 +78,7 @@ void fst_worker_locate(fst_row_worker *w);
 
 /* Tell a lane of the observed runs between which directions Phi has stayed; where that is more than half a
  * turn, the lane cannot use it. */
-void fst_worker_keep_phi_range(fst_row_worker *w, int l);
+void fst_worker_keep_angle_range(fst_row_worker *w, int l);
 
 /* A job that was just begun goes on where its image says, if there is one. */
 void fst_worker_take_up(const fst_row_worker *w, fst_lane *at);

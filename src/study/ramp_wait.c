@@ -15,6 +15,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/constants.h"
+
 static const double DIED_OUT = 1e-2; /* asymmetry over the disturbance: below, the orbit is symmetric */
 static const double GROWN = 1e2;     /* the same: above, the orbit is not, if it changes no more */
 static const double STEADY = 1e-3;   /* relative change of the asymmetry over the last returns */

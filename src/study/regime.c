@@ -1,4 +1,25 @@
-/* regime.c - locked, librating, counter-rotating, corotating, chaotic, or undecided. */
+/* regime.c - locked, librating, counter-rotating, corotating, chaotic, or undecided.
+ *
+ * The questions are asked in this order, and the first answer stands; docs/regimes.md gives the reasons.
+ *
+ *     does the bead stand still at the end?          -> locked (unless the speed grows: undecided)
+ *     does Phi turn regularly?                       decide_turning()
+ *         do the means still drift?                      -> undecided
+ *         do half or whole returns close?                -> counter-rotating or corotating, S2 or S1
+ *         are they still closing?                        -> the same, without a symmetry
+ *         else decide_open(): is it chaotic?             -> chaotic
+ *                             could a drift hide?        -> undecided
+ *                             else                       -> counter-rotating or corotating, not closed
+ *     does Phi stay within a turn?                   decide_bounded()
+ *         is it only noise, or dying out?                -> locked, or undecided
+ *         do the means still drift?                      -> undecided
+ *         is it chaotic?                                 -> chaotic
+ *         else                                           -> librating
+ *     Phi turns irregularly: is it chaotic?          -> chaotic, else undecided
+ *
+ * "Is it chaotic?" needs the largest Lyapunov exponent.  Where nobody has computed it yet, the decision is put
+ * off: the caller gets it (conclude.h), and asks again.
+ */
 #include "study/regime.h"
 
 #include <stdio.h>
@@ -12,7 +33,8 @@ static const double AT_REST = 1e-8; /* greatest |d(state)/dt| of a locked bead, 
 static const double STILL = 50.0;   /* times run.rtol: n within this of rest is at rest */
 static const double KEPT = 1e-9;    /* Phi within this, or within run.rtol, keeps its place */
 static const double NOISE = 100.0;  /* times run.rtol: slower motion is not told from the integrator's noise */
-static const double LEAVING = 10.0; /* times run.rtol: where slower motion grows, the steps made it */
+static const double LEAVING =
+    10.0; /* times run.rtol: slower motion that grows comes from the errors of the steps */
 static const double GROWING =
     2.0; /* activity of a third of the window over the one before: above, twice, it grows */
 static const double CLOSED = 1e-6;   /* greatest distance of successive section states of a closed orbit */
@@ -28,19 +50,18 @@ static const double QUIET_WITHOUT_FRICTION =
 static const double SIGNIFICANT = 3.0; /* exponent over the part of its error that is chance */
 static const double ONE_WAY = 5.0; /* |<alpha'>| over its standard error: below, the bead circles neither way */
 enum {
-    LEAST_PERIODS = 4,                      /* whole drive periods without which nothing is decided */
-    LEAST_OPEN_CROSSINGS = 64,              /* the same, where the orbit does not close */
-    LEAST_CROSSINGS_WITHOUT_FRICTION = 256, /* and nothing draws the bead to it */
-    LEAST_PERIODS_WITHOUT_FRICTION = 100    /* the same for a wide libration, and for chaos */
+    LEAST_PERIODS = 4,                   /* whole drive periods without which nothing is decided */
+    LEAST_OPEN_CROSSINGS = 64,           /* the same, where the orbit does not close */
+    LEAST_PERIODS_WITHOUT_FRICTION = 100 /* without friction, for a wide libration and for chaos */
 };
 
 #define REASON(...) (void)snprintf(result->reason, sizeof result->reason, __VA_ARGS__)
 
-/* What the exponent says: neighbours part exponentially, or they do not, or the window is too short to tell; or
+/* What the exponent says: neighbours part exponentially, they do not, the window is too short to tell, or
  * nobody has computed it yet. */
 typedef enum { REGULAR, UNCLEAR, CHAOTIC, NOT_KNOWN } chaos;
 
-/* What decides a motion returns this: the regime is decided, or not until the exponent is known. */
+/* Whether the regime is decided, or has to wait for the exponent. */
 typedef enum { DECIDED, NEEDS_EXPONENT } decision;
 
 /* Chaotic if the exponent across the flow is positive beyond its error: the regime is set then, and the reason
@@ -97,7 +118,7 @@ static int is_closing(const fst_mark_series *marks)
     return marks->count - from >= 4;
 }
 
-/* The returns of the window's last quarter all come close: one of them may by chance. */
+/* The returns of the window's last quarter all come close; a single one may do so by chance. */
 static int stays_close(const fst_mark_series *marks)
 {
     const int from = marks->count - (marks->count + 3) / 4;
@@ -135,8 +156,13 @@ static decision decide_open(const fst_watched_run *run, const fst_exponent *expo
                hidden.what, hidden.change, hidden.turns, hidden.mean, hidden.noise);
         return DECIDED;
     }
-    const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
-    if (run->window.returns.crossings < (friction ? LEAST_OPEN_CROSSINGS : LEAST_CROSSINGS_WITHOUT_FRICTION)) {
+    if (!fst_kinds_brake(&run->flow->step.context.coefficients.kinds)) {
+        REASON("Phi turned regularly %lld times on an orbit that does not close (whole returns differ by %.2g): "
+               "without friction nothing holds the bead to such an orbit, and it may leave it at any time",
+               (long long)(run->window.returns.crossings / 2), full);
+        return DECIDED;
+    }
+    if (run->window.returns.crossings < LEAST_OPEN_CROSSINGS) {
         REASON("Phi turned regularly %lld times, but the orbit has not closed (whole returns differ by %.2g): "
                "run longer",
                (long long)(run->window.returns.crossings / 2), full);
@@ -202,13 +228,13 @@ static int grows(const fst_mark_series *marks)
     return third > 0 && b > GROWING * a && c > GROWING * b;
 }
 
-/* The speed below which a bead at rest is not told from noise: that of the integrator, or what the torque of a
- * strong magnet makes of the errors of n while the place is kept. */
+/* The speed below which rest and noise look alike: the integrator's noise, or, while the bead keeps its place,
+ * the speed that the torque of a strong magnet makes of the errors of n. */
 static double noise_of(const fst_watched_run *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
     const double of_steps = NOISE * run->params->run_rtol;
-    if (run->window.greatest_phi - run->window.least_phi > fmax(KEPT, run->params->run_rtol))
+    if (run->window.greatest_bead_angle - run->window.least_bead_angle > fmax(KEPT, run->params->run_rtol))
         return of_steps;
     fst_pull_double p;
     fst_magnetic_pull_double(c, run->flow->step.end, &p);
@@ -240,7 +266,7 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
     }
     if (late >= noise && still_drifts(run, result))
         return DECIDED;
-    const int small = run->window.greatest_phi - run->window.least_phi < SMALL;
+    const int small = run->window.greatest_bead_angle - run->window.least_bead_angle < SMALL;
     if (late < noise || (small && fst_speed_grows(run))) {
         REASON("the motion is hardly faster than the integrator's noise but grows (speed in the turning frame "
                "from "
@@ -253,20 +279,20 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
     if (found != REGULAR)
         return found == NOT_KNOWN ? NEEDS_EXPONENT : DECIDED;
     const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
-    if (!friction && run->window.greatest_phi - run->window.least_phi > WIDE &&
+    if (!friction && run->window.greatest_bead_angle - run->window.least_bead_angle > WIDE &&
         marks->offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
         REASON("Phi stays within %.4g rad, but nothing damps so wide a motion, which may turn out chaotic: run "
                "longer",
-               run->window.greatest_phi - run->window.least_phi);
+               run->window.greatest_bead_angle - run->window.least_bead_angle);
         return DECIDED;
     }
     result->regime = FST_REGIME_LIBRATING;
     REASON("Phi stays within %.4g rad and the motion does not die out",
-           run->window.greatest_phi - run->window.least_phi);
+           run->window.greatest_bead_angle - run->window.least_bead_angle);
     return DECIDED;
 }
 
-/* Greatest component of d(state)/dt at the end.  Where nothing acts on n it may turn as it likes. */
+/* Greatest component of d(state)/dt at the end.  Where nothing acts on n, its turning does not count. */
 static double speed_at_end(const fst_watched_run *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
@@ -312,7 +338,7 @@ static decision decide(const fst_watched_run *run, const fst_exponent *exponent,
     }
     if (fst_returns_are_regular(&run->window.returns, run->flow->t))
         return decide_turning(run, exponent, result);
-    if (run->window.greatest_phi - run->window.least_phi < FST_TWO_PI)
+    if (run->window.greatest_bead_angle - run->window.least_bead_angle < FST_TWO_PI)
         return decide_bounded(run, exponent, result);
     if (still_drifts(run, result))
         return DECIDED;

@@ -26,12 +26,12 @@ typedef struct lone_run {
     const fst_row_images *images;
     fst_row_job job;
     fst_watched_run *run;
-    fst_run_stage stage;   /* parked: it is at its end, but for ... */
-    fst_exponent exponent; /* ... this */
+    fst_run_stage stage;
+    fst_exponent exponent; /* what a parked run waits for */
     double saved;
 } lone_run;
 
-/* Whether to stop; before that, the image that is due. */
+/* Whether to stop; before that, save the image if it is due. */
 static int is_stopped(lone_run *l)
 {
     const int stop = l->work->stopped(l->work->user);
@@ -77,7 +77,7 @@ static fst_status begin(lone_run *l, fst_error *error)
     return FST_OK;
 }
 
-/* To the end, and what was found there; FST_INTERRUPTED: not to the end. */
+/* Follow the run to its end and fill in the result; FST_INTERRUPTED: it has not got there. */
 static fst_status go_on(lone_run *l, fst_run_result *result, fst_error *error)
 {
     enum { STEPS = 64 }; /* between two looks whether to stop */

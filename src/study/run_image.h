@@ -1,10 +1,10 @@
-/* run_image.h - a run that is not over as bytes, from which it goes on to the bits that it would have had.
+/* run_image.h - an unfinished run as bytes, from which it goes on to the same bits as if never interrupted.
  *
  *     | build and sizes | place | lane's numbers | window, end | exponent | flow |  numbers of the lane ...
  *
  * An image is what a run carries, as it lies in memory, with the numbers of its lane: it means nothing to
  * another build.  So it begins with a number made of the build's identity and of the sizes of what follows, and
- * is taken for nothing where that number is another one.  Pointers are not part of it; a run takes up an image
+ * an image with another number is ignored.  Pointers are not part of it; a run takes up an image
  * after it was begun from its parameters, and keeps its own.  A new pointer in what an image holds is to be
  * added to fst_run_image_take(), and a new index to what is checked there: files may be damaged.
  */
@@ -19,7 +19,7 @@ typedef enum fst_run_stage {
     FST_STAGE_RUN_UP,   /* in a lane before its window */
     FST_STAGE_READY,    /* waiting for a lane in which it is observed */
     FST_STAGE_OBSERVED, /* in such a lane */
-    FST_STAGE_PARKED,   /* at its end, but for its exponent */
+    FST_STAGE_PARKED,   /* finished, waiting for a Lyapunov exponent */
     FST_STAGE_ALONE,    /* without lanes, on its way */
     FST_STAGE_COUNT
 } fst_run_stage;
@@ -29,7 +29,7 @@ typedef struct fst_run_place {
     int in_window, tracked, turning; /* of a lane that is observed */
 } fst_run_place;
 
-/* Whether this build can make images: it knows what tells it from others. */
+/* Whether this build can make images: only a build with an identity can (the linker's --build-id). */
 int fst_run_images_possible(void);
 
 /* The image of a run, to be freed, with room for `numbers` of its lane at *lane; `exponent`: what a parked run

@@ -10,12 +10,9 @@
  */
 #include "sweep/lock.h"
 
-#include <dirent.h>
 #include <errno.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -87,22 +84,9 @@ static fst_status fail_own(const char *name, fst_error *error)
                     "until that call has ended, or read the file in another process");
 }
 
-/* The journal has two descriptors of its file at least.  That of SQLite does not hold the lock, so the kernel
- * shows it the lock. */
 fst_status fst_lock_check_own(const char *path, const char *name, fst_error *error)
 {
-    struct stat wanted, found;
-    DIR *open_files = stat(path, &wanted) == 0 ? opendir("/proc/self/fd") : NULL;
-    int own = 0;
-    for (struct dirent *entry = open_files ? readdir(open_files) : NULL; entry && !own;
-         entry = readdir(open_files)) {
-        const int descriptor = entry->d_name[0] == '.' ? -1 : (int)strtol(entry->d_name, NULL, 10);
-        own = descriptor >= 0 && fstat(descriptor, &found) == 0 && found.st_dev == wanted.st_dev &&
-              found.st_ino == wanted.st_ino && is_of_this_process(descriptor);
-    }
-    if (open_files)
-        (void)closedir(open_files);
-    return own ? fail_own(name, error) : FST_OK;
+    return fst_holds_lock(path, FST_LOCK_SWEEP) ? fail_own(name, error) : FST_OK;
 }
 
 /* The thread that has the lock may not have locked the bytes yet that say whose it is: wait for it. */

@@ -4,11 +4,13 @@
     check_installed.py CMAKE GENERATOR PREFIX C_COMPILER [C++_COMPILER]
 
 Environment: SOURCE_DIR, BUILD_DIR.  An outside C program and an outside C++ program are built by pkg-config and by
-find_package(festoon) and run; the installed program runs, its manual page is there, and the module for HDF5 is found
-where it was installed.
+find_package(festoon) and run; so are the installed examples in C, by the line that stands in each, and the first program
+of docs/api.md; the installed program runs, its manual page is there, and the module for HDF5 is found where it was
+installed.
 """
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -78,6 +80,31 @@ def check_pkg_config(prefix, scratch):
         run(program, LD_LIBRARY_PATH=library_path)
 
 
+def check_examples(prefix, scratch):
+    """Each example is built by the line in its opening comment, in its own folder, and runs; and what the landing page
+    of the API reference begins with prints what it says."""
+    pkg_config_path = str(only(prefix, "festoon.pc").parent)
+    library_path = str(only(prefix, "libfestoon.so").parent)
+    folder = only(prefix, "examples/c")
+    shutil.copytree(folder, scratch / "c")
+    page = (SOURCES.parents[1] / "docs" / "api.md").read_text(encoding="utf-8")
+    first = re.search(r"```c\n(.*?)```", page, re.S).group(1)
+    (scratch / "c" / "first.c").write_text(first, encoding="utf-8")
+    lines = {"first": re.search(r"^    (cc .*first)$", page, re.M).group(1)}
+    for source in folder.glob("*.c"):
+        text = source.read_text(encoding="utf-8")
+        if "FESTOON_OWN_PHYSICS" not in text:  # else it needs a library of its own
+            lines[source.stem] = re.search(r"^ \*     (cc .* -o \w+)$", text, re.M).group(1)
+    if len(lines) < 4:
+        raise SystemExit(f"examples: {sorted(lines)}")
+    for name, line in lines.items():
+        strict = line.replace("cc ", f"'{C_COMPILER}' -Wall -Wextra -Wpedantic -Werror ", 1)
+        run("sh", "-c", f"cd '{scratch}/c' && {strict}", PKG_CONFIG_PATH=pkg_config_path)
+        out = run("sh", "-c", f"cd '{scratch}/c' && ./{name} || test $? -eq 77", LD_LIBRARY_PATH=library_path)
+        if name == "first" and out.strip() not in page:
+            raise SystemExit(f"docs/api.md says otherwise: {out}")
+
+
 def check_find_package(prefix, scratch):
     """Both programs built by a CMake project that looks for festoon."""
     build = scratch / "outside"
@@ -101,6 +128,7 @@ def main():
         prefix = install(scratch)
         check_tree(prefix)
         check_pkg_config(prefix, scratch)
+        check_examples(prefix, scratch)
         check_find_package(prefix, scratch)
 
 

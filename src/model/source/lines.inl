@@ -1,7 +1,7 @@
 /* lines.inl - the source `lines`: parallel lines of dipoles, over REAL.
  *
- * Each line of dipoles is two point charges, +1 at X = 1 and -1 at X = -1 (paper, section Modelling, the
- * equation before Fig. portrait).  With d from a charge of sign s to the bead,
+ * Each line of dipoles is two point charges, +1 at X = 1 and -1 at X = -1 (paper, section IV,
+ * Eq. (11)).  With d from a charge of sign s to the bead,
  *
  *     B     = sum of s d/|d|^3,
  *     G_ij  = sum of s (delta_ij/|d|^3 - 3 d_i d_j/|d|^5),
