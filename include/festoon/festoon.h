@@ -126,9 +126,6 @@ typedef struct fst_params {
 #undef FST_CHOICE
 } fst_params;
 
-/* The dynamics as scenes name it: "rigid", "farago2020". */
-FST_API const char *fst_dynamics_name(fst_dynamics dynamics);
-
 /* The paper's bead at 10.7 Hz with the dynamics `rigid`. */
 FST_API fst_params fst_default_params(void);
 

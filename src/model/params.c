@@ -64,13 +64,6 @@ fst_params fst_default_params(void)
     return params;
 }
 
-const char *fst_dynamics_name(fst_dynamics dynamics)
-{
-    static const char *const names[] = {
-        [FST_DYNAMICS_RIGID] = "rigid", [FST_DYNAMICS_FARAGO2020] = "farago2020"};
-    return (unsigned)dynamics < sizeof names / sizeof *names ? names[dynamics] : "unknown";
-}
-
 int fst_param_count(void)
 {
     return ROW_COUNT;
