@@ -24,7 +24,7 @@ static fst_branch_point point_of(int i, int eigenvalues)
     fst_branch_point p;
     memset(&p, 0, sizeof p);
     double *const numbers[] = {&p.value,   &p.second,          &p.omega,      &p.mean_r, &p.mean_alpha_dot,
-                               &p.mean_nz, &p.festoons,        &p.period,     &p.min_r,  &p.phi_deg,
+                               &p.mean_nz, &p.festoons,        &p.period,     &p.min_r,  &p.bead_angle_deg,
                                &p.slip,    &p.relaxation_time, &p.swing_ratio};
     for (int k = 0; k < 13; ++k)
         *numbers[k] = 1.0 / (3.0 + 17.0 * i + k);

@@ -343,6 +343,20 @@ static void values_without_effect(void **state)
     }
 }
 
+/* Names of dynamics are those of params.def. */
+static void names_of_dynamics(void **state)
+{
+    (void)state;
+    const int row = fst_param_find("model.dynamics");
+    for (int i = 0; i <= FST_DYNAMICS_FARAGO2020; ++i) {
+        fst_params params = fst_default_params();
+        char text[32];
+        params.model_dynamics = i;
+        (void)fst_params_get(&params, row, text, sizeof text);
+        assert_string_equal(fst_dynamics_name((fst_dynamics)i), text);
+    }
+}
+
 /* Why a text is no value is a number too; the units are named once, whatever the fault. */
 static void faults_of_values(void **state)
 {
@@ -383,6 +397,7 @@ int main(void)
         cmocka_unit_test(structs_are_validated),
         cmocka_unit_test(values_without_effect),
         cmocka_unit_test(faults_of_values),
+        cmocka_unit_test(names_of_dynamics),
         cmocka_unit_test(statuses_have_texts),
         cmocka_unit_test(nearest_names),
         cmocka_unit_test(dynamics_have_names),

@@ -55,8 +55,8 @@ FST_API fst_status fst_orbit_find(const fst_params *params, const fst_progress *
 /* An equilibrium of the turning frame: the bead goes round with the magnet. */
 typedef struct fst_locked {
     double state[FST_STATE_SIZE];
-    double r, phi_deg; /* Phi, NAN on the axis */
-    double slip;       /* |V| */
+    double r, bead_angle_deg; /* Phi, NAN on the axis */
+    double slip;              /* |V| */
     double friction_power;
     double eigenvalue_re[FST_EIGENVALUE_COUNT], eigenvalue_im[FST_EIGENVALUE_COUNT];
     int stable;
@@ -102,7 +102,7 @@ FST_API const char *fst_special_name(fst_special_type type);
 typedef struct fst_branch_point {
     double value;  /* of the parameter */
     double second; /* of the second parameter; NAN where there is none */
-    double omega, mean_r, mean_alpha_dot, mean_nz, festoons, period, min_r, phi_deg, slip;
+    double omega, mean_r, mean_alpha_dot, mean_nz, festoons, period, min_r, bead_angle_deg, slip;
     double relaxation_time, swing_ratio; /* as of an orbit; an equilibrium has only the former */
     fst_symmetry symmetry;
     int stable, turns, branch;

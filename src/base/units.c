@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/number.h"
 #include "base/text.h"

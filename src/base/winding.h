@@ -10,6 +10,8 @@
 #include <math.h>
 #include <stdint.h>
 
+#include "base/constants.h"
+
 typedef struct fst_winding {
     int64_t turns;
     double x, y;

@@ -1,8 +1,6 @@
 /* groups.c - printing the scaled groups of a model. */
 #include "cli/groups.h"
 
-static const double TWO_PI = 6.283185307179586;
-
 void print_groups(FILE *out, const fst_groups *groups)
 {
     (void)fprintf(out, "  eps = %.6g  h = %.6g  lambda = %.6g (%d line%s)  kappa = %.6g  omega = %.6g\n",

@@ -6,6 +6,8 @@
 
 #include <festoon/festoon.h>
 
+#define TWO_PI 6.283185307179586476925287
+
 /* Print the groups, and the units in which everything else is scaled. */
 void print_groups(FILE *out, const fst_groups *groups);
 

@@ -30,7 +30,7 @@ static void print_list(FILE *out, double omega, const fst_locked_list *list)
         for (int k = 1; k < FST_EIGENVALUE_COUNT; ++k)
             greatest = fmax(greatest, l->eigenvalue_re[k]);
         (void)fprintf(out, "%14.10f %10.4f  %8.5f %8.5f %8.5f  %9.5f %9.5f %9.5f %12.6g %12.5g  %s\n", l->r,
-                      l->phi_deg, l->state[FST_NX], l->state[FST_NY], l->state[FST_NZ], l->state[FST_WX],
+                      l->bead_angle_deg, l->state[FST_NX], l->state[FST_NY], l->state[FST_NZ], l->state[FST_WX],
                       l->state[FST_WY], l->state[FST_WZ], l->slip, greatest, l->stable ? "stable" : "");
     }
 }

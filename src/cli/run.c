@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/groups.h"
 #include "cli/run_report.h"
 #include "cli/terminal.h"
 
@@ -67,7 +68,7 @@ static fst_status read_ramp_end(const char *text, int scaled, double gamma, doub
         return status;
     }
     if (!scaled)
-        *omega *= 6.283185307179586 / gamma;
+        *omega *= TWO_PI / gamma;
     const fst_param_info *range = fst_param_at(fst_param_find("drive.omega"));
     if (!(*omega >= range->least && *omega <= range->greatest))
         return fail(error, FST_BAD_INPUT, "--ramp", "\"%.40s\" is out of range: omega must be %g to %g", text,

@@ -3,8 +3,6 @@
 
 #include "cli/groups.h"
 
-static const double TWO_PI = 6.283185307179586;
-
 /* ---------------------------------------------------------------- the sentence */
 
 static double millimetres(const fst_groups *groups, double length)

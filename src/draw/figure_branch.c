@@ -27,7 +27,7 @@ static const struct observable {
     {"festoons", "festoons N", offsetof(fst_branch_point, festoons)},
     {"min_r", "least r / l", offsetof(fst_branch_point, min_r)},
     {"period", "period γ", offsetof(fst_branch_point, period)},
-    {"phi_deg", "Φ / degrees", offsetof(fst_branch_point, phi_deg)},
+    {"phi_deg", "Φ / degrees", offsetof(fst_branch_point, bead_angle_deg)},
     {"slip", "slip / (l γ)", offsetof(fst_branch_point, slip)},
     {"relaxation_time", "relaxation time γ", offsetof(fst_branch_point, relaxation_time)},
     {"swing_ratio", "p, ratio of swings - 1", offsetof(fst_branch_point, swing_ratio)},

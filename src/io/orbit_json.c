@@ -77,7 +77,7 @@ char *fst_locked_json(const fst_params *params, double omega, const fst_locked_l
         const fst_locked *l = &list->states[i];
         json_t *state = json_object();
         json_object_set_new(state, "r", fst_json_number(l->r));
-        json_object_set_new(state, "phi_deg", fst_json_number(l->phi_deg));
+        json_object_set_new(state, "phi_deg", fst_json_number(l->bead_angle_deg));
         json_object_set_new(state, "n", fst_json_numbers(l->state + FST_NX, 3));
         json_object_set_new(state, "w", fst_json_numbers(l->state + FST_WX, 3));
         json_object_set_new(state, "eigenvalues",
@@ -110,7 +110,7 @@ const fst_point_number fst_point_numbers[FST_POINT_NUMBER_COUNT] = {
     {"festoons", offsetof(fst_branch_point, festoons)},
     {"period", offsetof(fst_branch_point, period)},
     {"min_r", offsetof(fst_branch_point, min_r)},
-    {"phi_deg", offsetof(fst_branch_point, phi_deg)},
+    {"phi_deg", offsetof(fst_branch_point, bead_angle_deg)},
     {"slip", offsetof(fst_branch_point, slip)},
     {"relaxation_time", offsetof(fst_branch_point, relaxation_time)},
     {"swing_ratio", offsetof(fst_branch_point, swing_ratio)},

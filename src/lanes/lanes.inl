@@ -183,7 +183,7 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     for (int i = 0; i < 2; ++i)
         b->phi_least[i][lane] = b->phi_most[i][lane] = 0.0;
     for (int i = 0; i < FST_Q_COUNT; ++i)
-        b->sums.total_high[i][lane] = b->sums.total_low[i][lane] = b->sums.increment[i][lane] = 0.0;
+        b->sums.total[i].high[lane] = b->sums.total[i].low[lane] = b->sums.increment[i][lane] = 0.0;
     b->sums.r_reference[lane] = b->sums.b_reference[lane] = 0.0;
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
         b->records[i][lane] = -1e300;

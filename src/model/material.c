@@ -2,10 +2,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "model/params.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* From light plastics filled with magnetic powder to tungsten and gold, kg/m^3. */
 static const double LIGHTEST = 1000.0, HEAVIEST = 23000.0;
@@ -13,7 +12,7 @@ static const double LIGHTEST = 1000.0, HEAVIEST = 23000.0;
 static double density_of(const fst_params *params)
 {
     const double radius = params->bead_radius;
-    return params->bead_mass / (4.0 / 3.0 * PI * radius * radius * radius);
+    return params->bead_mass / (4.0 / 3.0 * FST_PI * radius * radius * radius);
 }
 
 /* Mass and radius enter kappa = mu B0/(m R^2 gamma^2) too, and the unit of a and b: a strength that is the

@@ -4,13 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/elementary.h"
 #include "base/error.h"
 #include "model/params.h"
 
 #include "model/tangent.inl"
-
-static const double TWO_PI = 6.283185307179586476925287;
 
 /* kappa: model.kappa, unless moment and B0 are both given.  Of moment, B0 and kappa two give the third. */
 static void set_strength(const fst_params *p, fst_groups *g)
@@ -73,7 +72,7 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
     const double gamma = params->friction_gamma;
     set_geometry(params, &g);
     set_strength(params, &g);
-    g.omega = isnan(params->drive_omega) ? TWO_PI * params->drive_frequency / gamma : params->drive_omega;
+    g.omega = isnan(params->drive_omega) ? FST_TWO_PI * params->drive_frequency / gamma : params->drive_omega;
     g.gravity = params->plate_gravity / (g.length_unit * (gamma * gamma));
     g.plate_radius = params->plate_radius / g.length_unit;
     g.shape = (fst_magnet_shape)params->magnet_shape;

@@ -20,9 +20,9 @@
 /* The integrals of one trajectory, or of one in each lane.  Members are REALs only: lanes are copied as
  * numbers. */
 typedef struct FN(integrals) {
-    REAL total_high[FST_Q_COUNT], total_low[FST_Q_COUNT]; /* up to the start of the last step */
-    REAL increment[FST_Q_COUNT];                          /* and over it */
-    REAL r_reference, b_reference; /* r and |B| when the window began: deviations are taken from them */
+    FN(twofold) total[FST_Q_COUNT]; /* up to the start of the last step */
+    REAL increment[FST_Q_COUNT];    /* and over it */
+    REAL r_reference, b_reference;  /* r and |B| when the window began: deviations are taken from them */
     REAL integrands[FST_PATH_PLACES][FST_Q_COUNT];  /* at the places of the last step */
     REAL tracked[FST_PATH_PLACES][FST_TRACK_COUNT]; /* quantities whose extremes are looked for, there */
 } FN(integrals);
@@ -31,10 +31,9 @@ typedef struct FN(integrals) {
 static inline void FN(add_increments)(FN(integrals) * q, REAL_MASK mask)
 {
     for (int i = 0; i < FST_Q_COUNT; ++i) {
-        const FN(twofold) total = {q->total_high[i], q->total_low[i]};
-        const FN(twofold) sum = FN(twofold_add)(total, q->increment[i]);
-        q->total_low[i] = REAL_SELECT(mask, sum.low, q->total_low[i]);
-        q->total_high[i] = REAL_SELECT(mask, sum.high, q->total_high[i]);
+        const FN(twofold) sum = FN(twofold_add)(q->total[i], q->increment[i]);
+        q->total[i].low = REAL_SELECT(mask, sum.low, q->total[i].low);
+        q->total[i].high = REAL_SELECT(mask, sum.high, q->total[i].high);
     }
 }
 

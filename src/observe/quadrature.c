@@ -128,8 +128,6 @@ void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integ
         follow_moment_angle(flow, &angle, 0.0, x, state);
         *moment_angle = fst_winding_angle(&angle);
     }
-    for (int i = 0; i < FST_Q_COUNT; ++i) {
-        const fst_twofold total = {q->sums.total_high[i], q->sums.total_low[i]};
-        integrals[i] = fst_twofold_add(total, part[i]).high;
-    }
+    for (int i = 0; i < FST_Q_COUNT; ++i)
+        integrals[i] = fst_twofold_add(q->sums.total[i], part[i]).high;
 }

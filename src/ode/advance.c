@@ -8,9 +8,8 @@
 
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 static int sign_of(double x)
 {
@@ -123,7 +122,7 @@ fst_flow_info fst_flow_get(const fst_flow *flow)
     info.step = copy.control.proposal;
     info.phi = fst_winding_angle(&phi);
     info.drive_turns = whole + rest;
-    info.alpha = info.phi + TWO_PI * (whole + rest);
+    info.alpha = info.phi + FST_TWO_PI * (whole + rest);
     info.norm_drift = flow->norm_drift;
     info.rhs_calls = flow->rhs_calls;
     info.accepted = flow->accepted;

@@ -26,10 +26,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "model/params.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 fst_flow_options fst_default_flow_options(void)
 {
@@ -162,7 +161,7 @@ fst_status fst_flow_fail(const fst_flow *flow, fst_error *error)
     const double r = sqrt(s->y[FST_X] * s->y[FST_X] + s->y[FST_Y] * s->y[FST_Y]);
     char where[96];
     (void)snprintf(where, sizeof where, "t = %.10g (%.6g drive periods), r = %.6g", flow->t.high,
-                   flow->t.high * s->omega / TWO_PI, r);
+                   flow->t.high * s->omega / FST_TWO_PI, r);
     if (flow->control.worst_error == INFINITY)
         return fst_fail(
             error, FST_NOT_FINITE, where,

@@ -16,6 +16,7 @@
 #include <string.h>
 
 #include "base/bracket.h"
+#include "base/constants.h"
 #include "ode/flow.h"
 #include "orbit/describe.h"
 
@@ -83,7 +84,7 @@ static int find_equilibrium(departure *d, const double *near, double reach)
  * no regular ones. */
 static int watch_swings(departure *d, fst_flow *flow, double *growth)
 {
-    const double period = 6.283185307179586476925287 / d->frequency, end = (PASSED + MEASURED + 3) * period;
+    const double period = FST_TWO_PI / d->frequency, end = (PASSED + MEASURED + 3) * period;
     double first = 0.0, first_time = 0.0, last_time = 0.0;
     fst_error ignored;
     for (int tops = 0; tops < PASSED + MEASURED + 1 && flow->t.high < end;) {

@@ -7,16 +7,15 @@
 #include <string.h>
 
 #include "base/bracket.h"
+#include "base/constants.h"
 #include "base/error.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 /* N of a counter-rotating orbit from its whole period alone: N = a (1 + omega/|<alpha'>|), alpha' = omega - 2
  * pi/T.
  */
 static double festoons_at(double omega, double period, int symmetric)
 {
-    const double alpha_dot = omega - TWO_PI / period;
+    const double alpha_dot = omega - FST_TWO_PI / period;
     return (symmetric ? 2.0 : 1.0) * (1.0 + omega / fabs(alpha_dot));
 }
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "orbit/branch_list.h"
 
@@ -26,13 +27,13 @@ static double radical_inverse(int index, int base)
  * (families end with their spin growing without bound), and the rest anywhere. */
 static void start_at(const fst_setup *setup, int index, double y[FST_STATE_SIZE])
 {
-    const double two_pi = 6.283185307179586476925287, omega = setup->model.groups.omega;
+    const double omega = setup->model.groups.omega;
     const double eps = setup->model.groups.eps, choice = radical_inverse(index, 7);
-    const double u = radical_inverse(index, 2), angle = two_pi * radical_inverse(index, 3);
+    const double u = radical_inverse(index, 2), angle = FST_TWO_PI * radical_inverse(index, 3);
     const double r = (index % 3 == 2 ? 0.4 : 1.0) * LARGEST_RADIUS * (u * u);
-    double nz = 2.0 * radical_inverse(index, 5) - 1.0, across = sqrt(1.0 - nz * nz), turn = two_pi * choice;
+    double nz = 2.0 * radical_inverse(index, 5) - 1.0, across = sqrt(1.0 - nz * nz), turn = FST_TWO_PI * choice;
     if (index % 3 != 0)
-        turn = angle + (choice < 0.5 ? 0.0 : 0.5 * two_pi);
+        turn = angle + (choice < 0.5 ? 0.0 : 0.5 * FST_TWO_PI);
     if (index % 3 == 2) {
         const double spin = exp(6.9 * fabs(nz));
         across = fmin(0.99, omega * r / (eps * spin));
@@ -152,7 +153,7 @@ static fst_status fill(const fst_family *family, found_state *found, fst_locked 
     const fst_observation o = fst_observe(&setup.model, found->s.y[0]);
     memcpy(out->state, found->s.y[0], sizeof out->state);
     out->r = o.r;
-    out->phi_deg = o.r > 1e-9 ? atan2(o.sin_phi, o.cos_phi) * 57.29577951308232087680 : NAN;
+    out->bead_angle_deg = o.r > 1e-9 ? atan2(o.sin_phi, o.cos_phi) * FST_DEGREES : NAN;
     out->slip = o.slip_norm;
     out->friction_power = o.friction_power;
     memcpy(out->eigenvalue_re, found->s.re, sizeof out->eigenvalue_re);

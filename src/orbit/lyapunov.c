@@ -4,12 +4,11 @@
 
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "base/watch.h"
 #include "ode/flow.h"
 #include "study/growth.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 enum {
     N = FST_TANGENT_SIZE,
@@ -269,7 +268,7 @@ fst_status fst_lyapunov_find(const fst_params *params, const fst_progress *progr
     fst_status status = fst_family_setup(&family, 0.0, &s.setup, error);
     if (status != FST_OK)
         return status;
-    const double period = TWO_PI / s.setup.model.groups.omega;
+    const double period = FST_TWO_PI / s.setup.model.groups.omega;
     const double discarded = fst_run_discard(params), measured = params->run_periods - discarded;
     s.whole = (DISCARD_WORK * discarded + ALIGNING + measured) * period;
     status = discard(&s, &family, discarded * period, error);

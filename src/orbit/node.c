@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 
 /* ------------------------------------------------------------------ what a solution looks like */
@@ -14,7 +15,7 @@ static void see_equilibrium(const fst_setup *setup, const fst_solution *s, fst_b
     p->mean_alpha_dot = p->omega;
     p->mean_nz = s->y[0][FST_NZ];
     p->slip = o.slip_norm;
-    p->phi_deg = o.r > 1e-9 ? atan2(o.sin_phi, o.cos_phi) * 57.29577951308232087680 : NAN;
+    p->bead_angle_deg = o.r > 1e-9 ? atan2(o.sin_phi, o.cos_phi) * FST_DEGREES : NAN;
 }
 
 fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_node *node, fst_error *error)
@@ -31,8 +32,8 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     fst_branch_point *p = &node->seen;
     p->value = s->value;
     p->omega = setup.model.groups.omega;
-    p->mean_r = p->mean_alpha_dot = p->mean_nz = p->festoons = p->period = p->min_r = p->phi_deg = p->slip =
-        p->second = NAN;
+    p->mean_r = p->mean_alpha_dot = p->mean_nz = p->festoons = p->period = p->min_r = p->bead_angle_deg =
+        p->slip = p->second = NAN;
     p->swing_ratio = NAN;
     p->relaxation_time = fst_solution_relaxation(&node->s);
     p->stable = fst_solution_is_stable(&node->s);

@@ -5,13 +5,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "ode/flow.h"
 #include "orbit/departure.h"
 #include "orbit/describe.h"
 #include "study/conclude.h"
-
-#define TWO_PI 6.283185307179586476925287
 
 #define SEARCH_TOLERANCE 1e-8 /* of the way to the orbit, which Newton's method then finds exactly */
 
@@ -279,7 +278,7 @@ static fst_status went_elsewhere(search *s, fst_orbit_outcome outcome, fst_error
                     "Phi = %.6g degrees): there is no orbit to polish",
                     outcome == FST_ORBIT_EJECTED ? "flies away" : "locks to the magnet", s->model->groups.omega,
                     s->flow->t.high / s->drive_period, hypot(y[FST_X], y[FST_Y]),
-                    atan2(y[FST_Y], y[FST_X]) * 360.0 / TWO_PI);
+                    atan2(y[FST_Y], y[FST_X]) * 360.0 / FST_TWO_PI);
 }
 
 static fst_status never_settled(search *s, double t_end, fst_error *error)
@@ -358,7 +357,7 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_orb
     if (status == FST_OK)
         status = fst_solution_flow(family, 0.0, start, SEARCH_TOLERANCE, &s->model, &s->flow, error);
     if (status == FST_OK) {
-        s->drive_period = TWO_PI / model->groups.omega;
+        s->drive_period = FST_TWO_PI / model->groups.omega;
         status = follow(s, family->params.run_periods * s->drive_period, out, error);
     }
     *outcome = s->outcome;

@@ -30,6 +30,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "orbit/normal_form.h"
 #include "orbit/special_test.h"
@@ -205,7 +206,7 @@ fst_status fst_look_for_hopf_end(const fst_family *family, const fst_curve_sink 
 {
     fst_node at;
     const interval i = {family, sink, a, b, end};
-    const double frequency = 6.283185307179586476925287 / fst_whole_period(&b->s);
+    const double frequency = FST_TWO_PI / fst_whole_period(&b->s);
     return find_hopf(family, a, b, frequency, &at) ? report_hopf_end(&i, &at, frequency, error) : FST_OK;
 }
 
@@ -270,7 +271,7 @@ static fst_status report_turn(const interval *i, fst_error *error)
     const fst_node *a = i->a, *b = i->b;
     fst_node at;
     fst_error why;
-    const double frequency = 6.283185307179586476925287 / fst_whole_period(&b->s);
+    const double frequency = FST_TWO_PI / fst_whole_period(&b->s);
     if (meets_symmetric(a, b)) {
         fst_curve_end_set(i->end, FST_END_SYMMETRIC_ORBIT, "it ends on the symmetric branch near %.6g",
                           b->s.value);

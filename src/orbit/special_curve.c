@@ -7,6 +7,7 @@
  */
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 #include "orbit/branch_list.h"
 #include "orbit/special_curve.h"
@@ -354,7 +355,7 @@ static int has_ended(walk *w, const fst_place *start, int places, double h)
     else if (hypot(here->s.y[0][FST_X], here->s.y[0][FST_Y]) > LARGEST_RADIUS)
         fst_curve_end_set(&w->end, FST_END_RADIUS, "it has left the magnet's field");
     else if (pair &&
-             (w->angle < LEAST_FREQUENCY || (here->s.segments > 0 && w->angle > 3.14159 - LEAST_FREQUENCY)))
+             (w->angle < LEAST_FREQUENCY || (here->s.segments > 0 && w->angle > FST_PI - LEAST_FREQUENCY)))
         fst_curve_end_set(&w->end, FST_END_REAL_AXIS, "the critical pair meets on the real axis");
     else if (places >= MOST_PLACES)
         fst_curve_end_set(&w->end, FST_END_COUNT_LIMIT, "%d points were followed", places);

@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
 
 #define AWAY 2e-2 /* how far along the critical direction the new branch is first sought */
@@ -95,7 +96,7 @@ fst_status fst_switch_at_hopf(const fst_family *family, const fst_node *at, doub
     /* Four segments, a quarter of the period each: y + u cos - v sin.  Beside an unstable equilibrium a longer
      * flow would lose every digit. */
     s.segments = 4;
-    s.period = 6.283185307179586476925287 / at->s.im[best];
+    s.period = FST_TWO_PI / at->s.im[best];
     for (int i = 1; i < 4; ++i)
         memcpy(s.y[i], at->s.y[0], sizeof s.y[i]);
     for (int k = 0; k < FST_STATE_SIZE; ++k) {

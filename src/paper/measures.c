@@ -1,5 +1,6 @@
 /* measures.c - numbers of the paper measured on the runs: the field's maxima, the two patterns, r against Phi,
  * curves over the drive, balances. */
+#include "base/constants.h"
 #include "paper/measures_parts.h"
 
 #include <complex.h>
@@ -195,7 +196,7 @@ static double extreme_phi(const fst_table *table, double sign)
         double place = phi[row] + shift * 0.5 * (phi[row + 1] - phi[row - 1]);
         sum += cexp(2.0 * I * place);
     }
-    return cabs(sum) > 0.0 ? 0.5 * carg(sum) * DEGREES : NAN;
+    return cabs(sum) > 0.0 ? 0.5 * carg(sum) * FST_DEGREES : NAN;
 }
 
 MEASURE(least_radius)

@@ -1,4 +1,5 @@
 /* measures_field.c - statements about the field, and about the forces along a path. */
+#include "base/constants.h"
 #include "paper/measures_parts.h"
 
 /* ------------------------------------------------------------------ the field */
@@ -234,8 +235,8 @@ MEASURE(slow_friction)
         "at the "
         "slowest drive (%.0e ℓ²γ³), it loses nothing: the spin about n takes the value at which the contact is "
         "at rest",
-        most->frequency_hz, DEGREES * atan2(most->final_state[FST_Y], most->final_state[FST_X]), most->rms_slip,
-        slowest->mean_friction_power);
+        most->frequency_hz, FST_DEGREES * atan2(most->final_state[FST_Y], most->final_state[FST_X]),
+        most->rms_slip, slowest->mean_friction_power);
     return 100.0 * most->mean_friction_power / single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
 }
 

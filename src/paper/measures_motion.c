@@ -1,4 +1,5 @@
 /* measures_motion.c - what the paper says about the motion, read off trajectories and probes. */
+#include "base/constants.h"
 #include "paper/measures_parts.h"
 
 #include <complex.h>
@@ -207,8 +208,8 @@ MEASURE(phase_lock)
 {
     double complex mean = mean_phase(paper, dynamics);
     (void)snprintf(note, size, "circular mean of φ + Φ at the drive 0.4, its scatter %.1f degrees",
-                   DEGREES * sqrt(-2.0 * log(cabs(mean))));
-    double degrees = DEGREES * carg(mean);
+                   FST_DEGREES * sqrt(-2.0 * log(cabs(mean))));
+    double degrees = FST_DEGREES * carg(mean);
     return degrees < 0.0 ? degrees + 360.0 : degrees;
 }
 

@@ -1,5 +1,6 @@
 /* measures_theory.c - the paper's estimates, its Appendix on corotation, and beads that the
  * field magnetises. */
+#include "base/constants.h"
 #include "paper/measures_parts.h"
 
 static const fst_params *scene(const fst_paper_state *paper, fst_dynamics dynamics)

@@ -157,9 +157,10 @@ static decision decide_open(const fst_watched_run *run, const fst_exponent *expo
         return DECIDED;
     }
     if (!fst_kinds_brake(&run->flow->step.context.coefficients.kinds)) {
-        REASON("Phi turned regularly %lld times on an orbit that does not close (whole returns differ by %.2g): "
-               "without friction nothing holds the bead to such an orbit, and it may leave it at any time",
-               (long long)(run->window.returns.crossings / 2), full);
+        REASON(
+            "Phi turned regularly %lld times on an orbit that does not close (whole returns differ by %.2g): "
+            "without friction nothing holds the bead to such an orbit, and it may leave it at any time",
+            (long long)(run->window.returns.crossings / 2), full);
         return DECIDED;
     }
     if (run->window.returns.crossings < LEAST_OPEN_CROSSINGS) {
