@@ -152,8 +152,8 @@ static inline void FN(accelerations)(const FN(coefficients) * c, REAL omega, con
 }
 
 /* The derivatives of the velocities v and W, by the magnet's pull at the state. */
-static inline void FN(dynamics)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(pull) * p,
-                                REAL *dy)
+static inline __attribute__((always_inline)) void FN(dynamics)(const FN(coefficients) * c, REAL omega,
+                                                               const REAL *y, const FN(pull) * p, REAL *dy)
 {
     const REAL *n = y + FST_NX, *w = y + FST_WX;
     const FN(contact) contact = FN(contact_of)(c, y, p);

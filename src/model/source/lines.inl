@@ -56,14 +56,19 @@ typedef struct FN(line) {
     ENDS distance2[ENDS_GROUPS], begun[ENDS_GROUPS];
 } FN(line);
 
-typedef struct FN(moment_sums) {
-    ENDS s0, s1, s2, s3, q0, q1;
-} FN(moment_sums);
-
-/* Of one end. */
+/* Of one end; and their sums on the way, which where a pair of REALs costs no more than one are of both ends.
+ */
 typedef struct FN(moments) {
     REAL s0, s1, s2, s3, q0, q1;
 } FN(moments);
+
+#ifdef REAL_INVERSE_FIFTH
+typedef FN(moments) FN(moment_sums); /* one type, so that gcc adds up in registers */
+#else
+typedef struct FN(moment_sums) {
+    ENDS s0, s1, s2, s3, q0, q1;
+} FN(moment_sums);
+#endif
 
 static inline FN(line) FN(see_line)(REAL dy, const ENDS across2[ENDS_GROUPS])
 {
@@ -141,12 +146,21 @@ FN(moments_of_lines)(const FN(lines) * lines, int count, REAL y, const REAL acro
             moments[end] = FN(moments_of_five)(seen, end, lines->spacing);
         return R(1.0);
     }
-#endif
+    const REAL zero = R(0.0);
+    const FN(moments) nothing = {zero, zero, zero, zero, zero, zero};
+    moments[0] = moments[1] = nothing;
+    REAL place = lines->first;
+    for (int left = count; left > 0; --left, place = place + R(1.0)) {
+        const FN(line) line = FN(see_line)(REAL_NEGMULADD(place, lines->spacing, y), across);
+        FN(add_moments)(moments, &line);
+    }
+    return lines->strength;
+#else
     FN(moment_sums) sum[ENDS_GROUPS];
     for (int group = 0; group < ENDS_GROUPS; ++group) {
         const ENDS zero = across[group] - across[group];
-        const FN(moment_sums) nothing = {zero, zero, zero, zero, zero, zero};
-        sum[group] = nothing;
+        FN(moment_sums) *m = &sum[group]; /* member by member: gcc keeps a copied struct in memory */
+        m->s0 = m->s1 = m->s2 = m->s3 = m->q0 = m->q1 = zero;
     }
     REAL place = lines->first;
     for (int left = count; left > 0; --left, place = place + R(1.0)) {
@@ -154,11 +168,16 @@ FN(moments_of_lines)(const FN(lines) * lines, int count, REAL y, const REAL acro
         FN(add_moments)(sum, &line);
     }
     for (int end = 0; end < 2; ++end) {
-        const FN(moments) m = {END(sum, s0, end), END(sum, s1, end), END(sum, s2, end),
-                               END(sum, s3, end), END(sum, q0, end), END(sum, q1, end)};
-        moments[end] = m;
+        FN(moments) *m = &moments[end];
+        m->s0 = END(sum, s0, end);
+        m->s1 = END(sum, s1, end);
+        m->s2 = END(sum, s2, end);
+        m->s3 = END(sum, s3, end);
+        m->q0 = END(sum, q0, end);
+        m->q1 = END(sum, q1, end);
     }
     return lines->strength;
+#endif
 }
 
 /* ------------------------------------------------------------------ the field of the moments */
