@@ -77,7 +77,7 @@ static void test_reversible_without_friction(void **unused)
         const fst_flow_info back = fst_flow_get(flow);
         assert_true(back.t == 0 && back.t_low == 0);
         CHECK_CLOSE(greatest_difference(back.state, start, FST_STATE_SIZE), 0, 3e-11);
-        CHECK_CLOSE(back.phi, 3 / DEGREES, 1e-10);
+        CHECK_CLOSE(back.bead_angle, 3 / DEGREES, 1e-10);
         CHECK_CLOSE(back.drive_turns, 0, 1e-15);
         fst_flow_free(flow);
         fst_model_free(model);
@@ -112,7 +112,7 @@ static void test_landing_is_exact(void **unused)
         const fst_flow_info info = fst_flow_get(flow);
         assert_true(info.t == t && info.t_low == 0);
         CHECK_CLOSE(info.drive_turns, 10.0 * i, 4.5e-16 * 10.0 * i);
-        CHECK_CLOSE(info.alpha - info.phi, TWO_PI * info.drive_turns, 1e-15 * info.alpha);
+        CHECK_CLOSE(info.alpha - info.bead_angle, TWO_PI * info.drive_turns, 1e-15 * info.alpha);
     }
     fst_flow_free(flow);
 }
@@ -176,11 +176,11 @@ static void test_section(void **unused)
     while (advance_to(flow, t_end, 1u << FST_STOP_SECTION) == FST_STOP_SECTION) {
         const fst_flow_info info = fst_flow_get(flow);
         CHECK_CLOSE(info.state[FST_X], 0, 3e-16);
-        const double quarter = (info.phi - TWO_PI / 4) / (TWO_PI / 2);
+        const double quarter = (info.bead_angle - TWO_PI / 4) / (TWO_PI / 2);
         CHECK_CLOSE(quarter, round(quarter), 1e-13);
         if (crossings++)
-            CHECK_CLOSE(info.phi - phi_before, -TWO_PI / 2, 1e-12);
-        phi_before = info.phi;
+            CHECK_CLOSE(info.bead_angle - phi_before, -TWO_PI / 2, 1e-12);
+        phi_before = info.bead_angle;
     }
     /* Phi turns by omega (1 + 2/13.655...) a period: the published pattern, here only counted. */
     CHECK_WITHIN(crossings, 90, 95);
@@ -296,7 +296,7 @@ static void test_unwrapped_phi(void **unused)
         double start[FST_STATE_SIZE], at[FST_STATE_SIZE];
         start_of(&p, model, start);
         fst_flow *flow = flow_of(model, 1e-9, start);
-        double phi = fst_flow_get(flow).phi, last = phi;
+        double phi = fst_flow_get(flow).bead_angle, last = phi;
         CHECK_CLOSE(remainder(phi - 200 / DEGREES, TWO_PI), 0, 1e-14);
         while (flow->t.high < 1500) {
             assert_int_equal(fst_flow_step(flow, 1500, NULL), FST_OK);
@@ -306,7 +306,7 @@ static void test_unwrapped_phi(void **unused)
                 phi += remainder(angle - last, TWO_PI);
                 last = angle;
             }
-            CHECK_CLOSE(fst_winding_angle(&flow->phi), phi, 1e-9);
+            CHECK_CLOSE(fst_winding_angle(&flow->bead_angle), phi, 1e-9);
         }
         fst_flow_free(flow);
         fst_model_free(model);
@@ -331,7 +331,7 @@ static void test_passage_by_the_axis(void **unused)
             const fst_flow_info info = fst_flow_get(flow);
             const double turned = atan2(miss, 2) - atan2(miss, -2); /* alpha in the laboratory, at one go */
             CHECK_CLOSE(info.alpha - atan2(miss, -2), turned, 1e-9);
-            CHECK_CLOSE(info.phi, info.alpha - 0.3 * 8, 1e-14);
+            CHECK_CLOSE(info.bead_angle, info.alpha - 0.3 * 8, 1e-14);
             fst_flow_free(flow);
         }
     fst_model_free(model);
@@ -348,9 +348,9 @@ static void test_phi_is_continuous_from_the_start(void **unused)
         double start[FST_STATE_SIZE];
         start_of(&p, model, start);
         fst_flow *flow = flow_of(model, 1e-10, start);
-        const double phi = fst_flow_get(flow).phi;
+        const double phi = fst_flow_get(flow).bead_angle;
         advance_to(flow, 1e-3, 0);
-        CHECK_CLOSE(fst_flow_get(flow).phi, phi, 1e-2);
+        CHECK_CLOSE(fst_flow_get(flow).bead_angle, phi, 1e-2);
         fst_flow_free(flow);
         fst_model_free(model);
     }

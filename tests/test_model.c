@@ -73,8 +73,8 @@ static void check_observation(const fst_model *model, const double *y)
     double nxb[3];
     cross(n, f.b, nxb);
     CHECK_CLOSE(o.r, r, 1e-15);
-    CHECK_CLOSE(o.cos_phi, er[0], 1e-15);
-    CHECK_CLOSE(o.sin_phi, er[1], 1e-15);
+    CHECK_CLOSE(o.cos_bead_angle, er[0], 1e-15);
+    CHECK_CLOSE(o.sin_bead_angle, er[1], 1e-15);
     CHECK_CLOSE(o.n[0], dot(n, er), 1e-15);
     CHECK_CLOSE(o.n[1], dot(n, ealpha), 1e-15);
     CHECK_CLOSE(o.n[2], n[2], 0);
@@ -147,9 +147,9 @@ static void test_axis_is_finite(void **unused)
     fst_model *model = model_of(&p);
     const double state[FST_STATE_SIZE] = {0, 0, 0.1, 0.2, 1, 0, 0, 0.1, 0.2, 0.3};
     const fst_observation o = fst_observe(model, state);
-    const double numbers[] = {o.r,      o.cos_phi, o.sin_phi,        o.n[0],       o.n[1],      o.b[0],
-                              o.b_norm, o.angle,   o.slip[0],        o.slip[1],    o.slip_norm, o.spin,
-                              o.load,   o.energy,  o.friction_power, o.drive_power};
+    const double numbers[] = {o.r,      o.cos_bead_angle, o.sin_bead_angle, o.n[0],       o.n[1],      o.b[0],
+                              o.b_norm, o.angle,          o.slip[0],        o.slip[1],    o.slip_norm, o.spin,
+                              o.load,   o.energy,         o.friction_power, o.drive_power};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i)
         assert_true(isfinite(numbers[i]));
     assert_true(o.r == 0);
@@ -172,14 +172,14 @@ static void test_start_states(void **unused)
         start_of(&p, model, y);
         const fst_observation o = fst_observe(model, y);
         CHECK_CLOSE(o.r, p.start_r, 1e-15);
-        CHECK_CLOSE(o.cos_phi, cos(phi / DEGREES), 1e-14);
-        CHECK_CLOSE(o.sin_phi, sin(phi / DEGREES), 1e-14);
+        CHECK_CLOSE(o.cos_bead_angle, cos(phi / DEGREES), 1e-14);
+        CHECK_CLOSE(o.sin_bead_angle, sin(phi / DEGREES), 1e-14);
         CHECK_CLOSE(o.slip_norm, 0, 1e-15);
         CHECK_CLOSE(o.angle, 0, 1e-7);
         const double alpha_dot = (y[FST_X] * y[FST_VY] - y[FST_Y] * y[FST_VX]) / (o.r * o.r);
         CHECK_CLOSE(alpha_dot, -g.eps * g.omega / (o.r - g.eps), 1e-14);
-        CHECK_CLOSE(y[FST_WX], g.omega * o.r / (o.r - g.eps) * o.cos_phi, 1e-14);
-        CHECK_CLOSE(y[FST_WY], g.omega * o.r / (o.r - g.eps) * o.sin_phi, 1e-14);
+        CHECK_CLOSE(y[FST_WX], g.omega * o.r / (o.r - g.eps) * o.cos_bead_angle, 1e-14);
+        CHECK_CLOSE(y[FST_WY], g.omega * o.r / (o.r - g.eps) * o.sin_bead_angle, 1e-14);
         CHECK_CLOSE(y[FST_WZ], 0, 0);
         p.start_spin = FST_SPIN_REST;
         start_of(&p, model, y);

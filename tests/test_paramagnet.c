@@ -228,7 +228,7 @@ static void the_corotating_start_is_as_the_appendix_has_it(void **unused)
     fst_observation seen = fst_observe(model, state);
     assert_true(seen.slip_norm < 1e-15);
     assert_near(atan2(seen.n[1], -seen.n[2]), phi - 3.14159265358979, 1e-12);
-    double v_alpha = seen.cos_phi * state[FST_VY] - seen.sin_phi * state[FST_VX];
+    double v_alpha = seen.cos_bead_angle * state[FST_VY] - seen.sin_bead_angle * state[FST_VX];
     assert_near(v_alpha / r, g.eps * g.omega / (r + g.eps), 1e-14);
     fst_model_free(model);
 }

@@ -163,7 +163,7 @@ static void test_samples(void **unused)
         CHECK_CLOSE(s->drive_turns, i / 7.0, 1e-13);
         CHECK_CLOSE(s->t, i / 7.0 * TWO_PI / 0.405, 1e-12);
         CHECK_CLOSE(s->omega, 0.405, 0);
-        CHECK_CLOSE(s->alpha, s->phi + TWO_PI * s->drive_turns, 1e-12);
+        CHECK_CLOSE(s->alpha, s->bead_angle + TWO_PI * s->drive_turns, 1e-12);
         const double r = hypot(s->x, s->y);
         CHECK_CLOSE(s->x, r * cos(s->alpha), 1e-12);
         CHECK_CLOSE(s->y, r * sin(s->alpha), 1e-12);
@@ -178,7 +178,7 @@ static void test_samples(void **unused)
         CHECK_CLOSE(s->seen.energy, o.energy, 0);
         CHECK_CLOSE(s->seen.drive_power, o.drive_power, 0);
         if (i > 0)
-            CHECK_WITHIN(s->phi - c.samples[i - 1].phi, -TWO_PI / 4, 0);
+            CHECK_WITHIN(s->bead_angle - c.samples[i - 1].bead_angle, -TWO_PI / 4, 0);
     }
     const fst_run_result alone = run_of(&p);
     assert_memory_equal(alone.final_state, watched.final_state, sizeof alone.final_state);
@@ -230,7 +230,7 @@ static void test_samples_from_half_a_turn(void **unused)
     fst_run_result result;
     assert_int_equal(run_collecting(&p, 0, 0, &c, &result), FST_OK);
     for (int i = 1; i < c.count; ++i)
-        CHECK_WITHIN(c.samples[i].phi - c.samples[i - 1].phi, -1, 0);
+        CHECK_WITHIN(c.samples[i].bead_angle - c.samples[i - 1].bead_angle, -1, 0);
     test_free(c.samples);
 }
 
@@ -245,7 +245,7 @@ typedef struct brute {
 static void add_interval(brute *sum, const fst_sample *a, const fst_sample *b, double first_turn,
                          double last_turn)
 {
-    const double from = a->phi / TWO_PI, to = b->phi / TWO_PI;
+    const double from = a->bead_angle / TWO_PI, to = b->bead_angle / TWO_PI;
     const double high = fmin(from, first_turn), low = fmax(to, last_turn);
     if (high <= low)
         return;
@@ -267,8 +267,8 @@ static void add_interval(brute *sum, const fst_sample *a, const fst_sample *b, d
 static brute brute_force(const collected *c)
 {
     brute sum = {.least_r = INFINITY, .least_b = INFINITY};
-    const double first_turn = floor(c->samples[0].phi / TWO_PI);
-    const double last_turn = ceil(c->samples[c->count - 1].phi / TWO_PI);
+    const double first_turn = floor(c->samples[0].bead_angle / TWO_PI);
+    const double last_turn = ceil(c->samples[c->count - 1].bead_angle / TWO_PI);
     for (int i = 0; i < c->count; ++i) {
         const fst_observation *o = &c->samples[i].seen;
         sum.least_r = fmin(sum.least_r, o->r);

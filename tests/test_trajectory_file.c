@@ -60,7 +60,7 @@ static fst_sample sample_at(int index)
     sample.drive_turns = value / 7.0;
     for (int i = 0; i < FST_STATE_SIZE; i++)
         sample.state[i] = sin(value + i);
-    sample.phi = -value;
+    sample.bead_angle = -value;
     sample.alpha = 1e-300 * value;
     sample.x = cos(value);
     sample.y = cos(value + 0.3);

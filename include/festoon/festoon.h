@@ -255,16 +255,17 @@ FST_API void fst_jacobian(const fst_model *model, const double state[FST_STATE_S
 
 /* Quantities of a state (paper, section IV and appendix; vectors in local components r, alpha, z). */
 typedef struct fst_observation {
-    double r, cos_phi, sin_phi; /* distance; cos and sin of Phi, the bead's angle against the magnet */
-    double n[3], b[3];          /* moment and field in (r, alpha, z) */
-    double b_norm;              /* |B| */
-    double angle;               /* between n and B, rad */
-    double slip[2], slip_norm;  /* V_r, V_alpha; |V| */
-    double spin;                /* psi' = W.n */
-    double load;                /* normal load per mass, l gamma^2 */
-    double energy;              /* kinetic and magnetic energy per mass, l^2 gamma^2 */
-    double friction_power;      /* f.V */
-    double drive_power;         /* dU/dt at fixed x, n, W */
+    double r, cos_bead_angle,
+        sin_bead_angle;        /* distance; cos and sin of Phi, the bead's angle against the magnet */
+    double n[3], b[3];         /* moment and field in (r, alpha, z) */
+    double b_norm;             /* |B| */
+    double angle;              /* between n and B, rad */
+    double slip[2], slip_norm; /* V_r, V_alpha; |V| */
+    double spin;               /* psi' = W.n */
+    double load;               /* normal load per mass, l gamma^2 */
+    double energy;             /* kinetic and magnetic energy per mass, l^2 gamma^2 */
+    double friction_power;     /* f.V */
+    double drive_power;        /* dU/dt at fixed x, n, W */
 } fst_observation;
 FST_API fst_observation fst_observe(const fst_model *model, const double state[FST_STATE_SIZE]);
 
@@ -313,7 +314,7 @@ typedef struct fst_flow_info {
     double state[FST_STATE_SIZE];
     double omega;       /* drive at t */
     double step;        /* step size proposed for the next step */
-    double phi;         /* Phi, unwrapped */
+    double bead_angle;  /* Phi, unwrapped */
     double alpha;       /* alpha = Phi + drive phase, unwrapped */
     double drive_turns; /* turns of the magnet since t = 0 */
     double norm_drift;  /* the sum of all | |n| - 1 | that renormalisation removed */
@@ -367,8 +368,8 @@ typedef struct fst_sample {
     double drive_turns; /* turns of the magnet since the start */
     double omega;       /* drive at t */
     double state[FST_STATE_SIZE];
-    double phi, alpha; /* unwrapped Phi and alpha */
-    double x, y;       /* position in the laboratory */
+    double bead_angle, alpha; /* unwrapped Phi and alpha */
+    double x, y;              /* position in the laboratory */
     double n_lab[3], w_lab[3], v_lab[2];
     fst_observation seen;
 } fst_sample;

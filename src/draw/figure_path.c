@@ -30,7 +30,7 @@ static const struct {
 };
 
 typedef struct path_columns {
-    const double *t, *x, *y, *vx, *vy, *n_x, *n_y, *n_alpha, *n_z, *alpha, *phi, *colour;
+    const double *t, *x, *y, *vx, *vy, *n_x, *n_y, *n_alpha, *n_z, *alpha, *bead_angle, *colour;
     const fst_column_info *colour_info;
 } path_columns;
 
@@ -40,7 +40,7 @@ static fst_status find_columns(const fst_view *view, const char *colour, path_co
     fst_status status = fst_view_columns(view, error, "t", &columns->t, "x", &columns->x, "y", &columns->y,
                                          "vx", &columns->vx, "vy", &columns->vy, "n_x", &columns->n_x, "n_y",
                                          &columns->n_y, "n_alpha", &columns->n_alpha, "n_z", &columns->n_z,
-                                         "alpha", &columns->alpha, "Phi", &columns->phi, NULL);
+                                         "alpha", &columns->alpha, "Phi", &columns->bead_angle, NULL);
     if (status == FST_OK)
         status = fst_view_column(view, colour ? colour : "n_z", &columns->colour, &columns->colour_info, error);
     return status;
@@ -95,7 +95,7 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
  * its turning. */
 static void draw_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
 {
-    double turned = columns->alpha[view->first] - columns->phi[view->first];
+    double turned = columns->alpha[view->first] - columns->bead_angle[view->first];
     double length = view->millimetres, width = 1e3 * view->table->params.magnet_width / 2.0;
     double cosine = cos(turned), sine = sin(turned);
     static const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};

@@ -11,22 +11,23 @@
 /* Fold Phi into half a revolution of the magnet.  Each fold gets a row of NAN, so that the line
  * breaks there. */
 typedef struct folded {
-    double *phi, *r, *b;
+    double *bead_angle, *r, *b;
     size_t count;
 } folded;
 
-static void fold(const fst_view *view, const double *phi, const double *r, const double *b, folded *curve)
+static void fold(const fst_view *view, const double *bead_angle, const double *r, const double *b,
+                 folded *curve)
 {
     double previous = NAN;
     for (size_t row = view->first; row < view->last; ++row) {
-        double half_turn = floor(phi[row] / FST_PI);
+        double half_turn = floor(bead_angle[row] / FST_PI);
         size_t i = curve->count;
         if (!isnan(previous) && half_turn != previous) {
-            curve->phi[i] = curve->r[i] = curve->b[i] = NAN;
+            curve->bead_angle[i] = curve->r[i] = curve->b[i] = NAN;
             ++i;
         }
         previous = half_turn;
-        curve->phi[i] = phi[row] - half_turn * FST_PI;
+        curve->bead_angle[i] = bead_angle[row] - half_turn * FST_PI;
         curve->r[i] = r[row];
         curve->b[i] = b[row];
         curve->count = i + 1;
@@ -36,8 +37,8 @@ static void fold(const fst_view *view, const double *phi, const double *r, const
 static fst_status draw(const fst_view *view, const char *out, const folded *curve, fst_error *error)
 {
     fst_chart_curve curves[] = {
-        {NULL, curve->phi, curve->r, curve->count, FST_COLOUR_BLUE, FST_CURVE_LINE, 0},
-        {NULL, curve->phi, curve->b, curve->count, FST_COLOUR_VERMILION, FST_CURVE_LINE, 1},
+        {NULL, curve->bead_angle, curve->r, curve->count, FST_COLOUR_BLUE, FST_CURVE_LINE, 0},
+        {NULL, curve->bead_angle, curve->b, curve->count, FST_COLOUR_VERMILION, FST_CURVE_LINE, 1},
     };
     fst_chart_panel panel = {.left_label = "r (ℓ), blue",
                              .right_label = "|B| (B_0), orange",
@@ -66,18 +67,18 @@ fst_status fst_figure_radius_field(const fst_table *table, const char *out, cons
         return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.colour",
                         "the figure of r and |B| has two curves and no colour scale");
     fst_view view;
-    const double *phi, *r, *b;
+    const double *bead_angle, *r, *b;
     fst_status status = fst_view_of(&view, table, options, INFINITY, 6.0, error);
     if (status == FST_OK)
-        status = fst_view_columns(&view, error, "Phi", &phi, "r", &r, "B", &b, NULL);
+        status = fst_view_columns(&view, error, "Phi", &bead_angle, "r", &r, "B", &b, NULL);
     if (status != FST_OK)
         return status;
     size_t room = 2 * (view.last - view.first);
     double *memory = malloc(3 * room * sizeof *memory);
     if (!memory)
         return fst_fail(error, FST_NO_MEMORY, out, "no memory for %zu samples", room);
-    folded curve = {.phi = memory, .r = memory + room, .b = memory + 2 * room};
-    fold(&view, phi, r, b, &curve);
+    folded curve = {.bead_angle = memory, .r = memory + room, .b = memory + 2 * room};
+    fold(&view, bead_angle, r, b, &curve);
     status = draw(&view, out, &curve, error);
     free(memory);
     return status;

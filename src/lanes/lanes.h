@@ -21,7 +21,8 @@ typedef struct fst_lane_view {
     double *activity;              /* greatest |component of d(state)/dt| since it was last set */
     const double *speed;           /* the same at the end of the step */
     double *next_mark;             /* time of the next mark */
-    double *phi_least, *phi_most;  /* unit vectors: the directions between which Phi has stayed; 0: not known */
+    double *bead_angle_least,
+        *bead_angle_most; /* unit vectors: the directions between which Phi has stayed; 0: not known */
     double *r_reference, *b_reference; /* from where deviations are taken */
     double *records; /* greatest values so far of tracked quantities times their signs, FST_RECORD_COUNT */
 } fst_lane_view;

@@ -62,7 +62,7 @@ typedef struct batch {
     REAL drift, speed; /* at the end of the last try: | |n| - 1 |, greatest component of |d(state)/dt| */
     /* what is watched */
     REAL plate_radius, next_mark, activity;
-    REAL turns[2], turns_before[2], phi_least[2], phi_most[2];
+    REAL turns[2], turns_before[2], bead_angle_least[2], bead_angle_most[2];
     FN(integrals) sums;
     REAL records[FST_RECORD_COUNT];
     REAL peak_from[FST_RECORD_COUNT], peak_to[FST_RECORD_COUNT]; /* the nodes between which the extreme lies */
@@ -90,8 +90,8 @@ static void view(void *memory, fst_lane_view *v)
     v->activity = lanes_of(&b->activity);
     v->speed = lanes_of(&b->speed);
     v->next_mark = lanes_of(&b->next_mark);
-    v->phi_least = lanes_of(b->phi_least);
-    v->phi_most = lanes_of(b->phi_most);
+    v->bead_angle_least = lanes_of(b->bead_angle_least);
+    v->bead_angle_most = lanes_of(b->bead_angle_most);
     v->r_reference = lanes_of(&b->sums.r_reference);
     v->b_reference = lanes_of(&b->sums.b_reference);
     v->records = lanes_of(b->records);
@@ -178,10 +178,10 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     b->plate_radius[lane] = flow->groups.plate_radius;
     b->next_mark[lane] = INFINITY;
     b->activity[lane] = 0.0;
-    b->turns[0][lane] = b->turns_before[0][lane] = (double)flow->phi.turns;
+    b->turns[0][lane] = b->turns_before[0][lane] = (double)flow->bead_angle.turns;
     b->turns[1][lane] = b->turns_before[1][lane] = 0.0;
     for (int i = 0; i < 2; ++i)
-        b->phi_least[i][lane] = b->phi_most[i][lane] = 0.0;
+        b->bead_angle_least[i][lane] = b->bead_angle_most[i][lane] = 0.0;
     for (int i = 0; i < FST_Q_COUNT; ++i)
         b->sums.total[i].high[lane] = b->sums.total[i].low[lane] = b->sums.increment[i][lane] = 0.0;
     b->sums.r_reference[lane] = b->sums.b_reference[lane] = 0.0;
@@ -419,7 +419,7 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
         close |= wind(&b->turns[1], u0, w0, u, w) & observed;
         b->turns[1] = fst_wide_select(fst_wide_mask_of(observed), b->turns[1], b->turns_before[1]);
     }
-    const REAL *l = b->phi_least, *m = b->phi_most, margin = R(1e-12);
+    const REAL *l = b->bead_angle_least, *m = b->bead_angle_most, margin = R(1e-12);
     const REAL after_least = l[0] * end[FST_Y] - l[1] * end[FST_X];
     const REAL before_most = end[FST_X] * m[1] - end[FST_Y] * m[0];
     const unsigned inside = fst_wide_lanes_of(WIDE_LESS(margin, -REAL_MAX(-after_least, -before_most)));

@@ -136,8 +136,8 @@ fst_observation fst_observe_double(const fst_coefficients_double *c, double omeg
     fst_observation out;
     memset(&out, 0, sizeof out);
     out.r = o.r;
-    out.cos_phi = o.cos_phi;
-    out.sin_phi = o.sin_phi;
+    out.cos_bead_angle = o.cos_bead_angle;
+    out.sin_bead_angle = o.sin_bead_angle;
     memcpy(out.n, o.n, sizeof o.n);
     memcpy(out.b, o.b, sizeof o.b);
     out.b_norm = o.b_norm;

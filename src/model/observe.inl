@@ -4,7 +4,7 @@
  * On the axis r = 0 the local directions do not exist; the local components are then 0, never NaN.
  */
 typedef struct FN(seen) {
-    REAL r, cos_phi, sin_phi;
+    REAL r, cos_bead_angle, sin_bead_angle;
     REAL n[3], b[3]; /* local components */
     REAL b2, b_norm;
     REAL gap2;                      /* |n - B/|B||^2 = 2 (1 - cos angle), accurate for small angles */
@@ -25,8 +25,8 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
     const REAL inverse_r = REAL_RECIPROCAL_SQRT(r2 + R(1e-290));
     const REAL ex = y[FST_X] * inverse_r, ey = y[FST_Y] * inverse_r;
     o->r = r2 * inverse_r;
-    o->cos_phi = ex;
-    o->sin_phi = ey;
+    o->cos_bead_angle = ex;
+    o->sin_bead_angle = ey;
     o->n[0] = SUM_2(n[0], ex, n[1], ey);
     o->n[1] = REAL_MULSUB(n[1], ex, n[0] * ey);
     o->n[2] = n[2];
@@ -97,7 +97,7 @@ static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, con
     /* Printed Eq. (12), (14): n = sin(phi) e_alpha - cos(phi) e_z with the actual phi, n_r dropped. */
     const REAL inverse_sine = REAL_RECIPROCAL_SQRT(SUM_2(o->n[1], o->n[1], o->n[2], o->n[2]) + R(1e-290));
     const REAL n_alpha = o->n[1] * inverse_sine, n_z = o->n[2] * inverse_sine;
-    const REAL ex = o->cos_phi, ey = o->sin_phi;
+    const REAL ex = o->cos_bead_angle, ey = o->sin_bead_angle;
     const REAL printed[3] = {-(n_alpha * ey), n_alpha * ex, n_z};
     REAL g[3];
     FN(gradient_along)(c, y[FST_X], y[FST_Y], p, printed, g);

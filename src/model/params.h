@@ -9,7 +9,6 @@
 #define FST_FLOW_OPTIONS_COOKIE 0xfe570002u
 #define FST_RUN_OPTIONS_COOKIE 0xfe570003u
 #define FST_BRANCH_OPTIONS_COOKIE 0xfe570004u
-#define FST_SWEEP_OPTIONS_COOKIE 0xfe570008u
 
 /* The cookie, every value's range, and the ranges between values (run.discard < run.periods, ...). */
 fst_status fst_params_validate(const fst_params *params, fst_error *error);

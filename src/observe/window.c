@@ -119,7 +119,7 @@ void fst_window_look(fst_window *w, fst_flow *flow, int seek_extremes)
     fst_returns_step(&w->returns, &w->span, &w->quadrature, flow);
     if (fst_window_is_open(w) && seek_extremes)
         fst_extremes_step(w->extremes, &w->quadrature, flow, w->opens_at);
-    fst_window_pass(w, &flow->phi, fst_flow_speed(flow));
+    fst_window_pass(w, &flow->bead_angle, fst_flow_speed(flow));
 }
 
 void fst_window_step(fst_window *w, fst_flow *flow)

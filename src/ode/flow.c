@@ -79,9 +79,9 @@ fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
     memcpy(s->y, state, sizeof s->y);
     (void)fst_renormalise_double(s->y);
     fst_bead_flow_begin(made, options->first_step, options->greatest_step);
-    made->phi.x = s->y[FST_X];
-    made->phi.y = s->y[FST_Y];
-    made->phi_start = made->phi;
+    made->bead_angle.x = s->y[FST_X];
+    made->bead_angle.y = s->y[FST_Y];
+    made->bead_angle_start = made->bead_angle;
     made->cursor = 1.0;
     *flow = made;
     return FST_OK;
@@ -90,7 +90,7 @@ fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
 void fst_flow_restart(fst_flow *flow)
 {
     fst_bead_flow_restart(flow);
-    flow->phi_start = flow->phi;
+    flow->bead_angle_start = flow->bead_angle;
 }
 
 void fst_flow_free(fst_flow *flow)
@@ -126,33 +126,33 @@ void fst_flow_begin_ramp(fst_flow *flow, double rate)
 
 /* Follow the angle over the fractions [x0, x1] of the last step; `state` is the one at x1.  Where the straight
  * line passes the axis closely the path is bisected until it does not, or until the pieces are at rounding. */
-static void follow_phi(fst_flow *flow, fst_winding *phi, double x0, double x1, const double *state)
+static void follow_bead_angle(fst_flow *flow, fst_winding *phi, double x0, double x1, const double *state)
 {
     const double middle = 0.5 * (x0 + x1);
     if (x1 - x0 > 1e-13 && fst_winding_is_doubtful(phi, state[FST_X], state[FST_Y])) {
         double between[FST_STATE_SIZE];
         fst_flow_at(flow, middle, between);
-        follow_phi(flow, phi, x0, middle, between);
-        follow_phi(flow, phi, middle, x1, state);
+        follow_bead_angle(flow, phi, x0, middle, between);
+        follow_bead_angle(flow, phi, middle, x1, state);
         return;
     }
     fst_winding_advance(phi, state[FST_X], state[FST_Y]);
 }
 
-fst_winding fst_flow_phi(fst_flow *flow, double x)
+fst_winding fst_flow_bead_angle(fst_flow *flow, double x)
 {
     if (x == 1.0)
-        return flow->phi;
-    fst_winding phi = flow->phi_start;
+        return flow->bead_angle;
+    fst_winding phi = flow->bead_angle_start;
     double state[FST_STATE_SIZE];
     fst_flow_at(flow, x, state);
-    follow_phi(flow, &phi, 0.0, x, state);
+    follow_bead_angle(flow, &phi, 0.0, x, state);
     return phi;
 }
 
 void fst_flow_follow(fst_flow *flow, const double *end)
 {
-    follow_phi(flow, &flow->phi, 0.0, 1.0, end);
+    follow_bead_angle(flow, &flow->bead_angle, 0.0, 1.0, end);
 }
 
 fst_status fst_flow_fail(const fst_flow *flow, fst_error *error)
@@ -179,7 +179,7 @@ fst_status fst_flow_step(fst_flow *flow, double t_limit, fst_error *error)
 {
     if (!fst_bead_flow_go(flow, t_limit))
         return fst_flow_fail(flow, error);
-    flow->phi_start = flow->phi;
+    flow->bead_angle_start = flow->bead_angle;
     flow->cursor = 1.0;
     fst_flow_follow(flow, flow->step.end);
     return FST_OK;

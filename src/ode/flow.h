@@ -32,7 +32,7 @@
 #define FLOW_MEMBERS                                                                                           \
     fst_groups groups;                                                                                         \
     fst_twofold phase_start;                                                                                   \
-    fst_winding phi_start, phi;                                                                                \
+    fst_winding bead_angle_start, bead_angle;                                                                  \
     double cursor;                                                                                             \
     fst_twofold cursor_time;                                                                                   \
     int section_side;                                                                                          \
@@ -61,7 +61,7 @@ void fst_flow_make_dense(fst_flow *flow);
 void fst_flow_at(fst_flow *flow, double x, double state[FST_STATE_SIZE]);
 
 /* Phi at the fraction x of the last step. */
-fst_winding fst_flow_phi(fst_flow *flow, double x);
+fst_winding fst_flow_bead_angle(fst_flow *flow, double x);
 
 /* Greatest component of |d(state)/dt| at the end of the last step. */
 double fst_flow_speed(const fst_flow *flow);

@@ -153,7 +153,7 @@ static fst_status fill(const fst_family *family, found_state *found, fst_locked 
     const fst_observation o = fst_observe(&setup.model, found->s.y[0]);
     memcpy(out->state, found->s.y[0], sizeof out->state);
     out->r = o.r;
-    out->bead_angle_deg = o.r > 1e-9 ? atan2(o.sin_phi, o.cos_phi) * FST_DEGREES : NAN;
+    out->bead_angle_deg = o.r > 1e-9 ? atan2(o.sin_bead_angle, o.cos_bead_angle) * FST_DEGREES : NAN;
     out->slip = o.slip_norm;
     out->friction_power = o.friction_power;
     memcpy(out->eigenvalue_re, found->s.re, sizeof out->eigenvalue_re);

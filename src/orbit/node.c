@@ -15,7 +15,7 @@ static void see_equilibrium(const fst_setup *setup, const fst_solution *s, fst_b
     p->mean_alpha_dot = p->omega;
     p->mean_nz = s->y[0][FST_NZ];
     p->slip = o.slip_norm;
-    p->bead_angle_deg = o.r > 1e-9 ? atan2(o.sin_phi, o.cos_phi) * FST_DEGREES : NAN;
+    p->bead_angle_deg = o.r > 1e-9 ? atan2(o.sin_bead_angle, o.cos_bead_angle) * FST_DEGREES : NAN;
 }
 
 fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_node *node, fst_error *error)

@@ -258,7 +258,7 @@ MEASURE(second_balance)
         double b[3], grad[3][3], y[FST_STATE_SIZE];
         state_at(table, row, y);
         const fst_observation seen = fst_observe(model, y);
-        double c = seen.cos_phi, s = seen.sin_phi, size_n = hypot(seen.n[1], seen.n[2]);
+        double c = seen.cos_bead_angle, s = seen.sin_bead_angle, size_n = hypot(seen.n[1], seen.n[2]);
         /* n without its radial part, in the turning frame, and the change of the field along the circle. */
         const double n[3] = {-s * seen.n[1] / size_n, c * seen.n[1] / size_n, seen.n[2] / size_n};
         fst_field(model, y[FST_X], y[FST_Y], b, grad);

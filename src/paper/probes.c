@@ -134,12 +134,12 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
         fst_flow_info info = fst_flow_get(p->flow);
         r[i] = hypot(info.state[FST_X], info.state[FST_Y]);
         if (i == 0)
-            phi_first = info.phi;
+            phi_first = info.bead_angle;
         else
             partial += 0.5 * (nz_before + info.state[FST_NZ]);
         nz_before = info.state[FST_NZ];
         /* Only whole turns of Phi count; the last complete one is kept. */
-        double turns = fabs(info.phi - phi_first) / (2.0 * FST_PI);
+        double turns = fabs(info.bead_angle - phi_first) / (2.0 * FST_PI);
         if (i > 0 && floor(turns) > weight) {
             weight = floor(turns);
             nz_sum = partial / i;

@@ -344,7 +344,7 @@ static void open_window(fst_row_worker *w, int l)
     fst_flow_restart(run->flow);
     fst_quadrature_set_references(&run->window.quadrature, run->flow);
     fst_returns_see_side(&run->window.returns, run->flow);
-    fst_window_pass(&run->window, &run->flow->phi, 0.0);
+    fst_window_pass(&run->window, &run->flow->bead_angle, 0.0);
     vacate(w, b, l);
     move_run(&w->ready[w->ready_count++], &b->lanes[l]);
 }
@@ -359,7 +359,7 @@ static void step_run_up(fst_row_worker *w)
     for (int l = 0; (events.close >> l) != 0; ++l)
         if (events.close & fst_lane_bit(l)) {
             fst_worker_extract_step(w, b, l);
-            b->view.turns[0][l] = (double)b->lanes[l].run->flow->phi.turns;
+            b->view.turns[0][l] = (double)b->lanes[l].run->flow->bead_angle.turns;
             b->view.activity[l] = fmax(b->view.activity[l], b->view.speed[l]);
             over |= (events.ending & fst_lane_bit(l)) && fst_worker_ends_run(w, b, l) ? fst_lane_bit(l) : 0;
         }

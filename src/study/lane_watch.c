@@ -81,10 +81,10 @@ void fst_worker_keep_angle_range(fst_row_worker *w, int l)
         return;
     }
     const int known = range >= 0 && range < 3.0;
-    w->observed.view.phi_least[l] = known ? cos(run->window.least_bead_angle) : 0.0;
-    w->observed.view.phi_least[width + l] = known ? sin(run->window.least_bead_angle) : 0.0;
-    w->observed.view.phi_most[l] = known ? cos(run->window.greatest_bead_angle) : 0.0;
-    w->observed.view.phi_most[width + l] = known ? sin(run->window.greatest_bead_angle) : 0.0;
+    w->observed.view.bead_angle_least[l] = known ? cos(run->window.least_bead_angle) : 0.0;
+    w->observed.view.bead_angle_least[width + l] = known ? sin(run->window.least_bead_angle) : 0.0;
+    w->observed.view.bead_angle_most[l] = known ? cos(run->window.greatest_bead_angle) : 0.0;
+    w->observed.view.bead_angle_most[width + l] = known ? sin(run->window.greatest_bead_angle) : 0.0;
 }
 
 /* A step that may widen the range of Phi and holds nothing else. */
@@ -93,8 +93,8 @@ static void watch_bead_angle(fst_row_worker *w, int l)
     fst_watched_run *run = w->observed.lanes[l].run;
     double end[FST_STATE_SIZE];
     read_end(w, l, end);
-    run->flow->phi = (fst_winding){(int64_t)w->observed.view.turns[0][l], end[FST_X], end[FST_Y]};
-    fst_window_pass(&run->window, &run->flow->phi, 0.0);
+    run->flow->bead_angle = (fst_winding){(int64_t)w->observed.view.turns[0][l], end[FST_X], end[FST_Y]};
+    fst_window_pass(&run->window, &run->flow->bead_angle, 0.0);
     fst_worker_keep_angle_range(w, l);
 }
 
@@ -105,8 +105,8 @@ void fst_worker_extract_step(const fst_row_worker *w, const fst_lane_batch *b, i
     w->engine->extract_clock(b->memory, l, flow);
     w->engine->extract(b->memory, l, &flow->step);
     const double *y = flow->step.y;
-    flow->phi_start = (fst_winding){(int64_t)b->view.turns_before[0][l], y[FST_X], y[FST_Y]};
-    flow->phi = flow->phi_start;
+    flow->bead_angle_start = (fst_winding){(int64_t)b->view.turns_before[0][l], y[FST_X], y[FST_Y]};
+    flow->bead_angle = flow->bead_angle_start;
     fst_flow_follow(flow, flow->step.end);
 }
 
@@ -139,7 +139,7 @@ static void follow_window(fst_row_worker *w, int l)
     const fst_watched_run *run = b->lanes[l].run;
     const int is_open = fst_window_is_open(&run->window);
     b->view.activity[l] = run->window.activity;
-    b->view.turns[0][l] = (double)run->flow->phi.turns;
+    b->view.turns[0][l] = (double)run->flow->bead_angle.turns;
     b->view.turns[1][l] = (double)run->window.quadrature.moment_angle.turns;
     b->view.next_mark[l] = fst_window_next_mark(&run->window);
     w->in_window |= is_open ? fst_lane_bit(l) : 0;

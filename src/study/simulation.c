@@ -18,12 +18,12 @@ static void fill_sample(fst_flow *flow, double x, fst_twofold t, fst_sample *sam
         fst_flow_at(flow, x, sample->state);
     double whole, rest;
     fst_flow_drive_turns(flow, t, &whole, &rest);
-    const fst_winding phi = fst_flow_phi(flow, x);
+    const fst_winding phi = fst_flow_bead_angle(flow, x);
     sample->t = t.high;
     sample->drive_turns = whole + rest;
     sample->omega = fst_flow_omega(flow, t);
-    sample->phi = fst_winding_angle(&phi);
-    sample->alpha = sample->phi + FST_TWO_PI * (whole + rest);
+    sample->bead_angle = fst_winding_angle(&phi);
+    sample->alpha = sample->bead_angle + FST_TWO_PI * (whole + rest);
     const double c = cos(FST_TWO_PI * rest), s = sin(FST_TWO_PI * rest), *y = sample->state;
     sample->x = c * y[FST_X] - s * y[FST_Y];
     sample->y = s * y[FST_X] + c * y[FST_Y];
