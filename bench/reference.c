@@ -1,3 +1,4 @@
+/* reference.c - end states in long double, against which the errors of all integrators are measured. */
 #include "reference.h"
 
 #include <stddef.h>
@@ -5,8 +6,10 @@
 
 #include "base/real_long_double.h"
 
+#include "base/twofold.inl"
 #include "model/bodies.inl"
 #include "ode/bead_step.inl"
+#include "ode/step_control.inl"
 
 int reference_state(const fst_params *params, const fst_groups *groups, const double state[FST_STATE_SIZE],
                     long double t_end, long double tolerance, double end[FST_STATE_SIZE])

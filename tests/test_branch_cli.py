@@ -166,6 +166,16 @@ class BadInput(unittest.TestCase):
         self.assertIn("no fold lies between", none)
 
 
+class TwoParameters(unittest.TestCase):
+    def test_curves_that_begin_on_the_border(self):
+        """The scene's own value may be an end of the second range: the curve's end there is the end of the range."""
+        for kappa in ("1.5:1.52", "1.48:1.5", "1.48:1.52"):
+            done = subprocess.run([FESTOON, "branch", "--kind", "locked", "--set", "model.kappa=1.5", "--over",
+                                   "drive.frequency=7.4Hz:7.8Hz", "--follow", "hopf", "--with", f"model.kappa={kappa}", "--json"],
+                                  capture_output=True, text=True, check=True)
+            self.assertEqual([end["type"] for end in json.loads(done.stdout)["ends"]], ["range", "range"], kappa)
+
+
 class Orbit(unittest.TestCase):
     def test_where_newton_does_not_converge(self):
         """Beyond the fold the bead spirals outward: returns come close to each other, and no orbit is there."""

@@ -204,6 +204,7 @@ class Scenes(Case):
         self.good("init", path)
         self.assertEqual(self.json("check", path), self.json("check"))
         self.bad(["init", path], "--force")
+        self.bad(["init", self.directory], "directory")
         self.good("init", path, "--force", "--set", "drive.frequency=19.9Hz")
         self.assertEqual(self.json("check", path)["scene"]["drive.frequency"], 19.9)
         self.good("init", cwd=self.directory)

@@ -395,6 +395,42 @@ static void test_huge_runs_can_be_stopped(void **unused)
     }
 }
 
+typedef struct refusal {
+    int refused, told_again;
+} refusal;
+
+/* Refuse once, past the middle, and note whether anything is told after that. */
+static fst_status refuse_once(void *user, double fraction, const char *what, fst_error *error)
+{
+    (void)what;
+    refusal *r = user;
+    r->told_again += r->refused;
+    if (r->refused || fraction < 0.6)
+        return FST_OK;
+    r->refused = 1;
+    error->code = FST_INTERRUPTED; /* there is room for it, though this caller of fst_run() wants no error */
+    return FST_INTERRUPTED;
+}
+
+/* A run that was told to end says no more, though its motion, a libration, would need the largest exponent. */
+static void test_refused_runs_are_silent(void **unused)
+{
+    (void)unused;
+    fst_params p = fst_default_params();
+    assert_int_equal(fst_params_set(&p, "model.kappa", "1.5", NULL), FST_OK);
+    assert_int_equal(fst_params_set(&p, "drive.frequency", "5.5 Hz", NULL), FST_OK);
+    assert_int_equal(run_of(&p).regime, FST_REGIME_LIBRATING);
+    fst_run_options options = fst_default_run_options();
+    refusal refused = {0, 0};
+    const fst_progress progress = {&refused, refuse_once};
+    options.progress = &progress;
+    fst_run_result result;
+    assert_int_equal(fst_run(&p, &options, &result, NULL), FST_INTERRUPTED);
+    assert_int_equal(refused.refused, 1);
+    assert_int_equal(refused.told_again, 0);
+    assert_true(isnan(result.largest_exponent));
+}
+
 /* Returns are half turns of Phi: two for each mean period of the window. */
 static void test_returns_are_counted(void **unused)
 {
@@ -445,6 +481,7 @@ int main(void)
         cmocka_unit_test(test_interruption),
         cmocka_unit_test(test_no_discard),
         cmocka_unit_test(test_huge_runs_can_be_stopped),
+        cmocka_unit_test(test_refused_runs_are_silent),
         cmocka_unit_test(test_returns_are_counted),
         cmocka_unit_test(test_bad_options),
     };

@@ -48,6 +48,7 @@ int main(void)
     }
     if (status != FST_OK) {
         (void)fprintf(stderr, "%s: %s\n", error.where, error.sentence);
+        fst_branch_free(&branch); /* an interrupted call leaves what it found */
         return 1;
     }
 

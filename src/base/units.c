@@ -1,6 +1,5 @@
 /* units.c - the units that values may carry: reading "2.5 mm", and writing values in the units that
  * people use. */
-#include "base/constants.h"
 #include "base/units.h"
 
 #include <stdio.h>

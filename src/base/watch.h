@@ -14,11 +14,13 @@
 
 #include <festoon/festoon.h>
 
-/* Tell the caller, if there is one. */
+/* Tell the caller, if there is one.  tell() gets room for an error also where the caller of the library wants
+ * none. */
 static inline fst_status fst_tell(const fst_progress *progress, double fraction, const char *what,
                                   fst_error *error)
 {
-    return progress ? progress->tell(progress->user, fraction, what, error) : FST_OK;
+    fst_error unheard = {FST_OK, "", ""};
+    return progress ? progress->tell(progress->user, fraction, what, error ? error : &unheard) : FST_OK;
 }
 
 /* A part of a longer piece of work, which goes from one fraction of the whole to another.  fst_part_tell() with

@@ -6,7 +6,6 @@
 #ifndef FST_BASE_WINDING_H
 #define FST_BASE_WINDING_H
 
-#include "base/constants.h"
 #include <math.h>
 #include <stdint.h>
 

@@ -25,6 +25,7 @@ static const struct {
     {"fst_film_options.from", "--from"},
     {"fst_film_options.colour", "--colour"},
     {"fst_paper_options.only", "--only"},
+    {"fst_festoons_find.festoons", "--festoons"},
     {"fst_branch_options.key", "--over"},
     {"fst_branch_options.from", "--over"},
     {"fst_branch_options.tolerance", "--tolerance"},
@@ -36,7 +37,7 @@ static const struct {
 
 const char *option_of_field(const char *field)
 {
-    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+    for (size_t i = 0; i < sizeof table / sizeof *table; ++i)
         if (strcmp(table[i].field, field) == 0)
             return table[i].option;
     return field;

@@ -1,6 +1,6 @@
 /* init.c - festoon init: a commented scene to begin with. */
 #include <string.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include "cli/command.h"
 
@@ -22,8 +22,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (strcmp(path, "-") == 0)
         return print_and_free(fst_scene_text(&params, 1), out, error);
     const int force = option_value(given, "force") != NULL;
-    if (!force && access(path, F_OK) == 0)
-        return fail(error, FST_BAD_INPUT, path, "this file is there already; --force overwrites it");
+    struct stat there;
+    if (!force && stat(path, &there) == 0)
+        return fail(error, FST_BAD_INPUT, path,
+                    S_ISDIR(there.st_mode) ? "this is a directory: expected the name of a file"
+                                           : "this file is there already; --force overwrites it");
     status = fst_scene_write(path, &params, 1, force, error);
     char text[SHOWN_SIZE], remark[SHOWN_SIZE + 40];
     (void)snprintf(remark, sizeof remark, "; run it with: festoon run %s", shown(path, text));

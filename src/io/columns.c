@@ -3,11 +3,8 @@
 
 #include "base/constants.h"
 
-#define DEGREES (180.0 / FST_PI)
-
 static const fst_column_info infos[FST_COLUMN_COUNT] = {
 #define FST_COLUMN(name, unit, value, doc) {#name, unit, doc},
-#include "base/constants.h"
 #include "io/columns.def"
 #undef FST_COLUMN
 };

@@ -1,3 +1,4 @@
+/* curve_end.c - why a curve of solutions ends: an enum for programs, a sentence for people. */
 #include "orbit/curve_end.h"
 
 #include <stdarg.h>

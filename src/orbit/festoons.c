@@ -219,8 +219,8 @@ static fst_status check_number(double festoons, fst_error *error)
 {
     return festoons > 1 && festoons < 1e6
                ? FST_OK
-               : fst_fail(error, FST_BAD_INPUT, "festoons",
-                          "%g festoons: the number must be greater than 1 and less than 1e6", festoons);
+               : fst_fail(error, FST_BAD_INPUT, "fst_festoons_find.festoons",
+                          "%g: the number of festoons must be greater than 1 and less than 1e6", festoons);
 }
 
 static fst_status festoons_on(const fst_params *params, const fst_branch *branch, double festoons,

@@ -386,6 +386,6 @@ fst_status fst_orbit_find(const fst_params *params, const fst_progress *progress
         (void)fst_fail(error, status, error->where, "%s. %s", error->sentence, advice(outcome));
     if (status == FST_OK)
         status = fst_orbit_from_solution(&family, &solution, orbit, error);
-    orbit->outcome = status == FST_NO_CONVERGENCE && outcome == FST_ORBIT_FOUND ? FST_ORBIT_UNSETTLED : outcome;
+    orbit->outcome = status != FST_OK && outcome == FST_ORBIT_FOUND ? FST_ORBIT_UNSETTLED : outcome;
     return status;
 }

@@ -89,7 +89,7 @@ static int becomes_its_image(const fst_node *a, const fst_node *b)
         product_ab += at_a[k] * at_b[k];
         size += at_a[k] * at_a[k] + at_b[k] * at_b[k];
     }
-    return product_ab < -0.01 * size;
+    return size > 1e-12 && product_ab < -0.01 * size; /* rounding has signs too */
 }
 
 /* Whether a curve of orbits without the symmetry passes through one that has it. */

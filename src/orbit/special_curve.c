@@ -373,9 +373,10 @@ static fst_status walk_on(walk *w, int branch, fst_branch *out, fst_error *error
     const double longest = 0.2 * w->options->longest_step;
     double h = 0.1 * longest;
     fst_error why;
-    for (int places = 0;; ++places) {
+    int places = 0;
+    for (;;) {
         fst_place next;
-        const char *key;
+        const char *key, *border;
         int tries = 0;
         while (take_step(w, h, &next, &tries, &why) != FST_OK)
             if ((h *= 0.5) < SHORTEST_STEP) {
@@ -384,6 +385,10 @@ static fst_status walk_on(walk *w, int branch, fst_branch *out, fst_error *error
                 return fst_watch_ask(w->watch, error);
             }
         const int left = excess(w, &next, &key) > 0;
+        if (left && excess(w, &w->past[0], &border) > -1e-10) { /* it began on the border, and leads out */
+            fst_curve_end_set(&w->end, FST_END_RANGE, "the end of the range of %s", key);
+            return fst_watch_ask(w->watch, error);
+        }
         if (left && !land(w, h, &next)) { /* the border is nearer to a smaller step */
             if ((h *= 0.5) >= SHORTEST_STEP)
                 continue;
@@ -401,6 +406,7 @@ static fst_status walk_on(walk *w, int branch, fst_branch *out, fst_error *error
             return status;
         h *= tries <= 3 ? 1.5 : tries > 5 ? 0.6 : 1.0;
         h = h > longest ? longest : h;
+        ++places;
     }
 }
 

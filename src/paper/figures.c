@@ -325,7 +325,8 @@ fst_status fst_paper_draw_figures(fst_paper_state *paper, double from, double to
         if (!paper->drawn[i] && fst_paper_has(paper, figure.step, figure.scan))
             all.list[all.count++] = i;
     }
-    fst_part part = {paper->options->progress, from, to, "figures"};
+    const double share = fst_paper_share(paper);
+    fst_part part = {paper->options->progress, share * from, share * to, "figures"};
     const fst_progress progress = {&part, fst_part_tell};
     fst_work work = {.user = &all, .count = all.count, .piece = draw_piece, .progress = &progress};
     double began = fst_clock_seconds();

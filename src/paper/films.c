@@ -19,11 +19,12 @@ static const struct {
 fst_status fst_paper_make_films(fst_paper_state *paper, fst_error *error)
 {
     double began = fst_clock_seconds();
+    const double share = fst_paper_share(paper);
     fst_status status = FST_OK;
     for (int i = 0; i < FST_FILM_COUNT && status == FST_OK; ++i) {
         const fst_paper_run *run = fst_paper_single(paper, films[i].scan, FST_DYNAMICS_FARAGO2020);
-        fst_part shown = {paper->options->progress, (double)i / FST_FILM_COUNT, (i + 1.0) / FST_FILM_COUNT,
-                          "films"};
+        fst_part shown = {paper->options->progress, share + (1.0 - share) * i / FST_FILM_COUNT,
+                          share + (1.0 - share) * (i + 1) / FST_FILM_COUNT, "films"};
         const fst_progress progress = {&shown, fst_part_tell};
         fst_film_options options = fst_default_film_options();
         options.from = run->params.run_discard;

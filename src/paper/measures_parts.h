@@ -10,8 +10,6 @@
 
 #include <stdio.h>
 
-#define DEGREES (180.0 / FST_PI)
-
 #define MEASURE(name)                                                                                          \
     double fst_measure_##name(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size)
 #define NO_NOTE ((void)note, (void)size)

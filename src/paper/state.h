@@ -160,4 +160,10 @@ const fst_paper_run *fst_paper_single(const fst_paper_state *paper, fst_scan sca
 /* Whether the bead circles against the magnet, regularly. */
 int fst_paper_counter_rotates(const fst_paper_run *run);
 
+/* The share of the whole progress that is done before the films are made. */
+static inline double fst_paper_share(const fst_paper_state *paper)
+{
+    return paper->options->films ? 0.8 : 1.0;
+}
+
 #endif

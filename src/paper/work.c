@@ -36,7 +36,8 @@ static fst_status tell_of_stage(void *user, double fraction, const char *what, f
 {
     const stage_in_work *work = user;
     const fst_paper_stage *stage = work->stage;
-    fst_part part = {work->paper->options->progress, stage->from, stage->to, stage->what};
+    const double share = fst_paper_share(work->paper);
+    fst_part part = {work->paper->options->progress, share * stage->from, share * stage->to, stage->what};
     const fst_status status = fst_part_tell(&part, fraction, what, error);
     if (status != FST_OK)
         atomic_store(&work->paper->refused, 1);

@@ -9,7 +9,6 @@
  * The asymmetry is watched by a second difference of successive half returns x0, x1, x2, mapped by S2 to one
  * side: |x2 - 2 x1 + x0|/4.  It is the amplitude of what alternates, and blind to what moves slowly one way.
  */
-#include "base/constants.h"
 #include "study/simulation.h"
 
 #include <math.h>

@@ -62,8 +62,9 @@ static fst_status simulate(fst_simulation *s, fst_error *error)
 
 /* ------------------------------------------------------------------ the conclusion */
 
-/* What the run says of its motion; where that needs the largest exponent, it is computed now. */
-static fst_status conclude(const fst_simulation *s, fst_run_result *result, fst_error *error)
+/* What the run says of its motion; where that needs the largest exponent, it is computed now, unless the caller
+ * has ended the run. */
+static fst_status conclude(const fst_simulation *s, int interrupted, fst_run_result *result, fst_error *error)
 {
     if (s->ramp.rate != 0.0) {
         fst_conclude_ramp(&s->run, &s->ramp, result);
@@ -71,7 +72,7 @@ static fst_status conclude(const fst_simulation *s, fst_run_result *result, fst_
     }
     int needs_exponent;
     const fst_status status = fst_conclude(&s->run, NULL, result, &needs_exponent, error);
-    if (status != FST_OK || !needs_exponent)
+    if (status != FST_OK || !needs_exponent || interrupted)
         return status;
     fst_part last = {s->options->progress, FST_RUN_SHARE, 1.0, NULL};
     const fst_progress progress = {&last, fst_part_tell};
@@ -105,7 +106,9 @@ fst_status fst_run(const fst_params *params, const fst_run_options *options, fst
         status = simulate(s, error);
     }
     if (s->run.flow && (status == FST_OK || status == FST_INTERRUPTED)) {
-        const fst_status concluded = conclude(s, result, error);
+        fst_error unheard; /* the error of the caller who ended the run stays */
+        const int interrupted = status == FST_INTERRUPTED;
+        const fst_status concluded = conclude(s, interrupted, result, interrupted ? &unheard : error);
         if (status == FST_OK)
             status = concluded;
         if (status == FST_INTERRUPTED)

@@ -1,3 +1,4 @@
+/* run_image.c - a run that is not over, as bytes from which it goes on to the same bits. */
 #define _GNU_SOURCE /* dl_iterate_phdr() */
 #include "study/run_image.h"
 
