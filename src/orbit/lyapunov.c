@@ -14,9 +14,10 @@ enum {
     N = FST_TANGENT_SIZE,
     ALIGNING = 20 /* drive periods in which the vectors turn into place */
 };
-static const double TURNING = 0.1; /* what of a column's turning into place may not be seen, in its logarithm */
-static const double UNRESOLVED =
-    4.0;                          /* difference of two exponents times the time, below which they are a pair */
+/* What of a column's turning into place may not be seen, in its logarithm */
+static const double TURNING = 0.1;
+/* Difference of two exponents times the time: below, they are a pair. */
+static const double UNRESOLVED = 4.0;
 static const double SHARED = 3.0; /* what each is off by, in differences seen */
 static const double PIECE = 0.5;  /* gamma^-1: the fastest direction shrinks by e^-2 meanwhile */
 
