@@ -62,7 +62,7 @@ typedef struct found_state {
 typedef struct finder {
     const fst_family *family;
     double value;
-    double searching; /* which part of the watch's present part the search is */
+    double searching; /* the share of the progress that the search takes */
     found_state *found;
     int count;
 } finder;

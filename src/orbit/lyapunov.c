@@ -14,7 +14,7 @@ enum {
     N = FST_TANGENT_SIZE,
     ALIGNING = 20 /* drive periods in which the vectors turn into place */
 };
-/* What of a column's turning into place may not be seen, in its logarithm */
+/* Error of the logarithm of a growth that may remain, unseen, from a column's turning into its direction. */
 static const double TURNING = 0.1;
 /* Difference of two exponents times the time: below, they are a pair. */
 static const double UNRESOLVED = 4.0;
