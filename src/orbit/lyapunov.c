@@ -1,4 +1,27 @@
 /* lyapunov.c - the spectrum of Lyapunov exponents, by the variational equations and repeated orthogonalisation.
+ *
+ * Nine tangent vectors are carried along with the state (family.c), as many as there are directions.  All of
+ * them would turn into the direction that grows fastest; so after each short piece of time they are made
+ * orthonormal again, in their order, and the lengths that they lose by this are their growth:
+ */
+/* clang-format off */
+/*
+ *      t_2 |           t_2 /            | t_2
+ *          |     -->      /  t_1  -->   |            log of both lengths, summed up: exponents times time
+ *          '---- t_1     '------        '---- t_1
+ *       orthonormal      carried        orthonormal
+ */
+/* clang-format on */
+/*
+ * The first vector then grows at the greatest rate, the first two span areas that grow at the sum of the two
+ * greatest, and so on.  A piece is so short that the fastest shrinking direction is not lost in rounding.
+ *
+ * First the state alone goes on to the end of run.discard, then the vectors turn into place for some drive
+ * periods.  The rates and their errors come from growth.c; an error cannot be smaller than what may remain of
+ * the turning into place.  Two exponents closer than the time can tell apart get wider errors.
+ *
+ * The mean divergence of the equations is measured beside them: the exponents must add up to it.  If the bead
+ * moves in the turning frame, one exponent belongs to the direction of the flow and must be zero.
  */
 #include "orbit/solution.h"
 
