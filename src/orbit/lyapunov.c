@@ -2,7 +2,7 @@
  *
  * Nine tangent vectors are carried along with the state (family.c), as many as there are directions.  All of
  * them would turn into the direction that grows fastest; so after each short piece of time they are made
- * orthonormal again, in their order, and the lengths that they lose by this are their growth:
+ * orthonormal again, in their order, and their lengths just before tell how much they grew:
  */
 /* clang-format off */
 /*
