@@ -2,8 +2,8 @@
  * tracked quantity may have passed an extreme.
  */
 
-/* The references of the lanes before their window are renewed; where the integrands at the start of the step
- * are known, that is all there is to do for this place. */
+/* Renew the references of lanes whose window has not opened.  If the integrands at the step's start are known,
+ * nothing else is needed at this place. */
 static void see_start(batch *b, unsigned accepted, unsigned before_window)
 {
     const fst_wide_mask renew = fst_wide_mask_of(before_window);

@@ -1,16 +1,20 @@
-/* branch.c - whole branches, as the public call makes them.
- *
- *      branch.c        checks the options, and chooses
- *        counter.c       the counter-rotating family: simulate until an orbit is found, begin there
- *        locked.c        every equilibrium, by Newton's method from many starts at several values of the
- * parameter tracer.c        a list of branches still to be followed; one after another, each both ways curve.c
- * point by point special.c       special points between; a branch that is born there goes on the tracer's list
- *        special_curve.c with two parameters: special points of one type, each followed as a curve over both
+/* branch.c - whole branches, as the public call makes them.  Each file uses those below it: */
+/* clang-format off */
+/*
+ *      branch.c           checks the options, and chooses
+ *        counter.c          the counter-rotating family: simulate until an orbit is found, begin there
+ *        locked.c           every equilibrium, by Newton's method from many starts at several parameter values
+ *          tracer.c           a list of branches still to be followed; one after another, each both ways
+ *            curve.c            point by point
+ *              special.c          special points between; a branch that is born there goes on the list
+ *        special_curve.c    with two parameters: special points of one type, each followed as a curve over both
  *
  *                    .----- 1 ---- end            0 is followed first, from its start both ways;
  *       end ---- 0 --*-- start --- 0 --- end      1 and 2, born at its special points (*), wait on the list,
  *                    '----- 2 ---- end            and are followed away from there only.
- *
+ */
+/* clang-format on */
+/*
  * A branch that is met again (a curve that closes, the other end of one that is known) is recognised by its
  * numbers and not followed twice.  Of two conjugate orbits, images of each other under S2, only one is
  * followed; every end says on which branch the images lie.  Over two parameters the branches over the first are

@@ -77,10 +77,9 @@ static void climb_to_symmetric(fst_tracer *t, fst_node *start)
     }
 }
 
-/* Counter-rotating orbits to begin with: a symmetric one where there is one, for from it the others are born,
- * and before it the first that was met, in case it lies on none of the branches that are followed from the
- * other.  `end`: where this part of the work ends.
- */
+/* The first orbit found, and after it a symmetric one if there is any.  Other families branch off the symmetric
+ * one; the first is kept in case it lies on none of these.  If no symmetric one is found, the one on which the
+ * first orbit's curve ends takes its place.  `end`: where this part of the work ends. */
 static fst_status first_orbits(fst_tracer *t, double end, fst_node start[2], int *count, fst_error *error)
 {
     enum { TRIALS = 8 };

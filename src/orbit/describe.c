@@ -1,5 +1,32 @@
 /* describe.c - means, extremes and shape of an orbit: it is followed once round, observed by a window that
- * spans it. */
+ * spans it.
+ *
+ * The window, its integrals and its extremes are those of a run (observe/), begun at the orbit's first state
+ * and ended after its period.  So means of orbits and of runs are the same numbers, made by the same code;
+ * those of an orbit are over exactly one period.  A symmetric orbit is followed over both halves.
+ */
+/* clang-format off */
+/*
+ *      r |    .-.                   .-
+ *        |   /   \      .-.        /       two falls a period, each from a top to the next bottom:
+ *        |  /     \    /   \      /        swing_ratio = greater fall/smaller fall - 1;
+ *        | /       '--'     \    /         the lowest bottom is the closest approach to the axis
+ *        |                   '--'
+ *        +------------------------------ t
+ */
+/* clang-format on */
+/*
+ * Besides, three things are noted on the way:
+ *
+ * How often Phi turns in the period.  If it does not, the orbit is called librating, otherwise counter-rotating
+ * or corotating by the sign of <alpha'>.
+ *
+ * The closest approach to the axis, positive or negative by the side on which the bead passes it.  r itself
+ * only touches zero, but this number changes its sign, so the passage can be located (special_test.c).
+ *
+ * The state where Phi passes pi/2 downward.  The public description of an orbit that turns begins there,
+ * corrected once more by Newton's method, so that the same orbit always has the same state.
+ */
 #include "orbit/describe.h"
 
 #include <stdlib.h>

@@ -7,12 +7,18 @@
  * Newton's method and multipliers need to know how the end y(T) of a motion changes with its start and with p.
  * A bundle carries that along with the state: ten tangent vectors ("columns") that obey the equations
  * linearised about the moving state,
+ */
+/* clang-format off */
+/*
+ *       y' = f(y, p)                     start                          end
+ *       t' = J(y) t                        y *------------------------->* y(T)
+ *       s' = J(y) s + f_p                    |                           \
+ *                                        t_i v                            v t_i(T)
  *
- *       y' = f(y, p)                        start                          end
- *       t' = J(y) t            t            y  *------------------------->* y(T)
- *       s' = J(y) s + f_p      s           t_i | |                          \ \  t_i: how the end moves when
- *                                                                                the start moves along t_i
- *
+ *       t_i(T): how the end moves when the start moves along t_i
+ */
+/* clang-format on */
+/*
  * Nine columns t begin as a basis of the directions in which a state can move (|n| = 1 leaves nine of ten); the
  * tenth, s, begins as zero and gathers what a change of p does on the way.  State and columns are one system of
  * 110 numbers, stepped by the same method as a run, with step sizes that keep the state exact first and the

@@ -1,4 +1,28 @@
-/* festoons.c - the patterns that close in the laboratory after a whole number of festoons. */
+/* festoons.c - the patterns that close in the laboratory after a given number of festoons.
+ *
+ * A counter-rotating orbit of whole period T turns Phi once backwards, so <alpha'> = omega - 2 pi/T.  While the
+ * bead goes once round in the laboratory, 1 + omega/|<alpha'>| periods pass; each makes a festoons, a = 2 for a
+ * symmetric orbit (S2) and 1 for another (S1), so N = a (1 + omega/|<alpha'>|).  It is known at every point of
+ * the counter-rotating branch over omega, and a wanted N is looked for between neighbouring points:
+ */
+/* clang-format off */
+/*
+ *       N |                 x  x        x: points of the branch
+ *         |              x
+ *  wanted |. . . . . . o                o: found by bracketing; each orbit tried is interpolated between the
+ *         |          x                     neighbours and corrected by Newton's method
+ *         |    x  x
+ *         +---------------------- along the branch
+ */
+/* clang-format on */
+/*
+ * Runs would not do: their N is a mean with an error, and they show only the orbit that their start leads to.
+ *
+ * At a pitchfork a falls from 2 to 1, and N to its half, so numbers in the gap between the S2 and the S1 orbits
+ * may not exist; the error then says from which N to which each part reaches.  The S1 branch begins at the
+ * pitchfork, before its first point, and that piece is looked through too.  Newton's matrix is singular at the
+ * pitchfork, so the located state is used there as it is.
+ */
 #include "orbit/node.h"
 #include "orbit/search.h"
 

@@ -1,4 +1,28 @@
-/* locked.c - every equilibrium: the bead goes round with the magnet. */
+/* locked.c - every equilibrium: the bead goes round with the magnet.
+ *
+ * In the turning frame a locked bead is a zero of nine equations.  Nothing tells how many there are; they are
+ * looked for by Newton's method from many starts, which a Halton sequence spreads evenly.  A start already
+ * obeys what follows from rest:
+ */
+/* clang-format off */
+/*
+ *      place (X, Y)      in a disc, more densely near the axis
+ *      v, W              follow: v = omega e x x, and W = omega e + c n, so that n stands still
+ *      n                 a third anywhere, a third in the plane of e_r and e_z, where the contact can roll
+ *                        without slip, and a third there at the angle that belongs to a spin from 1 to 1000
+ *      c                 so that the contact slips least
+ */
+/* clang-format on */
+/*
+ * Each state that is found gives a further start, its image under S2.  States whose numbers agree to 1e-6 are
+ * one, and how many starts led to it is reported.
+ *
+ * A sign of completeness is the index, the sum of the signs of det(-J): states appear and vanish in pairs of
+ * opposite sign, so the sum stays the same unless a state comes from far away (docs/orbits.md).
+ *
+ * To follow them over a parameter they are searched at several values, more closely spaced at the low end, and
+ * a state is skipped if a branch already passes through it.
+ */
 #include "orbit/locked.h"
 
 #include <stdlib.h>
@@ -62,7 +86,7 @@ typedef struct found_state {
 typedef struct finder {
     const fst_family *family;
     double value;
-    double searching; /* which part of the watch's present part the search is */
+    double searching; /* the share of the progress that the search takes */
     found_state *found;
     int count;
 } finder;

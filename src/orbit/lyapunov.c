@@ -1,4 +1,27 @@
 /* lyapunov.c - the spectrum of Lyapunov exponents, by the variational equations and repeated orthogonalisation.
+ *
+ * Nine tangent vectors are carried along with the state (family.c), as many as there are directions.  All of
+ * them would turn into the direction that grows fastest; so after each short piece of time they are made
+ * orthonormal again, in their order, and their lengths just before tell how much they grew:
+ */
+/* clang-format off */
+/*
+ *      t_2 |           t_2 /            | t_2
+ *          |     -->      /  t_1  -->   |            log of both lengths, summed up: exponents times time
+ *          '---- t_1     '------        '---- t_1
+ *       orthonormal      carried        orthonormal
+ */
+/* clang-format on */
+/*
+ * The first vector then grows at the greatest rate, the first two span areas that grow at the sum of the two
+ * greatest, and so on.  A piece is so short that the fastest shrinking direction is not lost in rounding.
+ *
+ * First the state alone goes on to the end of run.discard, then the vectors turn into place for some drive
+ * periods.  The rates and their errors come from growth.c; an error cannot be smaller than what may remain of
+ * the turning into place.  Two exponents closer than the time can tell apart get wider errors.
+ *
+ * The mean divergence of the equations is measured beside them: the exponents must add up to it.  If the bead
+ * moves in the turning frame, one exponent belongs to the direction of the flow and must be zero.
  */
 #include "orbit/solution.h"
 
@@ -14,9 +37,10 @@ enum {
     N = FST_TANGENT_SIZE,
     ALIGNING = 20 /* drive periods in which the vectors turn into place */
 };
-static const double TURNING = 0.1; /* what of a column's turning into place may not be seen, in its logarithm */
-static const double UNRESOLVED =
-    4.0;                          /* difference of two exponents times the time, below which they are a pair */
+/* Error of the logarithm of a growth that may remain, unseen, from a column's turning into its direction. */
+static const double TURNING = 0.1;
+/* Difference of two exponents times the time: below, they are a pair. */
+static const double UNRESOLVED = 4.0;
 static const double SHARED = 3.0; /* what each is off by, in differences seen */
 static const double PIECE = 0.5;  /* gamma^-1: the fastest direction shrinks by e^-2 meanwhile */
 

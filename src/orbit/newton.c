@@ -38,8 +38,9 @@
 
 #include "base/error.h"
 
-#define LONGEST_CORRECTION                                                                                     \
-    0.3 /* of an orbit; a longer one leaves the range in which the linear system means anything */
+/* A Newton correction longer than this leaves the range in which the linear system is a good approximation.
+ * (Equilibria that are sought from far away may take longer ones.) */
+#define LONGEST_CORRECTION 0.3
 
 /* Of an iteration without the integrations, in evaluations of the equations: the linear system. */
 enum { ITERATION_WORK = 20 };

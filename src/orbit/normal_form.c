@@ -1,5 +1,27 @@
 /* normal_form.c - the cubic coefficient of the normal form where a pair crosses the border of stability.
  *
+ * Near a Hopf point (or, for the return map, a Neimark-Sacker point) the motion on the surface of the critical
+ * pair is, in suitable coordinates, z' = (mu + i w) z + c z |z|^2.  The sign of Re c says what is born there:
+ */
+/* clang-format off */
+/*
+ *       Re c < 0: supercritical      Re c > 0: subcritical
+ *              .----                  - - -.                 curved: |z| of the small orbit
+ *             /                             \                straight: the equilibrium
+ *       -----+- - - -                  -----+- - - -         full lines attract, broken ones do not
+ *          mu = 0                         mu = 0
+ */
+/* clang-format on */
+/*
+ * c follows from the second and third derivatives B and C of the equations at the equilibrium, and the
+ * eigenvectors q and p of the pair (Kuznetsov, Eqs. (5.39) and (5.65)):
+ *
+ *     2 c = <p, C(q, q, conj q) + 2 B(q, h11) + B(conj q, h20)>,
+ *
+ * where h11 and h20, from linear systems, are the response of all other directions to the pair.  At the
+ * resonances 1:1 to 1:4 of a map the normal form is another one, and no coefficient is given.  Returned are Re
+ * c/w, and for a map Re(e^-it c) with the angle t of the critical multiplier.
+ *
  * Second and third derivatives are needed along the critical plane only, and come from differences along lines
  * (polarisation): of order 6 for B(u,u), of order 4 for C(u,u,u), taken with two lengths.
  */

@@ -1,4 +1,25 @@
 /* search.c - the orbit to which a start leads: integrate until returns come close, then Newton's method. */
+/* clang-format off */
+/*
+ *     start --> integrate --> do two returns differ by little? --yes--> Newton --> is it the orbit that
+ *                  ^                      | no                                     the bead approaches?
+ *                  |                      |                                         | no         | yes
+ *                  '----------------------+-----------------------------------------'           found
+ */
+/* clang-format on */
+/*
+ * Two kinds of returns are watched.  A bead that turns regularly passes X = 0 on alternating sides; its states
+ * there are compared after half a turn (with the image under S2, if the field has that symmetry) and after a
+ * whole one.  A bead that librates has no such regular passages; its latest state where r is greatest is
+ * compared with earlier ones.
+ *
+ * Newton's method finds orbits that repel too, and orbits on which the bead is not.  So its orbit counts only
+ * if it attracts, and lies as near to the bead as the returns say: a bead at distance d from an orbit of
+ * greatest multiplier rho moves by (1 - rho) d in a return.  Tries are dear, and become rarer with time.
+ *
+ * Other ends: the bead flies away (r > 50), it comes to rest at an equilibrium that attracts, or the time is
+ * over.  A bead that leaves an equilibrium very slowly is helped by departure.c.
+ */
 #include "orbit/search.h"
 
 #include <stdio.h>

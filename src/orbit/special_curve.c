@@ -1,9 +1,30 @@
 /* special_curve.c - the curve along which a special point moves when a second parameter changes.
  *
  * On the surface of solutions over two parameters a fold, a multiplier -1, a pair on the border or a passage of
- * the origin is the zero of one function.  Each step predicts from the last points by extrapolation, and finds
- * the zero by secants across the way there, Newton's method bringing every try back to the surface.  So the
- * curve is parametrised by its own length, and goes through its turns in either parameter, and round cusps.
+ * the origin is the zero of one function, the test.  One step along its zero line:
+ */
+/* clang-format off */
+/*
+ *                                 1. Lagrange's formula through the last places (*) predicts one (o)
+ *                         + next
+ *       *-----*-----*     |       2. Newton's method brings it back to the surface
+ *                     '.  | across
+ *                       ' o       3. secants across the way find the zero of the test (+), each try brought
+ *                                    back to the surface too
+ */
+/* clang-format on */
+/*
+ * The tangent plane at the latest place is turned so that one direction points along the predicted way and the
+ * other across it; corrections by Newton's method stay perpendicular to both.  So the curve is parametrised by
+ * its own length, and goes through its turns in either parameter, and round cusps.
+ *
+ * Why secants, and not the test as one more equation of Newton's method: that would need the derivatives of
+ * multipliers, which are second derivatives of the flow.  A secant needs values alone, and the slope across the
+ * curve is a good first guess from step to step.
+ *
+ * Steps grow after few tries and shrink after many; one that fails or turns too sharply is halved.  To begin,
+ * the gradient of the test in the tangent plane is taken by differences: the curve starts at right angles to
+ * it, and is followed both ways.  A step that leaves the range is shortened until it ends on its border.
  */
 #include <string.h>
 

@@ -1,4 +1,29 @@
-/* special_test.c - tests for special points, and where they vanish. */
+/* special_test.c - tests for special points, and where they vanish.
+ *
+ * A test is a number of a solution that changes its sign at special points of one kind:
+ */
+/* clang-format off */
+/*
+ *     FOLD      the tangent's part along the parameter       the curve turns back
+ *     MINUS     product of (1 + multiplier)                  pitchfork of an S2 orbit, period doubling
+ *     PLUS      product of (multiplier - 1), of an           two curves meet; also zero at a fold
+ *               equilibrium: of the eigenvalues
+ *     PAIR      |multiplier|^2 - 1, of an equilibrium the    Neimark-Sacker, Hopf
+ *               real part, of the pair nearest to zero
+ *     ORIGIN    distance from the axis, with its side        the orbit passes through r = 0
+ */
+/* clang-format on */
+/*
+ * Products are used, and not single multipliers, because they stay smooth where multipliers meet and exchange
+ * their order; complex pairs contribute positive factors, so a product changes its sign with a real multiplier
+ * only.  The pair nearest to the border may be another one at the next point; so PAIR asks whether the numbers
+ * of unstable pairs and of all unstable directions changed, and the way is halved until one pair is left.
+ *
+ * The zero is located between two points of a curve by a bracketing method with a bisection every sixth time;
+ * each try is a solution interpolated between the two and corrected by Newton's method (node.c).  A test that
+ * jumps over zero is no special point, but an error.  Where curves of equilibria meet, Newton's matrix is
+ * singular, and the value is interpolated from solutions a little away on both sides.
+ */
 #include "orbit/special_test.h"
 
 #include "base/bracket.h"

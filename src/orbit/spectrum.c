@@ -1,4 +1,28 @@
-/* spectrum.c - multipliers of orbits and eigenvalues of equilibria. */
+/* spectrum.c - multipliers of orbits and eigenvalues of equilibria.
+ *
+ * The derivative M of a return (of an equilibrium: the Jacobian) is there from Newton's last iteration, as a 9
+ * x 9 matrix in the tangent basis of the first state.  An orbit's M maps the flow direction f onto itself: one
+ * eigenvalue is 1 and says nothing.  Left in, it would disturb any multiplier near 1, just where a fold is
+ * looked for.  So f is split off by an orthogonal matrix Q whose first column is f/|f|:
+ */
+/* clang-format off */
+/*
+ *                   | 1  *  *  * |        first column: exactly this if the orbit were exact; its
+ *       Q^T M Q  =  | 0            |        error is reported (trivial_error)
+ *                   | 0   reduced  |
+ *                   | 0            |        8 x 8: the return to the section across the flow
+ */
+/* clang-format on */
+/*
+ * The eigenvalues of the reduced matrix are the multipliers.  For an S2 orbit M belongs to half a turn and the
+ * image under S2, so a whole turn has their squares: a multiplier -1 here is where the symmetric orbit splits.
+ *
+ * Stable means all multipliers within the unit circle, or all real parts of eigenvalues below zero by more
+ * than rounding.  Equilibria on the axis do not count as stable: friction does not brake the swing of n about
+ * the vertical there, and that pair has the real part zero.
+ *
+ * At the end of the file: the flow along a solution, and the division of an orbit into segments.
+ */
 #include "orbit/solution.h"
 
 #include <stdlib.h>

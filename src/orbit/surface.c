@@ -1,4 +1,25 @@
-/* surface.c - Newton's method on the surface of solutions over two parameters. */
+/* surface.c - Newton's method on the surface of solutions over two parameters.
+ *
+ * Over one parameter solutions form a curve; with a second one, free too, they form a surface.  There are two
+ * unknowns more than equations, so two rows close the linear system: the correction shall be perpendicular to
+ * two given headings.
+ */
+/* clang-format off */
+/*
+ *       | rows of newton.c       f_second |  dx          gaps
+ *       |                                 |  d first  =
+ *       | <------- across[0] -----------> |  d second     0
+ *       | <------- across[1] -----------> |               0
+ */
+/* clang-format on */
+/*
+ * Solved for the right-hand sides (0, 1, 0) and (0, 0, 1), the same matrix gives two vectors that span the
+ * tangent plane.  Its shadow, the area of their parallelogram on the plane of the two parameters, vanishes
+ * where the surface stands upright over that plane: at a fold.
+ *
+ * The column of the second parameter is taken from the same equations with the parameters exchanged.  It costs
+ * as much as all other columns, so only the first iteration computes it; the later ones use the old one.
+ */
 #include "orbit/surface.h"
 
 #include <string.h>

@@ -31,8 +31,8 @@
 
 /* docs/regimes.md says why these, and how often they err. */
 static const double STANDS_OUT = 5.0; /* change over its standard error: below, the scatter explains it */
-static const double MATTERS =
-    1e-4; /* change over the scale of the quantity: below, the means hold to 4 digits */
+/* Change over the scale of the quantity: below, the means hold to 4 digits. */
+static const double MATTERS = 1e-4;
 static const double ALIASED = 0.1;       /* part of the swing that a block shows when it ends within one */
 static const double SWING_MATTERS = 0.1; /* relative change of the swing of a bead that librates */
 static const double SWING_SEEN = 1e-7;   /* a swing below this part of <r> is rounding */

@@ -38,9 +38,9 @@ static void keep_records(fst_row_worker *w, int l, const fst_window *window)
         w->observed.view.records[i * w->engine->width + l] = fst_extremes_record(window->extremes, i);
 }
 
-/* Whether the orbit repeats itself so closely that later returns can raise no record by as much as matters
- * (1e-6 after hundreds of returns, or what the integration's errors make of them at loose tolerances): the fast
- * form then looks for extremes no more. */
+/* Whether the orbit repeats itself so closely that later returns, even hundreds, cannot change a record by more
+ * than 1e-6, or than the integration's own errors at loose tolerances.  The fast form then stops looking for
+ * extremes. */
 static int repeats(const fst_watched_run *run)
 {
     const fst_mark_series *marks = &run->window.returns.marks;

@@ -33,10 +33,10 @@ static const double AT_REST = 1e-8; /* greatest |d(state)/dt| of a locked bead, 
 static const double STILL = 50.0;   /* times run.rtol: n within this of rest is at rest */
 static const double KEPT = 1e-9;    /* Phi within this, or within run.rtol, keeps its place */
 static const double NOISE = 100.0;  /* times run.rtol: slower motion is not told from the integrator's noise */
-static const double LEAVING =
-    10.0; /* times run.rtol: slower motion that grows comes from the errors of the steps */
-static const double GROWING =
-    2.0; /* activity of a third of the window over the one before: above, twice, it grows */
+/* Times run.rtol: slower motion that grows comes from the errors of the steps. */
+static const double LEAVING = 10.0;
+/* Activity of a third of the window over the one before: above this, twice in a row, it grows. */
+static const double GROWING = 2.0;
 static const double CLOSED = 1e-6;   /* greatest distance of successive section states of a closed orbit */
 static const double STEADY = 0.01;   /* relative change of the half distance over half the window: S1 */
 static const double RELAXING = 1e-2; /* below this, distances that halve over half the window are relaxing */
@@ -45,8 +45,8 @@ static const double SMALL = 1e-6;         /* range of Phi whose growth is seen i
 static const double WIDE = 0.3;           /* range of Phi of a wide libration */
 static const double GROWTH = 10.0;        /* exponent times duration: e^10 of growth is chaos */
 static const double QUIET = 2.0;          /* the same: below e^2 of growth a motion with friction is regular */
-static const double QUIET_WITHOUT_FRICTION =
-    4.0;                               /* neighbours on tori part like a power of time: e^2.4 for the first */
+/* The same without friction: neighbours on tori part like a power of time, by e^2.4 for the first. */
+static const double QUIET_WITHOUT_FRICTION = 4.0;
 static const double SIGNIFICANT = 3.0; /* exponent over the part of its error that is chance */
 static const double ONE_WAY = 5.0; /* |<alpha'>| over its standard error: below, the bead circles neither way */
 enum {

@@ -25,10 +25,10 @@
 
 enum { OPTIONS_COOKIE = 0x53574550, COMMIT_ROWS = 256 };
 static const double COMMIT_SECONDS = 0.5;
-static const double
-    WAIT_SECONDS = 0.05,
-    WAIT_SECONDS_RANKS =
-        0.002; /* how long to wait for rows; the second, where messages of ranks are looked for */
+/* How long to wait for rows. */
+static const double WAIT_SECONDS = 0.05;
+/* The same under mpirun, where messages of the other processes are looked for between two waits. */
+static const double WAIT_SECONDS_RANKS = 0.002;
 static const double FAREWELL_SECONDS = 10.0; /* how long to wait for followers that were told to stop */
 
 typedef struct job {

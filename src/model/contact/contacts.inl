@@ -1,24 +1,27 @@
 /* contacts.inl - what the plate does: the one in use of the contact laws of festoon/physics.def, over REAL.
  *
  * A law NAME is a file NAME.inl, included here, with a row in physics.def.  It supplies
- *
+ */
+/* clang-format off */
+/*
  *     NAME           a struct of its numbers, REALs alone (with lanes each lane has its own);
  *     make_NAME()    these numbers of the parameters and the scaled groups;
  *     NAME_force()   f of a contact: minus the plate's horizontal force on the bead, per mass;
  *     NAME_change()  the change of f as the contact changes by `by`: the exact derivative along that direction;
  *     NAME_loss()    the power that it takes from the motion, f.V and what else the law dissipates; at least 0.
+ */
+/* clang-format on */
+/*
+ * All by + - * / and square roots.  The equations of motion, their tangents, energies, orbits and lanes follow.
  *
- * by + - * / and square roots.  The equations of motion, their tangents, energies, orbits and lanes follow.
- *
- * Modes.  A law that is no single smooth function, as dry friction that slips or sticks, has several smooth
- * modes
- * (`modes` in physics.def).  Such a law will supply, besides, for each mode: f and its change in that mode
- * (contact.mode says which; with lanes, a number of each lane, by which f is selected without a branch);
- * the functions of the state whose zeros end the mode, located as other events are (ode/events.c); and the
- * transition there: the mode that follows, the state's jump if there is one, and the matrix by which tangents
- * jump.  Between two transitions it may have smooth variables of its own (a slip speed and direction, a
- * stretched time), to and from which it maps the state.  No law has this yet, so the flow has no transitions,
- * and a row with more than one mode does not compile.
+ * Modes.  A law that is no single smooth function, such as dry friction, which slips or sticks, has several
+ * smooth modes (the column `modes` of physics.def).  Such a law will supply, besides, for each mode: f and its
+ * change in that mode (contact.mode says which; with lanes, a number of each lane, by which f is selected
+ * without a branch); the functions of the state whose zeros end the mode, located as other events are
+ * (ode/events.c); and the transition there: the mode that follows, the state's jump if there is one, and the
+ * matrix by which tangents jump.  Between two transitions it may have smooth variables of its own (a slip speed
+ * and direction, a stretched time), to and from which it maps the state.  No law has this yet, so the flow has
+ * no transitions, and a row with more than one mode does not compile.
  */
 
 /* What a law sees of the contact.  A law that needs more, as the angular velocity for rolling resistance, adds

@@ -56,8 +56,8 @@ typedef struct FN(line) {
     ENDS distance2[ENDS_GROUPS], begun[ENDS_GROUPS];
 } FN(line);
 
-/* Of one end; and their sums on the way, which where a pair of REALs costs no more than one are of both ends.
- */
+/* The moments of one end.  While they are added up, FN(moment_sums) holds both ends where a pair of REALs costs
+ * no more than one. */
 typedef struct FN(moments) {
     REAL s0, s1, s2, s3, q0, q1;
 } FN(moments);
@@ -100,8 +100,9 @@ static inline __attribute__((always_inline)) void FN(add_moments)(FN(moment_sums
 }
 
 #ifdef REAL_INVERSE_FIFTH
-/* The moments of five lines, the first the farthest along y: with Y = y + k lambda for k = 2, 1, 0, -1, -2, by
- * the moments lambda^m t_m in k and by y, which takes a fifth fewer operations than to add up each. */
+/* The moments of five lines at Y = y + k lambda, k = 2, 1, 0, -1, -2: first the moments t_m = lambda^m sum of
+ * k^m/|d|^5 about the middle line, then these shifted by y (binomial formula).  This takes a fifth fewer
+ * operations than adding up each s_m. */
 static inline __attribute__((always_inline)) FN(moments)
     FN(moments_of_five)(const FN(line) lines[5], int end, REAL spacing)
 {
@@ -129,8 +130,8 @@ static inline __attribute__((always_inline)) FN(moments)
 }
 #endif
 
-/* The moments of all lines for both ends; returns the strength of a line.  By no call, as what follows, since
- * most of a step's time is here: what the caller does not use is not computed. */
+/* The moments of all lines for both ends; returns the strength of a line.  Inlined, like what follows, because
+ * most of a step's time is spent here; what the caller does not use is then not computed. */
 static inline __attribute__((always_inline)) REAL
 FN(moments_of_lines)(const FN(lines) * lines, int count, REAL y, const REAL across2[2], FN(moments) moments[2])
 {

@@ -1,13 +1,17 @@
 /* sources.inl - what makes the field: the one in use of the sources of festoon/physics.def, over REAL.
  *
  * A source NAME is a file NAME.inl, included here, with a row in physics.def.  It supplies
- *
+ */
+/* clang-format off */
+/*
  *     NAME          a struct of its numbers, REALs alone (with lanes each lane has its own);
- *     make_NAME()   these numbers of the parameters and the scaled groups;
- *     NAME_look()   B, G and T at a place (local_field.inl), by + - * / and square roots, always inlined: what
- * a caller does not use is not computed; NAME_along()  B and G u, by SOURCE_ALONG_BY_LOOK(NAME) unless the
- * source has a quicker way.
- *
+ *     make_NAME()   these numbers, made of the parameters and the scaled groups;
+ *     NAME_look()   B, G and T at a place (local_field.inl), by + - * / and square roots; always inlined, so
+ *                   that what a caller does not use is not computed;
+ *     NAME_along()  B and G u, by SOURCE_ALONG_BY_LOOK(NAME) unless the source has a quicker way.
+ */
+/* clang-format on */
+/*
  * Integers that it needs, as a number of pieces, are in fst_kinds (model/kinds.h); lanes of a batch share them.
  * All else follows from these: the field, the equations of motion and their tangents, orbits, lanes.
  */
