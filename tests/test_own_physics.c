@@ -32,12 +32,14 @@ static void test_names(void **unused)
     assert_int_equal(fst_params_set(&p, "own.grip", "-1", &error), FST_BAD_INPUT);
     assert_int_equal(fst_params_set(&p, "friction.law", "quadratik", &error), FST_BAD_INPUT);
     CHECK_CONTAINS(error.sentence, "the nearest is quadratic");
-    CHECK_CONTAINS(error.sentence, "viscous|none|quadratic");
+    CHECK_CONTAINS(error.sentence, "viscous|none|");
     const fst_param_info *law = fst_param_at(fst_param_find("friction.law"));
-    assert_string_equal(law->names, "viscous|none|quadratic");
+    CHECK_CONTAINS(law->names, "viscous|none|");
+    CHECK_CONTAINS(law->names, "|quadratic"); /* after festoon's own, however many there are */
     CHECK_CONTAINS(law->doc, "viscous: friction force -m gamma V");
     CHECK_CONTAINS(law->doc, "; quadratic: friction force own.grip N |V| V, with the normal load N.");
-    assert_string_equal(fst_param_at(fst_param_find("magnet.shape"))->names, "lines|charges");
+    CHECK_CONTAINS(fst_param_at(fst_param_find("magnet.shape"))->names, "lines|");
+    CHECK_CONTAINS(fst_param_at(fst_param_find("magnet.shape"))->names, "|charges");
 }
 
 /* ------------------------------------------------------------------ a run */
