@@ -195,7 +195,7 @@ static void test_the_end_of_a_step_counts(void **state)
                 extremes[i] = (fst_extreme){INFINITY, -INFINITY};
             fst_extremes_step(extremes, &q, flow, 0.0);
             for (int i = 0; i < FST_TRACK_COUNT; ++i) {
-                const double end = q.sums.tracked[FST_STEP_END][i];
+                const double end = q.sums.tracked[FST_PATH_END][i];
                 assert_true(extremes[i].greatest >= end);
                 if (i != FST_TRACK_GAP && i != FST_TRACK_SLIP)
                     assert_true(extremes[i].least <= end);

@@ -99,7 +99,7 @@ static fst_run_result decide(const made_up *m)
     if (m->full_before_last > 0)
         window->returns.marks.kept[m->blocks - 1].full_distance = m->full_before_last;
     run->flow->t.high = m->blocks * step;
-    double *slope = FST_PATH_SLOPE(&run->flow->step, FST_STEP_END);
+    double *slope = FST_PATH_SLOPE(&run->flow->step, FST_PATH_END);
     memset(slope, 0, FST_STATE_SIZE * sizeof *slope);
     slope[FST_X] = m->speed_at_end;
     window->returns.crossings = m->turns ? m->crossings : 0;

@@ -44,7 +44,7 @@ static void find_beaten(batch *b, unsigned tracked, unsigned beaten[FST_RECORD_C
         b->peak_to[i] = top.after;
         /* The end of a step lies on the trajectory; the stages within it do so but roughly, and a record that
          * one of them overshot would hide the ones to come. */
-        const REAL end = REAL_OF(fst_record_sign(i)) * b->sums.tracked[FST_STEP_END][FST_RECORD_TRACKS[i]];
+        const REAL end = REAL_OF(fst_record_sign(i)) * b->sums.tracked[FST_PATH_END][FST_RECORD_TRACKS[i]];
         const fst_wide_mask counts = fst_wide_mask_of(tracked);
         b->records[i] = fst_wide_select(counts, REAL_MAX(end, b->records[i]), b->records[i]);
 #endif

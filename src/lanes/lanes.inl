@@ -117,7 +117,7 @@ static void load_coefficients(FN(coefficients) * to, int lane, const fst_coeffic
 
 static void load_pull(FN(pull) * to, int lane, const fst_flow *flow)
 {
-    const fst_pull_double *from = FST_PATH_PULL(&flow->step, FST_STEP_START);
+    const fst_pull_double *from = FST_PATH_PULL(&flow->step, FST_PATH_START);
     for (int i = 0; i < 3; ++i) {
         to->b[i][lane] = from->b[i];
         to->force[i][lane] = from->force[i];
@@ -167,12 +167,12 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     batch *b = memory;
     const fst_bead_step_double *from = &flow->step;
     load_coefficients(&b->step.context.coefficients, lane, &from->context.coefficients);
-    load_pull(FST_PATH_PULL(&b->step, FST_STEP_START), lane, flow);
+    load_pull(FST_PATH_PULL(&b->step, FST_PATH_START), lane, flow);
     b->step.omega[lane] = from->omega;
     b->step.ramp[lane] = 0.0;
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        b->step.y[i][lane] = FST_PATH_STATE(&b->step, FST_STEP_START)[i][lane] = from->y[i];
-        FST_PATH_SLOPE(&b->step, FST_STEP_START)[i][lane] = FST_PATH_SLOPE(from, FST_STEP_START)[i];
+        b->step.y[i][lane] = FST_PATH_STATE(&b->step, FST_PATH_START)[i][lane] = from->y[i];
+        FST_PATH_SLOPE(&b->step, FST_PATH_START)[i][lane] = FST_PATH_SLOPE(from, FST_PATH_START)[i];
     }
     load_clock(b, lane, flow, t_limit);
     b->plate_radius[lane] = flow->groups.plate_radius;
@@ -337,9 +337,9 @@ static void keep_integrands(batch *b, unsigned accepted)
     const fst_wide_mask mask = fst_wide_mask_of(kept);
     FN(integrals) *q = &b->sums;
     for (int i = 0; kept && i < FST_Q_COUNT; ++i)
-        q->integrands[0][i] = fst_wide_select(mask, q->integrands[FST_STEP_END][i], q->integrands[0][i]);
+        q->integrands[0][i] = fst_wide_select(mask, q->integrands[FST_PATH_END][i], q->integrands[0][i]);
     for (int i = 0; kept && i < FST_TRACK_COUNT; ++i)
-        q->tracked[0][i] = fst_wide_select(mask, q->tracked[FST_STEP_END][i], q->tracked[0][i]);
+        q->tracked[0][i] = fst_wide_select(mask, q->tracked[FST_PATH_END][i], q->tracked[0][i]);
     b->known = (b->known & ~accepted) | kept;
     b->observed = 0;
 }
@@ -400,7 +400,7 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
 {
     batch *b = memory;
     const REAL *y = b->step.y, *end = b->step.end, zero = R(0.0);
-    const REAL *slope = FST_PATH_SLOPE(&b->step, FST_STEP_END);
+    const REAL *slope = FST_PATH_SLOPE(&b->step, FST_PATH_END);
     REAL speed = REAL_ABS(slope[0]);
     for (int i = 1; i < FST_STATE_SIZE; ++i)
         speed = REAL_MAX(REAL_ABS(slope[i]), speed);

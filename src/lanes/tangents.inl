@@ -29,7 +29,7 @@ static void view_tangents(void *memory, double **y, const double **slope)
 {
     tangents *t = memory;
     *y = numbers(t->step.y);
-    *slope = numbers(FST_PATH_SLOPE(&t->step, FST_STEP_START));
+    *slope = numbers(FST_PATH_SLOPE(&t->step, FST_PATH_START));
 }
 
 static void evaluate_tangents(void *memory)

@@ -86,7 +86,7 @@ static double tracked_at(fst_flow *flow, double x, const void *what)
 /* The greatest sign * value of one quantity in the last step, if it may beat the record. */
 static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record)
 {
-    const double end = sign * q->sums.tracked[FST_STEP_END][which]; /* the end lies on the trajectory exactly */
+    const double end = sign * q->sums.tracked[FST_PATH_END][which]; /* the end lies on the trajectory exactly */
     if (end > record)
         record = end;
     const fst_peak_double top = fst_find_peak_double(&q->sums.tracked[0][which], FST_TRACK_COUNT, sign);
@@ -101,8 +101,8 @@ static double best_in_step(const fst_quadrature *q, fst_flow *flow, int which, d
 static double best_in_rest(const fst_quadrature *q, fst_flow *flow, int which, double sign, double record,
                            double from)
 {
-    double best = fmax(sign * q->sums.tracked[FST_STEP_END][which], sign * tracked_at(flow, from, &which));
-    for (int n = 1; n < FST_STEP_END; ++n) {
+    double best = fmax(sign * q->sums.tracked[FST_PATH_END][which], sign * tracked_at(flow, from, &which));
+    for (int n = 1; n < FST_PATH_END; ++n) {
         const double before = fmax(FST_PATH_NODE[n - 1], from), after = FST_PATH_NODE[n + 1];
         double value;
         if (!(before < after))

@@ -31,7 +31,7 @@ typedef struct FN(peak) {
 /* The values at the path's places lie `stride` apart. */
 static inline FN(peak) FN(find_peak)(const REAL *values, int stride, REAL sign)
 {
-    enum { LAST = FST_STEP_END };
+    enum { LAST = FST_PATH_END };
     const REAL zero = R(0.0), one = R(1.0);
     REAL first = sign * values[stride], second = sign * values[2 * stride];
     REAL p = REAL_OF(FST_PATH_RATIO[0]), q = REAL_OF(1.0 / FST_PATH_RATIO[0]);

@@ -38,7 +38,7 @@ double fst_load_function(const fst_flow *flow, const double *state, const fst_pu
 double fst_flow_function_at(fst_flow *flow, double x, fst_state_function function)
 {
     if (x == 1.0)
-        return function(flow, flow->step.end, FST_PATH_PULL(&flow->step, FST_STEP_END));
+        return function(flow, flow->step.end, FST_PATH_PULL(&flow->step, FST_PATH_END));
     double state[FST_STATE_SIZE];
     if (function == fst_section_function) { /* all that it looks at; n need not be normalised for that */
         fst_flow_make_dense(flow);

@@ -197,7 +197,7 @@ void fst_flow_at(fst_flow *flow, double x, double state[FST_STATE_SIZE])
 
 const double *fst_flow_slope(const fst_flow *flow)
 {
-    return FST_PATH_SLOPE(&flow->step, FST_STEP_END);
+    return FST_PATH_SLOPE(&flow->step, FST_PATH_END);
 }
 
 double fst_flow_speed(const fst_flow *flow)

@@ -231,8 +231,7 @@ static fst_status write_figure(FILE *out, const fst_paper_state *paper, int inde
             !fst_paper_figure_verdict(paper, &figure, order[i], &verdict))
             continue;
         if (!figure.each)
-            fputs(order[i] == FST_DYNAMICS_RIGID ? " <small>rigid</small> " : " <small>farago2020</small> ",
-                  out);
+            fprintf(out, " <small>%s</small> ", fst_dynamics_name((fst_dynamics)order[i]));
         fst_report_badge(out, verdict);
     }
     fputs("</figcaption>", out);

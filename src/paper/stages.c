@@ -3,6 +3,7 @@
 #include "paper/runs.h"
 #include "paper/work.h"
 
+#include "base/constants.h"
 #include "base/error.h"
 
 #include <stdlib.h>
@@ -87,8 +88,8 @@ static fst_status ansatz_piece(fst_paper_state *paper, int index, fst_error *err
     fst_dynamics dynamics = (fst_dynamics)(index / (FST_ANSATZ_STARTS * FST_ANSATZ_DRIVES));
     fst_paper_ansatz *bead = &paper->ansatz[dynamics][drive][start];
     fst_params params = probe_params(dynamics, fst_ansatz_drives[drive]);
-    double r = 0.75 + 0.15 * (start / 4), phi = 0.1 + 1.5707963267948966 * (start % 4);
-    return fst_probe_ansatz(&params, r, phi, paper->options->reduced ? 40.0 : 120.0, &bead->speed,
+    double r = 0.75 + 0.15 * (start / 4), bead_angle = 0.1 + 0.5 * FST_PI * (start % 4);
+    return fst_probe_ansatz(&params, r, bead_angle, paper->options->reduced ? 40.0 : 120.0, &bead->speed,
                             &bead->survived, error);
 }
 
