@@ -110,6 +110,7 @@ typedef enum {
     FST_UNIT_FREQUENCY,    /* Hz; Hz kHz rpm rad/s */
     FST_UNIT_RATE,         /* 1/s; 1/s s-1 1/ms */
     FST_UNIT_ACCELERATION, /* m/s^2; m/s2 m/s^2 */
+    FST_UNIT_SPEED,        /* m/s; mm/s cm/s m/s */
     FST_UNIT_ANGLE         /* deg; deg rad turn */
 } fst_unit;
 

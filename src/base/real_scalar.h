@@ -3,6 +3,7 @@
 #ifndef FST_BASE_REAL_SCALAR_H
 #define FST_BASE_REAL_SCALAR_H
 
+#define REAL_IS_SCALAR /* a number, not a lane of numbers each */
 #define REAL_MAX(a, b) ((a) > (b) ? (a) : (b))
 #define REAL_MASK int /* whether a comparison holds */
 #define REAL_LESS(a, b) ((a) < (b))

@@ -41,6 +41,9 @@ static const unit_row unit_rows[] = {
     {FST_UNIT_RATE, "s-1", 0, 1, 1},
     {FST_UNIT_RATE, "1/ms", 3, 1, 1},
     {FST_UNIT_ACCELERATION, "m/s2", 0, 1, 1},
+    {FST_UNIT_SPEED, "m/s", 0, 1, 1},
+    {FST_UNIT_SPEED, "cm/s", -2, 1, 1},
+    {FST_UNIT_SPEED, "mm/s", -3, 1, 1},
     {FST_UNIT_ANGLE, "deg", 0, 1, 1},
     {FST_UNIT_ANGLE, "rad", 0, 180, FST_PI},
     {FST_UNIT_ANGLE, "turn", 0, 360, 1},
@@ -60,6 +63,7 @@ static const struct {
     [FST_UNIT_FREQUENCY] = {"Hz", "Hz kHz rpm rad/s", "Hz"},
     [FST_UNIT_RATE] = {"1/s", "1/s s-1 1/ms", "1/s"},
     [FST_UNIT_ACCELERATION] = {"m/s^2", "m/s^2", "m/s2"},
+    [FST_UNIT_SPEED] = {"m/s", "mm/s cm/s m/s", "mm/s"},
     [FST_UNIT_ANGLE] = {"deg", "deg rad turn", "deg"},
 };
 

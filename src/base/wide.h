@@ -25,6 +25,7 @@
 #undef REAL_SQRT
 #undef REAL_ABS
 #undef REAL_MAX
+#undef REAL_IS_SCALAR
 #undef REAL_MASK
 #undef REAL_LESS
 #undef REAL_LESS_EQUAL

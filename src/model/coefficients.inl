@@ -14,6 +14,7 @@ typedef struct FN(coefficients) {
     REAL omega; /* drive */
     FN(source_numbers) source;
     FN(law_numbers) law;
+    FN(resistance) resistance;
 } FN(coefficients);
 
 static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, const fst_groups *g)
@@ -22,6 +23,8 @@ static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, c
     c.kinds.source = (int)g->shape;
     c.kinds.pieces = g->lines;
     c.kinds.contact = (int)g->friction;
+    c.kinds.dry = g->friction == FST_FRICTION_COULOMB || g->friction == FST_FRICTION_ROLLING;
+    c.kinds.paced = g->friction == FST_FRICTION_COULOMB;
     c.kinds.magnetisable = g->material != FST_MATERIAL_HARD;
     c.kinds.gyroscopic_term_lost = g->dynamics == FST_DYNAMICS_FARAGO2020;
     c.eps = REAL_OF(g->eps);
@@ -35,5 +38,6 @@ static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, c
     c.omega = REAL_OF(g->omega);
     c.source = FN(make_source_numbers)(&c.kinds, params, g);
     c.law = FN(make_law_numbers)(&c.kinds, params, g);
+    c.resistance = FN(make_resistance)(params, g);
     return c;
 }

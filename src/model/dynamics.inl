@@ -6,7 +6,13 @@
  *     x' = v                                           - omega e x x
  *     v' = F - f                                       - omega e x v
  *     n' = W x n                                       - omega e x n
- *     W' = 5/(2 eps^2) tau + 5/(2 eps) e x f           - omega e x W   [+ (W.n) W x n : farago2020]
+ *     W' = 5/(2 eps^2) (tau + m) + 5/(2 eps) e x f     - omega e x W   [+ (W.n) W x n : farago2020]
+ *
+ * where m is the torque of the contact's resistances, if it has any.  Hence the slip obeys
+ *
+ *     V' = A - (7/2) f  - omega e x V,     A = F_h - 5/(2 eps) (tau + m) x e   [- eps (W.n) (W x n) x e]
+ *
+ * with the push A, which dry friction sees: f = (2/7) A keeps a contact at rest.
  *
  * The source gives B and its gradient (source/sources.inl), the contact law f (contact/contacts.inl).
  *
@@ -117,11 +123,46 @@ static inline void FN(slip)(const FN(coefficients) * c, const REAL *y, REAL slip
     slip[1] = REAL_MULADD(c->eps, w[0], v[1]);
 }
 
-static inline FN(contact) FN(contact_of)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p)
+/* A, from the force F, the torque `turning` per mass, and `lost`, which dynamics farago2020 adds to W' (NULL:
+ * nothing); linear in all of them, so that it is also how A changes with them. */
+static inline void FN(push)(const FN(coefficients) * c, const REAL force[3], const REAL turning[3],
+                            const REAL *lost, REAL push[2])
 {
+    push[0] = force[0] - c->traction * turning[1];
+    push[1] = force[1] + c->traction * turning[0];
+    if (lost) {
+        push[0] = push[0] - c->eps * lost[1];
+        push[1] = push[1] + c->eps * lost[0];
+    }
+}
+
+/* (W.n) W x n, which dynamics farago2020 adds to W'. */
+static inline void FN(lost_term)(const REAL *n, const REAL *w, REAL out[3])
+{
+    const REAL spin = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
+    out[0] = spin * (w[1] * n[2] - w[2] * n[1]);
+    out[1] = spin * (w[2] * n[0] - w[0] * n[2]);
+    out[2] = spin * (w[0] * n[1] - w[1] * n[0]);
+}
+
+static inline __attribute__((always_inline)) FN(contact)
+    FN(contact_of)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p)
+{
+    const REAL *n = y + FST_NX, *w = y + FST_WX;
     FN(contact) at;
     FN(slip)(c, y, at.slip);
     at.load = FN(load)(c, p->force);
+    at.push[0] = at.push[1] = at.torque[0] = at.torque[1] = at.torque[2] = R(0.0);
+    if (c->kinds.dry) {
+        REAL turning[3], lost[3];
+        FN(resist)(&c->resistance, w, at.load, at.torque);
+        FN(cross)(n, p->b, turning);
+        for (int i = 0; i < 3; ++i)
+            turning[i] = REAL_MULADD(p->strength, turning[i], at.torque[i]);
+        if (c->kinds.gyroscopic_term_lost)
+            FN(lost_term)(n, w, lost);
+        FN(push)(c, p->force, turning, c->kinds.gyroscopic_term_lost ? lost : NULL, at.push);
+    }
     return at;
 }
 
@@ -161,12 +202,35 @@ static inline __attribute__((always_inline)) void FN(dynamics)(const FN(coeffici
     FN(friction)(&c->law, &c->kinds, &contact, friction);
     FN(cross)(n, p->b, twist);
     FN(accelerations)(c, omega, y, p->force, friction, p->strength, twist, dy);
+    for (int i = 0; c->kinds.dry && i < 3; ++i)
+        dy[FST_WX + i] = REAL_MULADD(c->torque, contact.torque[i], dy[FST_WX + i]);
     if (c->kinds.gyroscopic_term_lost) {
-        const REAL spin = w[0] * n[0] + w[1] * n[1] + w[2] * n[2];
-        dy[FST_WX] = dy[FST_WX] + spin * (w[1] * n[2] - w[2] * n[1]);
-        dy[FST_WY] = dy[FST_WY] + spin * (w[2] * n[0] - w[0] * n[2]);
-        dy[FST_WZ] = dy[FST_WZ] + spin * (w[0] * n[1] - w[1] * n[0]);
+        REAL lost[3];
+        FN(lost_term)(n, w, lost);
+        for (int i = 0; i < 3; ++i)
+            dy[FST_WX + i] = dy[FST_WX + i] + lost[i];
     }
+}
+
+/* 1 where the contact rolls without slipping, by its law, else 0. */
+static inline REAL FN(sticks)(const FN(coefficients) * c)
+{
+    if (c->kinds.contact == FST_FRICTION_ROLLING)
+        return R(1.0);
+    if (!c->kinds.paced)
+        return R(0.0);
+    const REAL distance = REAL_ABS(c->law.coulomb.mode - REAL_OF(FST_MODE_STICK));
+    return REAL_SELECT(REAL_LESS(distance, R(0.5)), R(1.0), R(0.0));
+}
+
+/* dt/dtheta of the time in which a step is measured at the state; 1 for laws without modes. */
+static inline REAL FN(pace)(const FN(coefficients) * c, const REAL *y)
+{
+    REAL slip[2];
+    if (!c->kinds.paced)
+        return R(1.0);
+    FN(slip)(c, y, slip);
+    return FN(coulomb_pace)(&c->law.coulomb, slip);
 }
 
 /* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for a caller that observes the state. */

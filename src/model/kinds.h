@@ -4,18 +4,24 @@
 
 #include <festoon/festoon.h>
 
+/* The modes of dry friction (contact/coulomb.inl). */
+enum { FST_MODE_SLIP, FST_MODE_STICK, FST_MODE_ONSET };
+
 typedef struct fst_kinds {
     int source;               /* row of FST_SOURCES (festoon/physics.def) */
     int pieces;               /* that the source is made of: lines */
     int contact;              /* row of FST_CONTACTS */
     int magnetisable;         /* the material has a or b: the general force and torque */
     int gyroscopic_term_lost; /* dynamics farago2020 */
+    int dry;                  /* the law sees the push A and the rotation, and may resist rolling */
+    int paced;                /* the law has modes, and while the bead slips a step measures its own time */
 } fst_kinds;
 
 static inline int fst_kinds_equal(const fst_kinds *a, const fst_kinds *b)
 {
     return a->source == b->source && a->pieces == b->pieces && a->contact == b->contact &&
-           a->magnetisable == b->magnetisable && a->gyroscopic_term_lost == b->gyroscopic_term_lost;
+           a->magnetisable == b->magnetisable && a->gyroscopic_term_lost == b->gyroscopic_term_lost &&
+           a->dry == b->dry && a->paced == b->paced;
 }
 
 /* Whether the contact law takes energy from a bead that slips. */

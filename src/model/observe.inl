@@ -11,6 +11,8 @@ typedef struct FN(seen) {
     REAL v_r, v_alpha, centrifugal; /* v_alpha^2/r */
     REAL slip_r, slip_alpha, slip2;
     REAL friction_power;       /* taken by the contact law: f.V */
+    REAL rolling_power;        /* taken by rolling resistance */
+    REAL sticking;             /* 1 where the contact rolls without slipping, by its law; else 0 */
     REAL spin;                 /* W.n */
     REAL force_r, force_alpha; /* magnetic */
     REAL load;
@@ -52,6 +54,8 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
     o->slip_alpha = REAL_MULSUB(slip[1], ex, slip[0] * ey);
     o->slip2 = SUM_2(slip[0], slip[0], slip[1], slip[1]);
     o->friction_power = FN(friction_loss)(&c->law, &c->kinds, &contact);
+    o->rolling_power = c->kinds.dry ? FN(resistance_loss)(&c->resistance, w, contact.load) : R(0.0);
+    o->sticking = FN(sticks)(c);
     o->load = contact.load;
     o->spin = SUM_3(w[0], n[0], w[1], n[1], w[2], n[2]);
     o->force_r = SUM_2(p->force[0], ex, p->force[1], ey);
@@ -111,4 +115,6 @@ static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, con
     q[FST_Q_N_ALPHAALPHA] = o->n[1] * o->n[1];
     q[FST_Q_N_ALPHAZ] = o->n[1] * o->n[2];
     q[FST_Q_N_ZZ] = o->n[2] * o->n[2];
+    q[FST_Q_STICKING] = o->sticking;
+    q[FST_Q_ROLLING_POWER] = o->rolling_power;
 }

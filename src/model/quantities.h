@@ -31,6 +31,8 @@ enum {
     FST_Q_N_ALPHAALPHA,
     FST_Q_N_ALPHAZ,
     FST_Q_N_ZZ,
+    FST_Q_STICKING, /* 1 while the contact sticks */
+    FST_Q_ROLLING_POWER,
     FST_Q_COUNT
 };
 

@@ -88,6 +88,22 @@ static inline void FN(add_lost_change)(const REAL *n, const REAL *w, const REAL 
         out[i] = REAL_MULADD(dspin, wxn[i], REAL_MULADD(spin, dwxn[i] + wxdn[i], out[i]));
 }
 
+/* The changes of the resistances' torque and of A, from those of the load, the force and the magnet's torque,
+ * which is strength * twist + torque. */
+static inline void FN(dry_change)(const FN(coefficients) * c, const FN(linear) * l, const REAL *y,
+                                  const REAL *tangent, const REAL force[3], const REAL twist[3],
+                                  const REAL torque[3], FN(contact) * by)
+{
+    const REAL *n = y + FST_NX, *w = y + FST_WX, *dn = tangent + FST_NX, *dw = tangent + FST_WX;
+    REAL turning[3], lost[3] = {R(0.0), R(0.0), R(0.0)};
+    FN(resist_change)(&c->resistance, w, l->contact.load, dw, by->load, by->torque);
+    for (int i = 0; i < 3; ++i)
+        turning[i] = REAL_MULADD(l->strength, twist[i], torque[i]) + by->torque[i];
+    if (c->kinds.gyroscopic_term_lost)
+        FN(add_lost_change)(n, w, dn, dw, lost);
+    FN(push)(c, force, turning, c->kinds.gyroscopic_term_lost ? lost : NULL, by->push);
+}
+
 /* The change of d(state)/dt along `tangent` at the state that was linearised. */
 static inline void FN(change_along)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(linear) * l,
                                     const REAL *tangent, REAL *change)
@@ -98,12 +114,17 @@ static inline void FN(change_along)(const FN(coefficients) * c, REAL omega, cons
     FN(pull_change)(c, l, y, tangent, force, turning);
     FN(slip)(c, tangent, by.slip);
     by.load = -force[2];
-    FN(friction_change)(&c->law, &c->kinds, &l->contact, &by, friction);
+    by.push[0] = by.push[1] = by.torque[0] = by.torque[1] = by.torque[2] = R(0.0);
     FN(cross)(dn, l->at.b, twist);
-    FN(accelerations)(c, omega, tangent, force, friction, l->strength, twist, change);
     FN(cross)(n, turning, torque);
+    if (c->kinds.dry)
+        FN(dry_change)(c, l, y, tangent, force, twist, torque, &by);
+    FN(friction_change)(&c->law, &c->kinds, &l->contact, &by, friction);
+    FN(accelerations)(c, omega, tangent, force, friction, l->strength, twist, change);
     for (int i = 0; i < 3; ++i)
         change[FST_WX + i] = REAL_MULADD(c->torque, torque[i], change[FST_WX + i]);
+    for (int i = 0; c->kinds.dry && i < 3; ++i)
+        change[FST_WX + i] = REAL_MULADD(c->torque, by.torque[i], change[FST_WX + i]);
     /* Of the kinematics, which are linear but for the product W x n, that of the tangent's own dW x dn is not
      * wanted: (W - omega e) x dn + dW x n stands in its place. */
     FN(kinematics)(omega, tangent, change);

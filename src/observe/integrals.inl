@@ -52,6 +52,9 @@ static inline void FN(look_at_place)(FN(integrals) * q, const FN(bead_step) * s,
         q->b_reference = REAL_SELECT(renew, seen.b_norm, q->b_reference);
     }
     FN(integrands)(c, state, pull, &seen, q->r_reference, q->b_reference, q->integrands[place]);
+#ifdef REAL_IS_SCALAR
+    FN(pace_integrands)(s, place, FST_Q_COUNT, q->integrands[place]);
+#endif
     q->tracked[place][FST_TRACK_R] = seen.r;
     q->tracked[place][FST_TRACK_B] = seen.b_norm;
     q->tracked[place][FST_TRACK_GAP] = seen.gap2;

@@ -22,17 +22,10 @@
 
 #include <string.h>
 
-/* The drive at a place of the last step: on a ramp it changes within the step. */
-static double drive_at(const fst_flow *flow, int place)
-{
-    const fst_bead_step_double *s = &flow->step;
-    return s->omega + (s->h * FST_PATH_NODE[place]) * s->ramp;
-}
-
 static void see_place(const fst_flow *flow, int place, fst_seen_double *seen)
 {
     const fst_bead_step_double *s = &flow->step;
-    fst_see_double(&s->context.coefficients, drive_at(flow, place), FST_PATH_STATE(s, place),
+    fst_see_double(&s->context.coefficients, fst_flow_drive_at_place(flow, place), FST_PATH_STATE(s, place),
                    FST_PATH_PULL(s, place), seen);
 }
 
@@ -87,7 +80,7 @@ void fst_quadrature_step(fst_quadrature *q, fst_flow *flow, int renew)
     const fst_bead_step_double *s = &flow->step;
     fst_add_increments_double(&q->sums, 1);
     for (int place = 0; place < FST_PATH_PLACES; ++place)
-        fst_look_at_place_double(&q->sums, s, drive_at(flow, place), place, renew);
+        fst_look_at_place_double(&q->sums, s, fst_flow_drive_at_place(flow, place), place, renew);
     fst_integrate_step_double(&q->sums, s, 1);
     q->has_dense = 0;
     fst_quadrature_follow(q, flow, flow->step.end);
@@ -106,6 +99,7 @@ static void make_dense(fst_quadrature *q, fst_flow *flow)
         fst_integrands_double(&s->context.coefficients, FST_PATH_STATE(s, place), FST_PATH_PULL(s, place),
                               &seen, q->sums.r_reference, q->sums.b_reference,
                               q->between[place - FST_PATH_PLACES]);
+        fst_pace_integrands_double(s, place, FST_Q_COUNT, q->between[place - FST_PATH_PLACES]);
     }
     fst_path_dense_double(s, FST_Q_COUNT, q->sums.increment, &q->sums.integrands[0][0], &q->between[0][0],
                           &q->dense[0][0]);

@@ -59,7 +59,7 @@ static int is_period_needed(const fst_window *w, int64_t period)
 
 /* Whether a whole period, counted from the span's beginning, ends by the end of the last step, and its fraction
  * *x there. */
-static int period_ends(const fst_window *w, const fst_flow *flow, int64_t period, double *x)
+static int period_ends(const fst_window *w, fst_flow *flow, int64_t period, double *x)
 {
     const double until = w->span.until, t_high = w->span.from + (double)period * w->period;
     const fst_twofold t = {t_high > until * (1 - 1e-15) ? until : t_high, 0.0};
@@ -84,7 +84,7 @@ void fst_window_mark_periods(fst_window *w, fst_flow *flow)
     }
 }
 
-int fst_window_period_needs_integrals(const fst_window *w, const fst_flow *flow)
+int fst_window_period_needs_integrals(const fst_window *w, fst_flow *flow)
 {
     double x;
     int needed = 0;

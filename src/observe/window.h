@@ -62,7 +62,7 @@ void fst_window_look(fst_window *w, fst_flow *flow, int seek_extremes);
 void fst_window_mark_periods(fst_window *w, fst_flow *flow);
 
 /* Whether a mark of a period that ends in the flow's last step needs integrals. */
-int fst_window_period_needs_integrals(const fst_window *w, const fst_flow *flow);
+int fst_window_period_needs_integrals(const fst_window *w, fst_flow *flow);
 
 /* The end of a step: the speed there, and where the window is open the range of Phi.  This is all there is to
  * do for a step that holds no mark, no return and no extreme. */

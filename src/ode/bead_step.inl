@@ -8,12 +8,20 @@
  *                              (as often as it takes)       stage 13 at the end     stage 13 becomes stage 1
  *
  * The magnet's pull is kept at every stage, because integrals and events need it there (path.h).
+ *
+ * The step's own time.  Under a law with modes a step is measured not in time t but in theta, with dt = pace
+ * dtheta, and the pace follows from the state (model/contact/coulomb.inl).  The derivatives at the stages are
+ * then those by theta.  The pace is kept at every stage too: its integral over the step is the time that
+ * passes.  Under other laws theta is t, and none of this is done.  Lanes have no such laws.
  */
 #include "ode/dop853_tableau.h"
 
 typedef struct FN(bead) {
     FN(coefficients) coefficients;
     FN(pull) pull[16]; /* at the stages */
+#ifdef REAL_IS_SCALAR
+    REAL pace[16]; /* and dt/dtheta, under a law with modes */
+#endif
 } FN(bead);
 
 #define STEP_DIM FST_STATE_SIZE
@@ -30,6 +38,41 @@ typedef struct FN(bead) {
     FN(pull_and_dynamics)                                                                                      \
     (&(s)->context.coefficients, (s)->stage[(next)-1], &(s)->context.pull[(next)-1], drive, (s)->stage[(j)-1], \
      &(s)->context.pull[(j)-1], (s)->k[(j)-1])
+#elif defined REAL_IS_SCALAR
+/* The derivative of the state `y` by theta at a stage. */
+static inline void FN(paced_rhs)(FN(bead) * bead, REAL drive, const REAL *y, int stage, REAL *k)
+{
+    const FN(coefficients) *c = &bead->coefficients;
+    FN(rhs)(c, drive, y, k, &bead->pull[stage]);
+    if (!c->kinds.paced)
+        return;
+    const REAL pace = bead->pace[stage] = FN(pace)(c, y);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        k[i] = pace * k[i];
+}
+
+/* On a ramp: the time since the start of a step of the size h (in theta) at one of its stages, by the method's
+ * own weights. */
+static inline REAL FN(stage_time)(const FN(bead) * bead, REAL h, int stage)
+{
+    static const REAL weights[16][15] = DOP_WEIGHTS;
+    REAL sum = R(0.0);
+    for (int i = 0; i < 15 && i < stage; ++i)
+        sum += weights[stage][i] * bead->pace[i];
+    return h * sum;
+}
+
+/* The drive there: `drive` is what it is where theta is t. */
+static inline REAL FN(stage_drive)(const FN(bead) * bead, REAL h, REAL omega, REAL ramp, REAL drive, int stage)
+{
+    return bead->coefficients.kinds.paced && ramp != R(0.0) ? omega + ramp * FN(stage_time)(bead, h, stage)
+                                                            : drive;
+}
+
+#define STEP_DERIVATIVES(s, drive, j)                                                                          \
+    FN(paced_rhs)                                                                                              \
+    (&(s)->context, FN(stage_drive)(&(s)->context, (s)->h, (s)->omega, (s)->ramp, drive, (j)-1),               \
+     (s)->stage[(j)-1], (j)-1, (s)->k[(j)-1])
 #else
 #define STEP_DERIVATIVES(s, drive, j)                                                                          \
     FN(rhs)(&(s)->context.coefficients, drive, (s)->stage[(j)-1], (s)->k[(j)-1], &(s)->context.pull[(j)-1])
@@ -54,13 +97,29 @@ static inline REAL FN(renormalise)(REAL *y)
     return REAL_ABS(norm - R(1.0));
 }
 
+/* Take the slip, which rounding brings in, out of a state that rolls. */
+static inline void FN(stop_slip)(const FN(coefficients) * c, REAL *y)
+{
+    y[FST_VX] = c->eps * y[FST_WY];
+    y[FST_VY] = -(c->eps * y[FST_WX]);
+}
+
 /* The end of an accepted step: n is renormalised, and stage 13, the first of the next step, is evaluated. */
 static inline REAL FN(finish_step)(FN(bead_step) * s)
 {
     const REAL drift = FN(renormalise)(s->end);
+#ifdef REAL_IS_SCALAR
+    if (s->context.coefficients.kinds.dry && FN(sticks)(&s->context.coefficients) > R(0.5))
+        FN(stop_slip)(&s->context.coefficients, s->end);
+#endif
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         s->stage[12][i] = s->end[i];
+#ifdef REAL_IS_SCALAR
+    const REAL drive = FN(stage_drive)(&s->context, s->h, s->omega, s->ramp, s->omega + s->h * s->ramp, 12);
+    FN(paced_rhs)(&s->context, drive, s->end, 12, s->k[12]);
+#else
     FN(rhs)(&s->context.coefficients, s->omega + s->h * s->ramp, s->end, s->k[12], &s->context.pull[12]);
+#endif
     return drift;
 }
 
@@ -76,6 +135,9 @@ static inline void FN(next_step_where)(FN(bead_step) * s, REAL_MASK mask)
     const REAL *from = (const REAL *)&s->context.pull[12];
     for (size_t i = 0; i < sizeof(FN(pull)) / sizeof(REAL); ++i)
         to[i] = REAL_SELECT(mask, from[i], to[i]);
+#ifdef REAL_IS_SCALAR
+    s->context.pace[0] = REAL_SELECT(mask, s->context.pace[12], s->context.pace[0]);
+#endif
 }
 
 /* The same in all lanes, where the drive is now `omega`. */
@@ -90,5 +152,9 @@ static inline void FN(begin_steps)(FN(bead_step) * s)
 {
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         s->stage[0][i] = s->y[i];
+#ifdef REAL_IS_SCALAR
+    FN(paced_rhs)(&s->context, s->omega, s->y, 0, s->k[0]);
+#else
     FN(rhs)(&s->context.coefficients, s->omega, s->y, s->k[0], &s->context.pull[0]);
+#endif
 }

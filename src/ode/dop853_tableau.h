@@ -176,4 +176,27 @@ enum { DOP_TRY_EVALUATIONS = 11 };
 #define DOP_D7_15 R(-0.39177261675615439165231486172e+2)
 #define DOP_D7_16 R(-0.14972683625798562581422125276e+3)
 
+/* The weights of the stages in each stage, and of the stages in the end (row 12, that of stage 13), counted
+ * from 0. */
+#define DOP_WEIGHTS                                                                                            \
+    {                                                                                                          \
+        {0}, {DOP_A2_1}, {DOP_A3_1, DOP_A3_2}, {DOP_A4_1, 0, DOP_A4_3}, {DOP_A5_1, 0, DOP_A5_3, DOP_A5_4},     \
+            {DOP_A6_1, 0, 0, DOP_A6_4, DOP_A6_5}, {DOP_A7_1, 0, 0, DOP_A7_4, DOP_A7_5, DOP_A7_6},              \
+            {DOP_A8_1, 0, 0, DOP_A8_4, DOP_A8_5, DOP_A8_6, DOP_A8_7},                                          \
+            {DOP_A9_1, 0, 0, DOP_A9_4, DOP_A9_5, DOP_A9_6, DOP_A9_7, DOP_A9_8},                                \
+            {DOP_A10_1, 0, 0, DOP_A10_4, DOP_A10_5, DOP_A10_6, DOP_A10_7, DOP_A10_8, DOP_A10_9},               \
+            {DOP_A11_1, 0, 0, DOP_A11_4, DOP_A11_5, DOP_A11_6, DOP_A11_7, DOP_A11_8, DOP_A11_9, DOP_A11_10},   \
+            {DOP_A12_1, 0,         0,         DOP_A12_4,  DOP_A12_5, DOP_A12_6,                                \
+             DOP_A12_7, DOP_A12_8, DOP_A12_9, DOP_A12_10, DOP_A12_11},                                         \
+            {DOP_B1, 0, 0, 0, 0, DOP_B6, DOP_B7, DOP_B8, DOP_B9, DOP_B10, DOP_B11, DOP_B12},                   \
+            {DOP_A14_1, 0,         0,          0,          0,          0,         DOP_A14_7,                   \
+             DOP_A14_8, DOP_A14_9, DOP_A14_10, DOP_A14_11, DOP_A14_12, DOP_A14_13},                            \
+            {DOP_A15_1, 0, 0, 0,          0,          DOP_A15_6,  DOP_A15_7,                                   \
+             DOP_A15_8, 0, 0, DOP_A15_11, DOP_A15_12, DOP_A15_13, DOP_A15_14},                                 \
+        {                                                                                                      \
+            DOP_A16_1, 0, 0, 0, 0, DOP_A16_6, DOP_A16_7, DOP_A16_8, DOP_A16_9, 0, 0, 0, DOP_A16_13,            \
+                DOP_A16_14, DOP_A16_15                                                                         \
+        }                                                                                                      \
+    }
+
 #endif

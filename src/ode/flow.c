@@ -23,80 +23,10 @@
 #include "ode/flow.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
 #include "base/error.h"
-#include "model/params.h"
-
-fst_flow_options fst_default_flow_options(void)
-{
-    fst_flow_options o;
-    memset(&o, 0, sizeof o);
-    o.cookie = FST_FLOW_OPTIONS_COOKIE;
-    o.rtol = 1e-10;
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        o.atol[i] = 1e-10;
-    return o;
-}
-
-static fst_status check_options(const fst_flow_options *o, const double *state, fst_error *error)
-{
-    const char *where = "fst_flow_new";
-    if (o->cookie != FST_FLOW_OPTIONS_COOKIE)
-        return fst_fail(error, FST_BAD_INPUT, where, "the options were not made by fst_default_flow_options()");
-    if (!(o->rtol >= 1e-16 && o->rtol <= 0.1))
-        return fst_fail(error, FST_BAD_INPUT, where, "rtol = %g is out of range: 1e-16 to 0.1", o->rtol);
-    for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        if (!(o->atol[i] > 0) || !isfinite(o->atol[i]))
-            return fst_fail(error, FST_BAD_INPUT, where, "atol[%d] = %g must be positive", i, o->atol[i]);
-        if (!isfinite(state[i]))
-            return fst_fail(error, FST_BAD_INPUT, where, "component %d of the start state is not finite", i);
-    }
-    if (!isfinite(o->ramp) || !(o->greatest_step >= 0) || !(o->first_step >= 0))
-        return fst_fail(error, FST_BAD_INPUT, where, "ramp or step bounds are not finite and non-negative");
-    return FST_OK;
-}
-
-fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
-                        const double state[FST_STATE_SIZE], fst_flow **flow, fst_error *error)
-{
-    *flow = NULL;
-    const fst_status status = check_options(options, state, error);
-    if (status != FST_OK)
-        return status;
-    fst_flow *made = calloc(1, sizeof *made);
-    if (!made)
-        return fst_fail(error, FST_NO_MEMORY, "fst_flow_new", "out of memory");
-    fst_bead_step_double *s = &made->step;
-    s->context.coefficients = model->coefficients;
-    made->groups = model->groups;
-    made->rtol = options->rtol;
-    memcpy(made->atol, options->atol, sizeof made->atol);
-    s->ramp = options->ramp;
-    made->omega_start = model->groups.omega;
-    memcpy(s->y, state, sizeof s->y);
-    (void)fst_renormalise_double(s->y);
-    fst_bead_flow_begin(made, options->first_step, options->greatest_step);
-    made->bead_angle.x = s->y[FST_X];
-    made->bead_angle.y = s->y[FST_Y];
-    made->bead_angle_start = made->bead_angle;
-    made->cursor = 1.0;
-    *flow = made;
-    return FST_OK;
-}
-
-void fst_flow_restart(fst_flow *flow)
-{
-    fst_bead_flow_restart(flow);
-    flow->bead_angle_start = flow->bead_angle;
-}
-
-void fst_flow_free(fst_flow *flow)
-{
-    free(flow);
-}
 
 double fst_flow_omega(const fst_flow *flow, fst_twofold t)
 {
@@ -175,16 +105,6 @@ fst_status fst_flow_fail(const fst_flow *flow, fst_error *error)
         where, flow->control.worst_error, flow->control.size);
 }
 
-fst_status fst_flow_step(fst_flow *flow, double t_limit, fst_error *error)
-{
-    if (!fst_bead_flow_go(flow, t_limit))
-        return fst_flow_fail(flow, error);
-    flow->bead_angle_start = flow->bead_angle;
-    flow->cursor = 1.0;
-    fst_flow_follow(flow, flow->step.end);
-    return FST_OK;
-}
-
 void fst_flow_make_dense(fst_flow *flow)
 {
     fst_bead_flow_form_dense(flow);
@@ -195,28 +115,45 @@ void fst_flow_at(fst_flow *flow, double x, double state[FST_STATE_SIZE])
     fst_bead_flow_state_at(flow, x, state);
 }
 
-const double *fst_flow_slope(const fst_flow *flow)
+void fst_flow_slope(const fst_flow *flow, double slope[FST_STATE_SIZE])
 {
-    return FST_PATH_SLOPE(&flow->step, FST_PATH_END);
+    memcpy(slope, FST_PATH_SLOPE(&flow->step, FST_PATH_END), FST_STATE_SIZE * sizeof *slope);
+    if (flow->step.context.coefficients.kinds.paced) { /* the step's own are not by time */
+        fst_pull_double unused;
+        fst_rhs_double(&flow->step.context.coefficients, fst_flow_omega(flow, flow->t), flow->step.end, slope,
+                       &unused);
+    }
 }
 
 double fst_flow_speed(const fst_flow *flow)
 {
-    const double *slope = fst_flow_slope(flow);
-    double greatest = 0.0;
+    double greatest = 0.0, slope[FST_STATE_SIZE];
+    fst_flow_slope(flow, slope);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         greatest = fabs(slope[i]) > greatest ? fabs(slope[i]) : greatest;
     return greatest;
 }
 
-double fst_flow_fraction(const fst_flow *flow, fst_twofold t)
+double fst_flow_fraction(fst_flow *flow, fst_twofold t)
 {
-    return fst_twofold_difference(t, flow->t_start) / flow->step.h;
+    const double since_start = fst_twofold_difference(t, flow->t_start);
+    if (flow->step.context.coefficients.kinds.paced)
+        return fst_contact_fraction(flow, since_start);
+    return since_start / flow->step.h;
 }
 
-fst_twofold fst_flow_time(const fst_flow *flow, double x)
+fst_twofold fst_flow_time(fst_flow *flow, double x)
 {
+    if (flow->step.context.coefficients.kinds.paced && x != 1.0)
+        return fst_twofold_add(flow->t_start, fst_contact_time(flow, x));
     return fst_bead_flow_time_at(flow, x);
+}
+
+double fst_flow_drive_at_place(const fst_flow *flow, int place)
+{
+    const fst_bead_step_double *s = &flow->step;
+    const double by_node = s->omega + (s->h * FST_PATH_NODE[place]) * s->ramp;
+    return fst_stage_drive_double(&s->context, s->h, s->omega, s->ramp, by_node, FST_PATH_STAGE_[place]);
 }
 
 void fst_flow_drive_turns(const fst_flow *flow, fst_twofold t, double *whole, double *rest)

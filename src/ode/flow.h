@@ -12,6 +12,18 @@
 #include "ode/path.inl"
 #include "ode/step_control.inl"
 
+/* The contact of a bead under a law with modes (contact.c). */
+typedef struct fst_contact_state {
+    int next_mode;      /* begins with the next step; -1: the mode goes on */
+    int64_t captures;   /* slips that have come to rest */
+    double proposal[3]; /* size of the next step in each mode */
+    double clock[8];    /* dense output of the time over the last step, */
+    int has_clock;      /* once formed */
+} fst_contact_state;
+
+/* The error of a bead's step over its tolerance. */
+double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *atol);
+
 #define FLOW_DIM FST_STATE_SIZE
 #define FLOW_TAG fst_flow
 #define FLOW_NAME(name) fst_bead_flow_##name
@@ -24,11 +36,15 @@
     do {                                                                                                       \
         fst_pull_double unused;                                                                                \
         fst_rhs_double(&(s)->context.coefficients, (s)->omega, y, dy, &unused);                                \
+        const double pace_here = fst_pace_double(&(s)->context.coefficients, y);                               \
+        for (int component = 0; component < FST_STATE_SIZE; ++component)                                       \
+            (dy)[component] *= pace_here;                                                                      \
     } while (0)
+#define FLOW_ERROR(flow) fst_bead_error(&(flow)->step, (flow)->rtol, (flow)->atol)
 /* What a bead's flow has besides: the angle of the drive at ramp_start; Phi at step.y and at step.end; and
  * where the caller of fst_flow_advance() is: how far into the last step (0 to 1), the time there (where that
  * was asked for), the sign of X there (0 before the first step), and the bounds (1 << FST_STOP_*) that were
- * reported and from which the bead has not come back. */
+ * reported and from which the bead has not come back; and the contact, under a law with modes. */
 #define FLOW_MEMBERS                                                                                           \
     fst_groups groups;                                                                                         \
     fst_twofold phase_start;                                                                                   \
@@ -36,7 +52,8 @@
     double cursor;                                                                                             \
     fst_twofold cursor_time;                                                                                   \
     int section_side;                                                                                          \
-    unsigned beyond;
+    unsigned beyond;                                                                                           \
+    fst_contact_state contact;
 
 #include "ode/flow.inl"
 
@@ -67,11 +84,26 @@ fst_winding fst_flow_bead_angle(fst_flow *flow, double x);
 double fst_flow_speed(const fst_flow *flow);
 
 /* d(state)/dt at the end of the last step. */
-const double *fst_flow_slope(const fst_flow *flow);
+void fst_flow_slope(const fst_flow *flow, double slope[FST_STATE_SIZE]);
 
 /* The fraction of the last step at which the time t lies, and the time at a fraction. */
-double fst_flow_fraction(const fst_flow *flow, fst_twofold t);
-fst_twofold fst_flow_time(const fst_flow *flow, double x);
+double fst_flow_fraction(fst_flow *flow, fst_twofold t);
+fst_twofold fst_flow_time(fst_flow *flow, double x);
+
+/* The drive at a place of the last step: on a ramp it changes within the step. */
+double fst_flow_drive_at_place(const fst_flow *flow, int place);
+
+/* Dry friction (contact.c): the mode in which a bead begins that is put down in a state, whose slip it may not
+ * have; and one step. */
+void fst_contact_put_down(fst_flow *flow, double *state);
+fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error);
+
+/* Steps under a law with modes (pace.c): the mode of the last step; the time that it took; the fraction at a
+ * time since its start, and the other way round. */
+int fst_contact_mode(const fst_flow *flow);
+double fst_contact_elapsed(const fst_flow *flow);
+double fst_contact_fraction(fst_flow *flow, double since_start);
+double fst_contact_time(fst_flow *flow, double x);
 
 /* Let the drive change at this rate from now on; the flow must be at the end of a step. */
 void fst_flow_begin_ramp(fst_flow *flow, double rate);

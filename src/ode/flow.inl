@@ -25,22 +25,26 @@
  * - FLOW_NEXT(s, omega): make the end the start of the next step, where the drive is omega;
  * - FLOW_PROJECT(y): put a state of the dense output back to where states lie;
  * - FLOW_DERIVATIVE(s, y, dy): the right-hand side at a state, outside any step;
+ * - FLOW_ERROR(flow), if its steps are judged by more than the method's own error: the error of a tried step
+ * over its tolerance;
  * - FLOW_MEMBERS: what else belongs to a flow.
  *
  * What changes at an instant.  Between two events the right-hand side is smooth, and everything that it depends
- * on besides the state lies in step.context, constant within a step.  A mode of contact (a bead that sticks or
- * slides) belongs there.  It changes like this: the event's function of the state is watched from step to step;
- * where it changes sign, its zero x in the last step is located; cut(x) ends that step there and forgets the
- * rest; the mode in step.context is changed; restart() evaluates the first stage anew under the new mode.
+ * on besides the state lies in step.context, constant within a step.  The mode of a contact (a bead that sticks
+ * or slides) is there.  It changes between two steps: contact.c ends a step where a mode ends, changes the
+ * mode, and restart() evaluates the first stage anew under the new one.
  *
  *     step.y o-----___            mode 0
- *                     ---o        <- zero at x: cut(x), change the mode, restart()
- *                        :`.
- *                  mode 1:  ` . . . step.end, forgotten
+ *                     ---o        <- the event: the step is made anew, as long as up to here
  *                         \
+ *                  mode 1  `---___o step.end
  *
  * Smooth variables of a law join the state: they raise FLOW_DIM.
  */
+#ifndef FLOW_ERROR
+#define FLOW_ERROR(flow) FLOW_STEP(step_error)(&(flow)->step, (flow)->rtol, (flow)->atol)
+#endif
+
 typedef struct FLOW_TAG {
     FLOW_STEP(step) step; /* the last accepted step, from step.y to step.end */
     REAL rtol, atol[FLOW_DIM];
@@ -128,25 +132,29 @@ static inline void FLOW_NAME(pass)(FLOW_NAME(type) * flow, REAL t_limit)
     flow->has_dense = 0;
 }
 
-/* Make one accepted step towards t_limit, forward or backward in time, landing on it exactly where it is in
- * reach. 0: the step was given up (step_control.inl), and the flow stays at the end of its last good step. */
-static inline int FLOW_NAME(go)(FLOW_NAME(type) * flow, REAL t_limit)
+/* The end of the last step, if there is one, becomes the start of the next. */
+static inline void FLOW_NAME(prepare)(FLOW_NAME(type) * flow)
+{
+    if (!flow->has_step)
+        return;
+    FLOW_NEXT(&flow->step, FLOW_NAME(omega)(flow, flow->t));
+    flow->has_step = 0;
+}
+
+/* Make one accepted step of a way whose end is `rest` away; the time is its caller's to pass.  0: the step was
+ * given up (step_control.inl), and the flow stays at the end of its last good step. */
+static inline int FLOW_NAME(try_until_good)(FLOW_NAME(type) * flow, REAL rest)
 {
     FLOW_STEP(step) *s = &flow->step;
     FN(step_control) *control = &flow->control;
-    if (flow->has_step) {
-        FLOW_NEXT(s, FLOW_NAME(omega)(flow, flow->t));
-        flow->has_step = 0;
-    }
-    FN(plan_step)(control, REAL_EVERYWHERE, FN(twofold_difference)((FN(twofold)){t_limit, R(0.0)}, flow->t));
+    FN(plan_step)(control, REAL_EVERYWHERE, rest);
     for (;;) {
         s->h = control->size;
         FLOW_STEP(try_step)(s);
         flow->rhs_calls += DOP_TRY_EVALUATIONS;
-        const REAL error = FLOW_STEP(step_error)(s, flow->rtol, flow->atol), factor = FN(step_factor)(error);
+        const REAL error = FLOW_ERROR(flow), factor = FN(step_factor)(error);
         if (error <= R(1.0)) {
             flow->norm_drift += FLOW_FINISH(s);
-            FLOW_NAME(pass)(flow, t_limit);
             FN(accept_step)(control, REAL_EVERYWHERE, factor, FST_HOLD_AFTER_REJECTION);
             return 1;
         }
@@ -156,6 +164,18 @@ static inline int FLOW_NAME(go)(FLOW_NAME(type) * flow, REAL t_limit)
     }
     memcpy(s->end, s->y, sizeof s->end);
     return 0;
+}
+
+/* Make one accepted step towards t_limit, forward or backward in time, landing on it exactly where it is in
+ * reach. 0: the step was given up, and the flow stays at the end of its last good step. */
+static inline int FLOW_NAME(go)(FLOW_NAME(type) * flow, REAL t_limit)
+{
+    FLOW_NAME(prepare)(flow);
+    const FN(twofold) limit = {t_limit, R(0.0)};
+    if (!FLOW_NAME(try_until_good)(flow, FN(twofold_difference)(limit, flow->t)))
+        return 0;
+    FLOW_NAME(pass)(flow, t_limit);
+    return 1;
 }
 
 /* Form the dense output of the last step, unless that is done. */
@@ -202,4 +222,5 @@ static inline void FLOW_NAME(cut)(FLOW_NAME(type) * flow, REAL x)
 #undef FLOW_NEXT
 #undef FLOW_PROJECT
 #undef FLOW_DERIVATIVE
+#undef FLOW_ERROR
 #undef FLOW_MEMBERS

@@ -28,6 +28,8 @@ static const int FST_PATH_STAGE_[FST_DENSE_PLACES] = {0, 6, 7, 5, 9, 8, 10, 11, 
 #define FST_PATH_STATE(step, place) ((step)->stage[FST_PATH_STAGE_[place]])
 #define FST_PATH_SLOPE(step, place) ((step)->k[FST_PATH_STAGE_[place]])
 #define FST_PATH_PULL(step, place) (&(step)->context.pull[FST_PATH_STAGE_[place]])
+#define FST_PATH_PACE(step, place)                                                                             \
+    ((step)->context.pace[FST_PATH_STAGE_[place]]) /* dt/dtheta, see bead_step.inl */
 
 /* Their nodes. */
 static const double FST_PATH_NODE[FST_DENSE_PLACES] = {

@@ -18,6 +18,16 @@ static inline __attribute__((always_inline)) REAL FN(path_integral)(const FN(bea
     return s->h * sum;
 }
 
+#ifdef REAL_IS_SCALAR
+/* What integrates to time integrals: the integrands q times dt/dtheta at a place, under a law with modes. */
+static inline void FN(pace_integrands)(const FN(bead_step) * s, int place, int dim, REAL *q)
+{
+    if (s->context.coefficients.kinds.paced)
+        for (int i = 0; i < dim; ++i)
+            q[i] = FST_PATH_PACE(s, place) * q[i];
+}
+#endif
+
 /* The dense output of the integrals over the step of `dim` quantities: coefficients for evaluate_dense(), from
  * the quantities at the path's places and at those that the dense output adds. */
 static inline void FN(path_dense)(const FN(bead_step) * s, int dim, const REAL *increments, const REAL *path,

@@ -298,8 +298,8 @@ static double speed_at_end(const fst_watched_run *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
     const int n_is_free = c->hard == 0.0 && c->twice_b == 0.0;
-    const double *slope = fst_flow_slope(run->flow);
-    double speed = 0.0;
+    double speed = 0.0, slope[FST_STATE_SIZE];
+    fst_flow_slope(run->flow, slope);
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
         const double component = fabs(slope[i]);
         if (component > speed && !(n_is_free && i >= FST_NX && i <= FST_NZ))

@@ -15,30 +15,36 @@
  * All by + - * / and square roots.  The equations of motion, their tangents, energies, orbits and lanes follow.
  *
  * Modes.  A law that is no single smooth function, such as dry friction, which slips or sticks, has several
- * smooth modes (the column `modes` of physics.def).  Such a law will supply, besides, for each mode: f and its
- * change in that mode (contact.mode says which; with lanes, a number of each lane, by which f is selected
- * without a branch); the functions of the state whose zeros end the mode, located as other events are
- * (ode/events.c); and the transition there: the mode that follows, the state's jump if there is one, and the
- * matrix by which tangents jump.  Between two transitions it may have smooth variables of its own (a slip speed
- * and direction, a stretched time), to and from which it maps the state.  No law has this yet, so the flow has
- * no transitions, and a row with more than one mode does not compile.
+ * smooth modes (the column `modes` of physics.def).  Its numbers say in which mode the bead is, constant within
+ * a step; ode/contact.c decides when a mode ends and which one follows.  Only dry friction has that, so a row
+ * of your own with more than one mode does not compile.
+ *
+ * Resistances.  The dry laws also act by a torque on a bead that rolls (resistance.inl).
  */
 
-/* What a law sees of the contact.  A law that needs more, as the angular velocity for rolling resistance, adds
- * it here and in contact_of() and its tangent (dynamics.inl, tangent.inl). */
+/* What a law sees of the contact.  A law that needs more adds it here and in contact_of() and its tangent
+ * (dynamics.inl, tangent.inl). */
 typedef struct FN(contact) {
     REAL slip[2]; /* V, velocity of the contact point */
     REAL load;    /* N, normal load per mass */
+    /* For the dry laws only (kinds.dry): */
+    REAL push[2];   /* A: V' = A - (7/2) f */
+    REAL torque[3]; /* m, that of the resistances, per mass */
 } FN(contact);
 
+#include "model/contact/resistance.inl"
+
+#include "model/contact/coulomb.inl"
 #include "model/contact/none.inl"
+#include "model/contact/rolling.inl"
 #include "model/contact/viscous.inl"
 #ifdef FST_OWN_CONTACT_BODIES
 #include FST_OWN_CONTACT_BODIES
 #endif
 
 #define ONE_MODE(NAME, name, modes, brakes, doc)                                                               \
-    _Static_assert((modes) == 1, "contact law " #name ": the flow has no transitions between modes yet");
+    _Static_assert((modes) == 1 || FST_FRICTION_##NAME == FST_FRICTION_COULOMB,                                \
+                   "contact law " #name ": the flow knows the transitions of dry friction only");
 FST_CONTACTS(ONE_MODE)
 #undef ONE_MODE
 

@@ -1,0 +1,122 @@
+/* coulomb.inl - the contact law `coulomb`: dry friction, over REAL.
+ *
+ * The plate's force on a contact that slips is mu N against the slip, whatever the speed.  A contact at rest
+ * takes any force up to mu_s N, just what it needs to stay at rest: the bead rolls.  With A, the rate at which
+ * the slip V would change without the plate's friction, V' = A - (7/2) f (dynamics.inl), and so
+ *
+ *     mode    while                    f
+ *     slip    V != 0                   mu(|V|) N V/|V| + rate V
+ *     stick   |A| <= (7/2) mu_s N      (2/7) A:  V stays 0
+ *     onset   just released            mu(|V|) N u, u near A/|A|
+ *
+ * Onset.  Where |A| grows past (7/2) mu_s N and sliding friction is no weaker than static, the slip begins with
+ * no speed and hardly any acceleration.  Its direction u follows A at the rate |A|/|V|, without bound, so that
+ * it cannot be integrated; but just therefore it is known: it lags behind A by the angle lean |V|, where
+ * lean = (rate at which A turns in space)/(2 |A| - (7/2) mu N).
+ *
+ * Stribeck: mu(s) = mu_d + (mu_s - mu_d)/(1 + (s/v_S)^2).  Without a speed v_S friction falls at once.
+ */
+typedef struct FN(coulomb) {
+    REAL mode;         /* FST_MODE_* (model/kinds.h): constant within a step */
+    REAL lean;         /* of the onset */
+    REAL sliding;      /* mu_d */
+    REAL fall;         /* mu_s - mu_d where a Stribeck speed is given, else 0 */
+    REAL holding;      /* mu_s */
+    REAL stribeck;     /* 1/v_S^2, else 0 */
+    REAL rate;         /* viscous part, in gamma */
+    REAL usual_slip_2; /* s_r^2 of the pace */
+} FN(coulomb);
+
+static inline FN(coulomb) FN(make_coulomb)(const fst_params *params, const fst_groups *g)
+{
+    const double sliding = params->friction_mu, speed_si = params->friction_stribeck_speed;
+    const double holding = isnan(params->friction_mu_static) ? sliding : params->friction_mu_static;
+    const double speed = speed_si * g->time_unit / g->length_unit;
+    const FN(coulomb) law = {
+        .mode = R(0.0),
+        .lean = R(0.0),
+        .sliding = REAL_OF(sliding),
+        .fall = REAL_OF(isnan(speed) ? 0.0 : holding - sliding),
+        .holding = REAL_OF(holding),
+        .stribeck = REAL_OF(isnan(speed) ? 0.0 : 1.0 / (speed * speed)),
+        .rate = REAL_OF(params->friction_contact_rate * g->time_unit),
+        .usual_slip_2 = R(0.0025),
+    };
+    return law;
+}
+
+/* mu at the slip speed whose square is s2, and its derivative by s2. */
+static inline REAL FN(coulomb_mu)(const FN(coulomb) * law, REAL s2)
+{
+    return law->sliding + law->fall / (R(1.0) + s2 * law->stribeck);
+}
+
+static inline REAL FN(coulomb_mu_by_s2)(const FN(coulomb) * law, REAL s2)
+{
+    const REAL part = R(1.0) + s2 * law->stribeck;
+    return -(law->fall * law->stribeck / (part * part));
+}
+
+/* A bead that has lost the plate is not pulled by it. */
+static inline REAL FN(coulomb_load)(const FN(contact) * at)
+{
+    return REAL_MAX(at->load, R(0.0));
+}
+
+static inline void FN(coulomb_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
+{
+    const REAL *v = at->slip, *a = at->push;
+    const REAL s2 = SUM_2(v[0], v[0], v[1], v[1]), dry = FN(coulomb_mu)(law, s2) * FN(coulomb_load)(at);
+    const REAL inverse_s = REAL_RECIPROCAL_SQRT(s2 + R(1e-290));
+    const REAL inverse_a = REAL_RECIPROCAL_SQRT(SUM_2(a[0], a[0], a[1], a[1]) + R(1e-290));
+    const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a}; /* A/|A|, and u as it lags behind */
+    const REAL lag = law->lean * SUM_2(v[0], ahead[0], v[1], ahead[1]);
+    const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
+    const REAL u[2] = {(ahead[0] + lag * ahead[1]) * inverse_u, (ahead[1] - lag * ahead[0]) * inverse_u};
+    const REAL_MASK sticks = REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
+    const REAL_MASK slips = REAL_LESS(law->mode, R(0.5));
+    for (int i = 0; i < 2; ++i) {
+        const REAL slipping = REAL_MULADD(law->rate, v[i], dry * REAL_SELECT(slips, v[i] * inverse_s, u[i]));
+        force[i] = REAL_SELECT(sticks, R(2.0) / R(7.0) * a[i], slipping);
+    }
+}
+
+/* In onset, which lasts for moments, as in slip. */
+static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
+                                      REAL change[2])
+{
+    const REAL *v = at->slip, *dv = by->slip;
+    const REAL s2 = SUM_2(v[0], v[0], v[1], v[1]), inverse_s = REAL_RECIPROCAL_SQRT(s2 + R(1e-290));
+    const REAL u[2] = {v[0] * inverse_s, v[1] * inverse_s};
+    const REAL mu = FN(coulomb_mu)(law, s2), load = FN(coulomb_load)(at);
+    const REAL dload = REAL_SELECT(REAL_LESS(R(0.0), at->load), by->load, R(0.0));
+    const REAL along = SUM_2(u[0], dv[0], u[1], dv[1]), across = SUM_2(u[0], dv[1], -u[1], dv[0]);
+    const REAL ds2 = R(2.0) * SUM_2(v[0], dv[0], v[1], dv[1]);
+    const REAL ddry = REAL_MULADD(mu, dload, FN(coulomb_mu_by_s2)(law, s2) * ds2 * load);
+    const REAL turning = mu * load * across * inverse_s;
+    const REAL turned[2] = {-u[1], u[0]};
+    const REAL_MASK sticks = REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
+    (void)along;
+    for (int i = 0; i < 2; ++i) {
+        const REAL slipping = REAL_MULADD(law->rate, dv[i], REAL_MULADD(ddry, u[i], turning * turned[i]));
+        change[i] = REAL_SELECT(sticks, R(2.0) / R(7.0) * by->push[i], slipping);
+    }
+}
+
+static inline REAL FN(coulomb_loss)(const FN(coulomb) * law, const FN(contact) * at)
+{
+    const REAL s2 = SUM_2(at->slip[0], at->slip[0], at->slip[1], at->slip[1]);
+    const REAL loss = FN(coulomb_mu)(law, s2) * FN(coulomb_load)(at) * REAL_SQRT(s2) + law->rate * s2;
+    const REAL_MASK sticks = REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
+    return REAL_SELECT(sticks, R(0.0), loss);
+}
+
+/* dt/dtheta of the time theta in which slip is integrated: sigma = s/sqrt(s^2 + s_r^2).  In theta a slip that
+ * dies in a finite time decays exponentially, its direction turns no faster than at a bounded rate, and all is
+ * smooth (ode/contact.c tells more).  A bead that sticks, or has just been released, is integrated in time. */
+static inline REAL FN(coulomb_pace)(const FN(coulomb) * law, const REAL slip[2])
+{
+    const REAL s2 = SUM_2(slip[0], slip[0], slip[1], slip[1]);
+    const REAL pace = REAL_SQRT(s2 / (s2 + law->usual_slip_2));
+    return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), pace, R(1.0));
+}

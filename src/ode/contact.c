@@ -1,0 +1,291 @@
+/* contact.c - dry friction along a trajectory: when a contact slips, sticks and lets go.
+ *
+ * The modes are those of model/contact/coulomb.inl.  A step has one mode, and the next one may have another:
+ *
+ *              |V| < captured and |A| < (7/2) mu(0) N
+ *        +------------------------------------------------+
+ *        |                                                v
+ *      slip <---- |V| = handed over ---- onset        stick <---+
+ *        ^                                 ^  |           |     |
+ *        |                                 |  +-- |V| = 0 ------+
+ *        |       mu_s = mu(0) ------------ + -------------+
+ *        +------ mu_s > mu(0) ----------------------------+   |A| > (7/2) mu_s N
+ *
+ * Capture.  Two numbers, the components of V, must vanish for a slip to end, and no function of the state
+ * changes its sign there: in time, |V| falls to zero like t* - t and its direction turns ever faster towards
+ * that of A, so that a method of high order silently becomes one of low order.  In the time theta of the law's
+ * pace it falls like exp(-theta) for ever, and the direction turns at a bounded rate: everything is smooth,
+ * passes close by V = 0 too.  The slip is over when it is `captured`, a size at which nothing feels the rest.
+ *
+ *     |V| |\                                  log |V| |\
+ *         | \          in time                        | \      in theta
+ *         |  `.                                       |  `.
+ *         |    `.                                     |    `.
+ *         +------*--- stick --> t                     +      `. captured: stick
+ *                t*
+ *
+ * Release.  |A| passes (7/2) mu_s N, a function of the state whose zero is located as other events are; the
+ * step is made anew as long as up to there.  If friction is as strong in sliding, the slip begins with onset:
+ * the slip grows from nothing while its direction is tied to that of A, and is handed over to slip when it is
+ * large enough to have a direction of its own.  If friction is weaker in sliding, the slip begins at once, with
+ * a tiny speed along A.
+ *
+ * Sizes follow the tolerance: `captured` is a thousandth of it, and the hand-over goes with its power 3/8, by
+ * which the error of onset, (hand-over)^(5/2), shrinks like the tolerance.
+ *
+ */
+#include "ode/flow.h"
+
+#include "base/error.h"
+#include "model/tangent.inl"
+
+static const double SLOWER = 1e-3;         /* captured, in tolerances */
+static const double LEAST_SPEED = 1e-14;   /* that rounding leaves of a slip's digits */
+static const double HAND_OVER = 0.5;       /* times tolerance^(3/8) */
+static const double LEAST_DIGITS = 0.03;   /* relative error of V that a step may make, however small V is */
+static const double RELEASE_SLACK = 1e-13; /* relative excess of |A| at a release */
+static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not met before */
+
+/* ------------------------------------------------------------------ the contact at a state */
+
+static fst_coulomb_double *law_of(fst_flow *flow)
+{
+    return &flow->step.context.coefficients.law.coulomb;
+}
+
+static double norm(const double v[2])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1]);
+}
+
+/* The greatest |A| that static friction takes. */
+static double hold(const fst_flow *flow, const fst_contact_double *at)
+{
+    const fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
+    return 3.5 * law->holding * fst_coulomb_load_double(at);
+}
+
+/* And the one under which a slip comes to rest. */
+static double brake(const fst_flow *flow, const fst_contact_double *at)
+{
+    const fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
+    return 3.5 * fst_coulomb_mu_double(law, 0.0) * fst_coulomb_load_double(at);
+}
+
+static double captured(const fst_flow *flow)
+{
+    return fmax(SLOWER * flow->rtol, LEAST_SPEED);
+}
+
+static double handed_over(const fst_flow *flow)
+{
+    const double eighth = sqrt(sqrt(sqrt(flow->rtol)));
+    return HAND_OVER * (eighth * eighth * eighth);
+}
+
+static fst_contact_double contact_at(const fst_flow *flow, const double *state)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    fst_pull_double p;
+    fst_magnetic_pull_double(c, state, &p);
+    return fst_contact_of_double(c, state, &p);
+}
+
+/* ------------------------------------------------------------------ changes of mode */
+
+/* Change the slip by an impulse of the plate: the moment about the contact stays what it was. */
+static void set_slip(const fst_coefficients_double *c, double *state, const double slip[2])
+{
+    double before[2];
+    fst_slip_double(c, state, before);
+    const double change[2] = {slip[0] - before[0], slip[1] - before[1]};
+    state[FST_VX] += 2.0 / 7.0 * change[0];
+    state[FST_VY] += 2.0 / 7.0 * change[1];
+    state[FST_WX] += 5.0 / (7.0 * c->eps) * change[1];
+    state[FST_WY] -= 5.0 / (7.0 * c->eps) * change[0];
+    if (slip[0] == 0.0 && slip[1] == 0.0)
+        fst_stop_slip_double(c, state);
+}
+
+/* The rate at which the direction of A turns in the magnet's frame, in a bead that sticks. */
+static double turning_of_push(const fst_flow *flow, const double *state)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    fst_linear_double l;
+    double dy[FST_STATE_SIZE], force[3], turning[3], twist[3], torque[3];
+    fst_linearise_double(c, fst_flow_omega(flow, flow->t), state, &l, dy);
+    fst_contact_double by;
+    fst_pull_change_double(c, &l, state, dy, force, turning);
+    by.load = -force[2];
+    fst_cross_double(dy + FST_NX, l.at.b, twist);
+    fst_cross_double(state + FST_NX, turning, torque);
+    fst_dry_change_double(c, &l, state, dy, force, twist, torque, &by);
+    const double *a = l.contact.push;
+    return (a[0] * by.push[1] - a[1] * by.push[0]) / (a[0] * a[0] + a[1] * a[1]);
+}
+
+/* The mode changes at `state`, which may be moved by less than anything else feels. */
+static void enter(fst_flow *flow, int mode, double *state)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    fst_coulomb_double *law = law_of(flow);
+    static const double nothing[2] = {0.0, 0.0};
+    double slip[2];
+    fst_slip_double(c, state, slip);
+    if (mode == FST_MODE_STICK) {
+        set_slip(c, state, nothing);
+    } else if (mode == FST_MODE_ONSET) {
+        const fst_contact_double at = contact_at(flow, state);
+        const double omega = fst_flow_omega(flow, flow->t);
+        law->lean = (turning_of_push(flow, state) + omega) / (2.0 * norm(at.push) - brake(flow, &at));
+    } else if (norm(slip) < captured(flow)) {
+        const fst_contact_double at = contact_at(flow, state);
+        const double part = captured(flow) / norm(at.push);
+        set_slip(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
+    }
+    const int before = fst_contact_mode(flow);
+    flow->contact.proposal[before] = flow->control.proposal;
+    law->mode = mode;
+    flow->control.proposal = flow->contact.proposal[mode] > 0 ? flow->contact.proposal[mode] : FIRST_SIZE;
+    flow->contact.next_mode = -1;
+}
+
+/* The mode of a bead that is put down in a state. */
+static int mode_at(const fst_flow *flow, const double *state)
+{
+    const fst_contact_double at = contact_at(flow, state);
+    if (norm(at.slip) > captured(flow))
+        return FST_MODE_SLIP;
+    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : FST_MODE_SLIP;
+}
+
+void fst_contact_put_down(fst_flow *flow, double *state)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    static const double nothing[2] = {0.0, 0.0};
+    if (c->kinds.paced)
+        enter(flow, mode_at(flow, state), state);
+    else if (c->kinds.contact == FST_FRICTION_ROLLING)
+        set_slip(c, state, nothing);
+}
+
+/* ------------------------------------------------------------------ events that end a mode */
+
+/* What static friction could still take. */
+static double release_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, p);
+    const double most = hold(flow, &at);
+    return most * (1.0 + RELEASE_SLACK) - norm(at.push);
+}
+
+/* In onset: the speed along A, which began at 0. */
+static double onset_speed(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, p);
+    return (at.slip[0] * at.push[0] + at.slip[1] * at.push[1]) / norm(at.push);
+}
+
+static double until_handed_over(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    return handed_over(flow) - onset_speed(flow, state, p);
+}
+
+static double until_back_at_rest(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    return onset_speed(flow, state, p) + captured(flow);
+}
+
+/* The fraction of the last step at which an event ends its mode, 2 where none does, and the mode that follows.
+ */
+static double mode_ends(fst_flow *flow, int *next)
+{
+    const fst_coulomb_double *law = law_of(flow);
+    double first = 2.0, x;
+    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x)) {
+        const int falls_at_once = law->holding > fst_coulomb_mu_double(law, 0.0);
+        *next = falls_at_once ? FST_MODE_SLIP : FST_MODE_ONSET;
+        first = x;
+    }
+    if (fst_contact_mode(flow) != FST_MODE_ONSET)
+        return first;
+    if (fst_flow_first_negative(flow, until_handed_over, 0.0, &x)) {
+        *next = FST_MODE_SLIP;
+        first = x;
+    }
+    if (fst_flow_first_negative(flow, until_back_at_rest, 0.0, &x) && x < first) {
+        *next = FST_MODE_STICK;
+        first = x;
+    }
+    return first;
+}
+
+/* A slip ends where it is nearly nothing and friction is stronger than the push. */
+static int slip_ends(const fst_flow *flow)
+{
+    const fst_bead_step_double *s = &flow->step;
+    if (fst_contact_mode(flow) != FST_MODE_SLIP)
+        return 0;
+    const fst_contact_double at =
+        fst_contact_of_double(&s->context.coefficients, s->end, FST_PATH_PULL(s, FST_PATH_END));
+    return norm(at.slip) <= captured(flow) && norm(at.push) < brake(flow, &at);
+}
+
+/* ------------------------------------------------------------------ steps */
+
+/* Make the last step anew, with another size. */
+static void make_anew(fst_flow *flow, double size)
+{
+    flow->step.h = size;
+    fst_bead_try_step_double(&flow->step);
+    flow->norm_drift += fst_finish_step_double(&flow->step);
+    flow->rhs_calls += DOP_TRY_EVALUATIONS + 1;
+    flow->has_dense = flow->contact.has_clock = 0;
+}
+
+/* Make the last step anew so that it takes the time `rest`. */
+static void land(fst_flow *flow, double rest)
+{
+    enum { TRIES = 8 };
+    make_anew(flow, flow->step.h * fst_contact_fraction(flow, rest));
+    for (int i = 0; i < TRIES; ++i) {
+        const double late = fst_contact_elapsed(flow) - rest, pace = FST_PATH_PACE(&flow->step, FST_PATH_END);
+        if (fabs(late) <= 1e-15 * (1.0 + fabs(flow->t.high)) || !(pace > 0))
+            return;
+        make_anew(flow, flow->step.h - late / pace);
+    }
+}
+
+fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
+{
+    const fst_twofold limit = {t_limit, 0.0};
+    const double rest = fst_twofold_difference(limit, flow->t);
+    if (rest < 0)
+        return fst_fail(error, FST_BAD_INPUT, "fst_flow",
+                        "time cannot run backwards under dry friction: what was at rest does not tell when it "
+                        "came to rest");
+    if (flow->contact.next_mode >= 0) {
+        enter(flow, flow->contact.next_mode, flow->step.end);
+        fst_bead_flow_restart(flow);
+    }
+    fst_bead_flow_prepare(flow);
+    flow->contact.has_clock = flow->has_dense = 0;
+    if (!fst_bead_flow_try_until_good(flow, INFINITY))
+        return fst_flow_fail(flow, error);
+    flow->t_start = flow->t; /* times within the step are asked for before it is over */
+    int next = -1;
+    const double event = mode_ends(flow, &next), end = fst_contact_fraction(flow, rest);
+    const int lands = end <= 1.0 && end <= event;
+    if (lands)
+        land(flow, rest);
+    else if (event < 1.0)
+        make_anew(flow, event * flow->step.h);
+    flow->rhs_calls += 1;
+    flow->accepted += 1;
+    flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));
+    flow->has_step = 1;
+    flow->contact.next_mode = !lands && event <= 1.0 ? next : slip_ends(flow) ? FST_MODE_STICK : -1;
+    flow->contact.captures +=
+        fst_contact_mode(flow) == FST_MODE_SLIP && flow->contact.next_mode == FST_MODE_STICK;
+    return FST_OK;
+}

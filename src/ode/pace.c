@@ -1,0 +1,110 @@
+/* pace.c - steps that measure their own time: how long one takes, and how good it is.
+ *
+ * Under a law with modes the steps of a slip are measured in theta, with dt = pace dtheta (contact.c tells
+ * why). theta has no meaning outside a step.  The time that passes in a step is the integral of the pace, taken
+ * like all integrals along the trajectory (path.inl), with a dense output of its own.  A step that would pass
+ * the end of the way is made anew, so short that it lands there.
+ *
+ * Errors.  While |V| falls over many orders of magnitude, a tolerance on v and W would stop seeing V long
+ * before the end.  So a step must also keep some digits of V itself, however small it is.
+ */
+#include "ode/flow.h"
+
+#include "base/bracket.h"
+
+static const double LEAST_DIGITS = 0.03; /* relative error of V that a step may make */
+
+int fst_contact_mode(const fst_flow *flow)
+{
+    return (int)flow->step.context.coefficients.law.coulomb.mode;
+}
+
+static double size_of(const double v[2])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1]);
+}
+
+/* ------------------------------------------------------------------ errors */
+
+/* The embedded error of the slip in a step, as dop853.inl has it for the whole state. */
+static double slip_error(const fst_bead_step_double *s)
+{
+    static const int slot[8] = {0, 5, 6, 7, 8, 9, 10, 11};
+    static const double fifth[8] = {DOP_E5_1, DOP_E5_6,  DOP_E5_7,  DOP_E5_8,
+                                    DOP_E5_9, DOP_E5_10, DOP_E5_11, DOP_E5_12};
+    double error[FST_STATE_SIZE] = {0}, slip[2];
+    for (int i = FST_VX; i < FST_STATE_SIZE; ++i)
+        for (int j = 0; j < 8; ++j)
+            error[i] += s->h * fifth[j] * s->k[slot[j]][i];
+    fst_slip_double(&s->context.coefficients, error, slip);
+    return size_of(slip);
+}
+
+double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *atol)
+{
+    const double error = fst_bead_step_error_double(s, rtol, atol);
+    const fst_coefficients_double *c = &s->context.coefficients;
+    if (!c->kinds.paced || c->law.coulomb.mode != FST_MODE_SLIP)
+        return error;
+    double start[2], end[2];
+    fst_slip_double(c, s->y, start);
+    fst_slip_double(c, s->end, end);
+    const double of_slip = slip_error(s) / (LEAST_DIGITS * fmin(size_of(start), size_of(end)));
+    return of_slip > error ? of_slip : error;
+}
+
+/* ------------------------------------------------------------------ time within a step */
+
+/* The time that the last step took. */
+double fst_contact_elapsed(const fst_flow *flow)
+{
+    const fst_bead_step_double *s = &flow->step;
+    double pace[FST_PATH_PLACES];
+    if (fst_contact_mode(flow) != FST_MODE_SLIP)
+        return s->h;
+    for (int place = 0; place < FST_PATH_PLACES; ++place)
+        pace[place] = FST_PATH_PACE(s, place);
+    return fst_path_integral_double(s, pace, 1);
+}
+
+static void make_clock(fst_flow *flow)
+{
+    if (flow->contact.has_clock)
+        return;
+    const fst_bead_step_double *s = &flow->step;
+    fst_bead_flow_form_dense(flow);
+    double pace[FST_DENSE_PLACES];
+    for (int place = 0; place < FST_DENSE_PLACES; ++place)
+        pace[place] = FST_PATH_PACE(s, place);
+    const double whole = fst_contact_elapsed(flow);
+    fst_path_dense_double(s, 1, &whole, pace, pace + FST_PATH_PLACES, flow->contact.clock);
+    flow->contact.has_clock = 1;
+}
+
+double fst_contact_time(fst_flow *flow, double x)
+{
+    if (fst_contact_mode(flow) != FST_MODE_SLIP)
+        return x * flow->step.h;
+    double time;
+    make_clock(flow);
+    fst_bead_evaluate_dense_double(1, flow->contact.clock, 1, x, &time);
+    return time;
+}
+
+double fst_contact_fraction(fst_flow *flow, double since_start)
+{
+    const double whole = fst_contact_elapsed(flow);
+    if (fst_contact_mode(flow) != FST_MODE_SLIP || !(since_start > 0 && since_start < whole))
+        return since_start / whole;
+    fst_bracket z = {0.0, 1.0, -since_start, whole - since_start, 0};
+    for (int i = 0; i < 100 && z.hi - z.lo > 1e-16; ++i) {
+        const double x = i % 8 == 7 ? 0.5 * (z.lo + z.hi) : fst_bracket_next(&z);
+        if (x == z.lo || x == z.hi)
+            break;
+        const double late = fst_contact_time(flow, x) - since_start;
+        if (late == 0)
+            return x;
+        fst_bracket_take(&z, x, late);
+    }
+    return fabs(z.f_lo) < fabs(z.f_hi) ? z.lo : z.hi;
+}
