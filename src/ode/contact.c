@@ -42,7 +42,6 @@
 static const double SLOWER = 1e-3;         /* captured, in tolerances */
 static const double LEAST_SPEED = 1e-14;   /* that rounding leaves of a slip's digits */
 static const double HAND_OVER = 0.5;       /* times tolerance^(3/8) */
-static const double LEAST_DIGITS = 0.03;   /* relative error of V that a step may make, however small V is */
 static const double RELEASE_SLACK = 1e-13; /* relative excess of |A| at a release */
 static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not met before */
 
