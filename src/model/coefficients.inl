@@ -24,6 +24,7 @@ static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, c
     c.kinds.pieces = g->lines;
     c.kinds.contact = (int)g->friction;
     c.kinds.dry = g->friction == FST_FRICTION_COULOMB || g->friction == FST_FRICTION_ROLLING;
+    c.kinds.patch = g->friction == FST_FRICTION_COULOMB ? params->contact_patch : FST_PATCH_POINT;
     c.kinds.paced = g->friction == FST_FRICTION_COULOMB;
     c.kinds.magnetisable = g->material != FST_MATERIAL_HARD;
     c.kinds.gyroscopic_term_lost = g->dynamics == FST_DYNAMICS_FARAGO2020;
