@@ -100,6 +100,8 @@ static inline REAL FN(renormalise)(REAL *y)
 /* Take the slip, which rounding brings in, out of a state that rolls. */
 static inline void FN(stop_slip)(const FN(coefficients) * c, REAL *y)
 {
+    if (c->kinds.patch)
+        y[FST_WZ] = R(0.0);
     y[FST_VX] = c->eps * y[FST_WY];
     y[FST_VY] = -(c->eps * y[FST_WX]);
 }

@@ -34,7 +34,7 @@
  * which the error of onset, (hand-over)^(5/2), shrinks like the tolerance.
  *
  */
-#include "ode/flow.h"
+#include "ode/disc.h"
 
 #include "base/error.h"
 #include "model/tangent.inl"
@@ -55,6 +55,11 @@ static fst_coulomb_double *law_of(fst_flow *flow)
 static double norm(const double v[2])
 {
     return sqrt(v[0] * v[0] + v[1] * v[1]);
+}
+
+static int is_disc(const fst_flow *flow)
+{
+    return flow->step.context.coefficients.kinds.patch != FST_PATCH_POINT;
 }
 
 /* The greatest |A| that static friction takes. */
@@ -123,6 +128,21 @@ static double turning_of_push(const fst_flow *flow, const double *state)
     return (a[0] * by.push[1] - a[1] * by.push[0]) / (a[0] * a[0] + a[1] * a[1]);
 }
 
+/* A disc is held, or let go of, at `state`. */
+static void hold_disc(const fst_flow *flow, int mode, double *state)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    fst_pull_double p;
+    double slip[2] = {0.0, 0.0}, pivot = 0.0;
+    fst_magnetic_pull_double(c, state, &p);
+    if (mode == FST_MODE_SLIP && fst_contact_mode(flow) != FST_MODE_STICK)
+        return;
+    if (mode == FST_MODE_SLIP)
+        fst_disc_release(flow, state, &p, slip, &pivot);
+    set_slip(c, state, slip);
+    state[FST_WZ] = pivot;
+}
+
 /* The mode changes at `state`, which may be moved by less than anything else feels. */
 static void enter(fst_flow *flow, int mode, double *state)
 {
@@ -131,7 +151,9 @@ static void enter(fst_flow *flow, int mode, double *state)
     static const double nothing[2] = {0.0, 0.0};
     double slip[2];
     fst_slip_double(c, state, slip);
-    if (mode == FST_MODE_STICK) {
+    if (is_disc(flow)) {
+        hold_disc(flow, mode, state);
+    } else if (mode == FST_MODE_STICK) {
         set_slip(c, state, nothing);
     } else if (mode == FST_MODE_ONSET) {
         const fst_contact_double at = contact_at(flow, state);
@@ -152,6 +174,11 @@ static void enter(fst_flow *flow, int mode, double *state)
 /* The mode of a bead that is put down in a state. */
 static int mode_at(const fst_flow *flow, const double *state)
 {
+    if (is_disc(flow)) {
+        fst_pull_double p;
+        fst_magnetic_pull_double(&flow->step.context.coefficients, state, &p);
+        return fst_disc_rests(flow, state, &p) ? FST_MODE_STICK : FST_MODE_SLIP;
+    }
     const fst_contact_double at = contact_at(flow, state);
     if (norm(at.slip) > captured(flow))
         return FST_MODE_SLIP;
@@ -173,6 +200,8 @@ void fst_contact_put_down(fst_flow *flow, double *state)
 /* What static friction could still take. */
 static double release_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
+    if (is_disc(flow))
+        return fst_disc_hold(flow, state, p) + RELEASE_SLACK;
     const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, p);
     const double most = hold(flow, &at);
     return most * (1.0 + RELEASE_SLACK) - norm(at.push);
@@ -203,7 +232,7 @@ static double mode_ends(fst_flow *flow, int *next)
     double first = 2.0, x;
     if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x)) {
         const int falls_at_once = law->holding > fst_coulomb_mu_double(law, 0.0);
-        *next = falls_at_once ? FST_MODE_SLIP : FST_MODE_ONSET;
+        *next = falls_at_once || is_disc(flow) ? FST_MODE_SLIP : FST_MODE_ONSET;
         first = x;
     }
     if (fst_contact_mode(flow) != FST_MODE_ONSET)
@@ -225,6 +254,8 @@ static int slip_ends(const fst_flow *flow)
     const fst_bead_step_double *s = &flow->step;
     if (fst_contact_mode(flow) != FST_MODE_SLIP)
         return 0;
+    if (is_disc(flow))
+        return fst_disc_rests(flow, s->end, FST_PATH_PULL(s, FST_PATH_END));
     const fst_contact_double at =
         fst_contact_of_double(&s->context.coefficients, s->end, FST_PATH_PULL(s, FST_PATH_END));
     return norm(at.slip) <= captured(flow) && norm(at.push) < brake(flow, &at);
@@ -263,8 +294,10 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, "fst_flow",
                         "time cannot run backwards under dry friction: what was at rest does not tell when it "
                         "came to rest");
-    if (flow->contact.next_mode >= 0) {
-        enter(flow, flow->contact.next_mode, flow->step.end);
+    const int next_mode = flow->contact.next_mode;
+    if (next_mode >= 0) {
+        flow->contact.captures += fst_contact_mode(flow) == FST_MODE_SLIP && next_mode == FST_MODE_STICK;
+        enter(flow, next_mode, flow->step.end);
         fst_bead_flow_restart(flow);
     }
     fst_bead_flow_prepare(flow);
@@ -284,7 +317,5 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));
     flow->has_step = 1;
     flow->contact.next_mode = !lands && event <= 1.0 ? next : slip_ends(flow) ? FST_MODE_STICK : -1;
-    flow->contact.captures +=
-        fst_contact_mode(flow) == FST_MODE_SLIP && flow->contact.next_mode == FST_MODE_STICK;
     return FST_OK;
 }

@@ -49,7 +49,9 @@ double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *
     double start[2], end[2];
     fst_slip_double(c, s->y, start);
     fst_slip_double(c, s->end, end);
-    const double of_slip = slip_error(s) / (LEAST_DIGITS * fmin(size_of(start), size_of(end)));
+    const double least = fmin(fst_contact_motion_2_double(c, start, s->y[FST_WZ]),
+                              fst_contact_motion_2_double(c, end, s->end[FST_WZ]));
+    const double of_slip = slip_error(s) / (LEAST_DIGITS * sqrt(least));
     return of_slip > error ? of_slip : error;
 }
 
