@@ -189,6 +189,8 @@ void fst_contact_put_down(fst_flow *flow, double *state)
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
     static const double nothing[2] = {0.0, 0.0};
+    if (is_disc(flow))
+        fst_disc_begin(flow);
     if (c->kinds.paced)
         enter(flow, mode_at(flow, state), state);
     else if (c->kinds.contact == FST_FRICTION_ROLLING)

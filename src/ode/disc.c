@@ -13,12 +13,25 @@
  *          +-----------+---> f
  *         0            mu N
  *
+ * w passes zero often, and then the rate at which a creep settles, (7/2) (3 pi/8) mu N/(a |w|), would be infinite
+ * for a moment.  The floor under |w| (patch.inl) bounds it.  A passage, which takes the time slow/|w'|, then is
+ * off by a slow^2/|w'| in the place, which is nothing, and w is off by less than `slow` where the bead comes to
+ * rest or lets go.  So `slow` follows the tolerance.
+ *
  * It lets go in the only consistent way, with the nu of the place on the curve and against (f, m).
  */
 #include "ode/disc.h"
 
-static const double RELEASED = 10.0; /* how fast a contact moves that was released, in tolerances */
-static const double AT_REST = 100.0; /* and one that is held, in patch.inl's floor of a |w| */
+static const double RELEASED = 2.0; /* how fast a contact moves that was released, in a times the floor */
+static const double SLOW = 1e3;      /* the floor under |w|, in tolerances; */
+static const double LEAST_SLOW = 1e-9, GREATEST_SLOW = 1e-5;
+static const double CREEP = 10.0; /* how fast a contact may creep that is to be held, in a times the floor */
+
+void fst_disc_begin(fst_flow *flow)
+{
+    const double slow = fmin(fmax(SLOW * flow->rtol, LEAST_SLOW), GREATEST_SLOW);
+    flow->step.context.coefficients.law.coulomb.patch.slow_2 = slow * slow;
+}
 
 /* The contact of a bead that is held: its push, and the torque that holds it. */
 static fst_contact_double held_contact(const fst_flow *flow, const double *state, const fst_pull_double *p)
@@ -66,9 +79,9 @@ int fst_disc_rests(const fst_flow *flow, const double *state, const fst_pull_dou
     const fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
     const fst_contact_double at = held_contact(flow, state, p);
     const double s2 = at.slip[0] * at.slip[0] + at.slip[1] * at.slip[1], w2 = at.pivot * at.pivot;
-    const double floor_2 = AT_REST * AT_REST * law->patch.slow_2;
+    const double slow_2 = law->patch.slow_2, a = CREEP * law->patch.radius;
     double slip, pivot;
-    return w2 <= floor_2 && s2 <= law->patch.radius * law->patch.radius * floor_2 &&
+    return w2 <= slow_2 && s2 <= a * a * slow_2 &&
            left_over(flow, &at, fst_coulomb_mu_double(law, 0.0), &slip, &pivot) > 0;
 }
 
@@ -78,11 +91,11 @@ void fst_disc_release(const fst_flow *flow, const double *state, const fst_pull_
     const fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
     const fst_contact_double at = held_contact(flow, state, p);
     double slip, turn;
+    const double a = fst_patch_radius_double(&law->patch, fst_coulomb_load_double(&at));
     (void)left_over(flow, &at, law->holding, &slip, &turn);
-    const double size = RELEASED * flow->rtol / sqrt(slip * slip + turn * turn);
+    const double size = RELEASED * a * sqrt(law->patch.slow_2) / sqrt(slip * slip + turn * turn);
     const double push = sqrt(at.push[0] * at.push[0] + at.push[1] * at.push[1]) + 1e-290;
     for (int i = 0; i < 2; ++i)
         velocity[i] = size * slip * (at.push[i] / push);
-    const double a = fst_patch_radius_double(&law->patch, fst_coulomb_load_double(&at));
     *pivot = (at.torque[2] > 0 ? -size : size) * turn / a;
 }

@@ -4,6 +4,9 @@
 
 #include "ode/flow.h"
 
+/* A trajectory begins, with its tolerances set. */
+void fst_disc_begin(fst_flow *flow);
+
 /* What static friction could still take of a bead that is held; negative: it lets go. */
 double fst_disc_hold(const fst_flow *flow, const double *state, const fst_pull_double *p);
 

@@ -76,9 +76,10 @@ static inline REAL_MASK FN(coulomb_sticks)(const FN(coulomb) * law)
 
 /* ------------------------------------------------------------------ a disc */
 
-/* A disc in motion: the greatest force mu N, its radius, |w|, and the shares that it gets of them. */
+/* A disc in motion: the greatest force mu N, its radius, |w| with its derivatives (pivoting_rate()), and the
+ * shares that it gets of them. */
 typedef struct FN(rubbing) {
-    REAL s2, dry, radius, rate;
+    REAL s2, dry, radius, rate, side, bend;
     FN(shares) shares;
 } FN(rubbing);
 
@@ -89,7 +90,7 @@ static inline FN(rubbing) FN(coulomb_rubbing)(const FN(coulomb) * law, const FN(
     r.s2 = SUM_2(at->slip[0], at->slip[0], at->slip[1], at->slip[1]);
     r.dry = FN(coulomb_mu)(law, r.s2) * load;
     r.radius = FN(patch_radius)(&law->patch, load);
-    r.rate = FN(pivoting_rate)(&law->patch, at->pivot);
+    FN(pivoting_rate)(&law->patch, at->pivot, &r.rate, &r.side, &r.bend);
     r.shares = FN(patch_shares)(at->patch, REAL_SQRT(r.s2), r.radius * r.rate);
     return r;
 }
@@ -108,7 +109,7 @@ static inline FN(rubbing_change) FN(coulomb_rubbing_change)(const FN(coulomb) * 
     d.dry = REAL_MULADD(FN(coulomb_mu)(law, r->s2), dload,
                         R(2.0) * d.along * FN(coulomb_mu_by_s2)(law, r->s2) * load);
     d.radius = FN(patch_radius_by_load)(&law->patch, load, r->radius) * dload;
-    d.rate = at->pivot / r->rate * by->pivot;
+    d.rate = r->side * by->pivot;
     d.p = REAL_MULADD(r->radius, d.rate, d.radius * r->rate);
     return d;
 }
@@ -117,7 +118,7 @@ static inline FN(rubbing_change) FN(coulomb_rubbing_change)(const FN(coulomb) * 
 static inline REAL FN(coulomb_pivoting)(const FN(coulomb) * law, const FN(contact) * at, REAL held)
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
-    const REAL torque = r.dry * r.radius * r.shares.twist * (at->pivot / r.rate);
+    const REAL torque = r.dry * r.radius * r.shares.twist * r.side;
     return REAL_SELECT(FN(coulomb_sticks)(law), -held, -torque);
 }
 
@@ -126,10 +127,10 @@ static inline REAL FN(coulomb_pivoting_change)(const FN(coulomb) * law, const FN
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const FN(rubbing_change) d = FN(coulomb_rubbing_change)(law, at, by, &r);
-    const REAL side = at->pivot / r.rate, dside = (by->pivot - side * d.rate) / r.rate;
     const REAL dtwist = REAL_MULADD(r.shares.twist_s, d.along, r.shares.twist_p * d.p);
     const REAL dmost = REAL_MULADD(d.dry, r.radius, r.dry * d.radius), most = r.dry * r.radius;
-    const REAL change = SUM_3(dmost, r.shares.twist * side, most, dtwist * side, most, r.shares.twist * dside);
+    const REAL change = SUM_3(dmost, r.shares.twist * r.side, most, dtwist * r.side, most,
+                              r.shares.twist * (r.bend * by->pivot));
     return REAL_SELECT(FN(coulomb_sticks)(law), -dheld, -change);
 }
 

@@ -29,8 +29,8 @@
  * use in place of all this.  They have the right limits and are up to 48 % too small in between.
  *
  * With w != 0 nothing sticks: f is smooth at V = 0, and a bead that a point would hold creeps at some fraction
- * of a |w|.  At w = 0 the direction of w is not defined; |w| is sqrt(w^2 + slow^2) here, with a `slow` that is
- * far below any rotation.  A bead that neither slips nor pivots at all is held by a mode of its own (stick,
+ * of a |w|.  At w = 0 the direction of w is not defined: below a `slow`, which is far below any rotation and follows the
+ * tolerance of a trajectory (ode/disc.c), |w| bends smoothly to (5/16) slow instead of 0.  A bead that neither slips nor pivots at all is held by a mode of its own (stick,
  * coulomb.inl).
  *
  * The radius follows the load, a = (3 N R/(4 E*))^(1/3) with N in newtons, where the modulus E* is given.
@@ -205,7 +205,7 @@ static inline FN(patch) FN(make_patch)(const fst_params *params, const fst_group
     const FN(patch) patch = {
         .radius = isnan(modulus) ? given : FN(cube_root)(cube),
         .growth = REAL_OF(isnan(modulus) ? 0.0 : 1.0 / usual),
-        .slow_2 = R(1e-18),
+        .slow_2 = R(1e-12),
     };
     return patch;
 }
@@ -223,10 +223,17 @@ static inline REAL FN(patch_radius_by_load)(const FN(patch) * q, REAL load, REAL
     return REAL_SELECT(follows, radius / (R(3.0) * load), R(0.0));
 }
 
-/* |w|, with the floor of the text above. */
-static inline REAL FN(pivoting_rate)(const FN(patch) * q, REAL w)
+/* |w|, its derivative `side`, and the derivative of that.  For x = |w|/slow < 1 it is
+ * slow (5 + 15 x^2 - 5 x^4 + x^6)/16, which joins |w| there with three derivatives. */
+static inline void FN(pivoting_rate)(const FN(patch) * q, REAL w, REAL *rate, REAL *side, REAL *bend)
 {
-    return REAL_SQRT(REAL_MULADD(w, w, q->slow_2));
+    const REAL slow = REAL_SQRT(q->slow_2), size = REAL_ABS(w), x = w / slow, x2 = x * x, rest = R(1.0) - x2;
+    const REAL_MASK inside = REAL_LESS(size, slow);
+    const REAL even = R(5.0) + x2 * (R(15.0) + x2 * (x2 - R(5.0)));
+    const REAL odd = x * (R(15.0) + x2 * (R(3.0) * x2 - R(10.0)));
+    *rate = REAL_SELECT(inside, slow * even / R(16.0), size);
+    *side = REAL_SELECT(inside, odd / R(8.0), REAL_SELECT(REAL_LESS(w, R(0.0)), -R(1.0), R(1.0)));
+    *bend = REAL_SELECT(inside, R(1.875) * rest * rest / slow, R(0.0));
 }
 
 /* |V|^2 + (a |w|)^2, a that of the usual load: what the pace of a step is measured by. */
