@@ -56,8 +56,7 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
     o->slip2 = SUM_2(slip[0], slip[0], slip[1], slip[1]);
     o->friction_power = FN(friction_loss)(&c->law, &c->kinds, &contact);
     o->rolling_power = c->kinds.dry ? FN(resistance_loss)(&c->resistance, w, contact.load) : R(0.0);
-    o->pivoting_power =
-        c->kinds.patch ? FN(coulomb_pivoting_loss)(&c->law.coulomb, &contact) : R(0.0);
+    o->pivoting_power = c->kinds.patch ? FN(coulomb_pivoting_loss)(&c->law.coulomb, &contact) : R(0.0);
     o->sticking = FN(sticks)(c);
     o->load = contact.load;
     o->spin = SUM_3(w[0], n[0], w[1], n[1], w[2], n[2]);

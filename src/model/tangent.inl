@@ -105,8 +105,8 @@ static inline void FN(dry_change)(const FN(coefficients) * c, const FN(linear) *
     by->patch = c->kinds.patch;
     by->pivot = dw[2];
     if (c->kinds.patch)
-        by->torque[2] = FN(coulomb_pivoting_change)(&c->law.coulomb, &l->contact, by,
-                                                    turning[2] + lost[2] / c->torque);
+        by->torque[2] =
+            FN(coulomb_pivoting_change)(&c->law.coulomb, &l->contact, by, turning[2] + lost[2] / c->torque);
 }
 
 /* The change of d(state)/dt along `tangent` at the state that was linearised. */

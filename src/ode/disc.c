@@ -1,6 +1,6 @@
 /* disc.c - a contact that is a disc (model/contact/patch.inl) comes to rest and lets go.
  *
- * While such a bead slips or pivots its friction is smooth, if stiff: it creeps where a point would stick.  Only
+ * While such a bead slips or pivots its friction is smooth, if stiff: it creeps where a point would stick. Only
  * a bead that neither slips nor pivots, V = 0 and w = W.e = 0, is held, as long as the force f and the torque m
  * that this takes lie within the curve of what friction can give, (mu N tau(nu), mu N a m(nu)):
  *
@@ -13,17 +13,17 @@
  *          +-----------+---> f
  *         0            mu N
  *
- * w passes zero often, and then the rate at which a creep settles, (7/2) (3 pi/8) mu N/(a |w|), would be infinite
- * for a moment.  The floor under |w| (patch.inl) bounds it.  A passage, which takes the time slow/|w'|, then is
- * off by a slow^2/|w'| in the place, which is nothing, and w is off by less than `slow` where the bead comes to
- * rest or lets go.  So `slow` follows the tolerance.
+ * w passes zero often, and then the rate at which a creep settles, (7/2) (3 pi/8) mu N/(a |w|), would be
+ * infinite for a moment.  The floor under |w| (patch.inl) bounds it.  A passage, which takes the time
+ * slow/|w'|, then is off by a slow^2/|w'| in the place, which is nothing, and w is off by less than `slow`
+ * where the bead comes to rest or lets go.  So `slow` follows the tolerance.
  *
  * It lets go in the only consistent way, with the nu of the place on the curve and against (f, m).
  */
 #include "ode/disc.h"
 
 static const double RELEASED = 2.0; /* how fast a contact moves that was released, in a times the floor */
-static const double SLOW = 1e3;      /* the floor under |w|, in tolerances; */
+static const double SLOW = 1e3;     /* the floor under |w|, in tolerances; */
 static const double LEAST_SLOW = 1e-9, GREATEST_SLOW = 1e-5;
 static const double CREEP = 10.0; /* how fast a contact may creep that is to be held, in a times the floor */
 

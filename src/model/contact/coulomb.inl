@@ -14,9 +14,9 @@
  * it cannot be integrated; but just therefore it is known: it lags behind A by the angle lean |V|, where
  * lean = (rate at which A turns in space)/(2 |A| - (7/2) mu N).
  *
- * A disc.  Where the contact is a disc (patch.inl), f in a slip is mu N tau V/|V|, and the plate resists pivoting.
- * Then slip includes the creep of a bead that pivots, stick is for a bead that does not pivot either, the plate
- * holds its W.e too, and there is no onset.
+ * A disc.  Where the contact is a disc (patch.inl), f in a slip is mu N tau V/|V|, and the plate resists
+ * pivoting. Then slip includes the creep of a bead that pivots, stick is for a bead that does not pivot either,
+ * the plate holds its W.e too, and there is no onset.
  *
  * Stribeck: mu(s) = mu_d + (mu_s - mu_d)/(1 + (s/v_S)^2).  Without a speed v_S friction falls at once.
  */
@@ -146,8 +146,7 @@ static inline void FN(disc_force)(const FN(coulomb) * law, const FN(contact) * a
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const REAL grip = REAL_MULADD(r.dry, r.shares.grip, law->rate);
     for (int i = 0; i < 2; ++i)
-        force[i] =
-            REAL_SELECT(FN(coulomb_sticks)(law), R(2.0) / R(7.0) * at->push[i], grip * at->slip[i]);
+        force[i] = REAL_SELECT(FN(coulomb_sticks)(law), R(2.0) / R(7.0) * at->push[i], grip * at->slip[i]);
 }
 
 static inline void FN(disc_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
@@ -218,7 +217,8 @@ static inline REAL FN(coulomb_loss)(const FN(coulomb) * law, const FN(contact) *
     if (at->patch != FST_PATCH_POINT) {
         REAL force[2];
         FN(disc_force)(law, at, force);
-        return REAL_SELECT(FN(coulomb_sticks)(law), R(0.0), SUM_2(force[0], at->slip[0], force[1], at->slip[1]));
+        return REAL_SELECT(FN(coulomb_sticks)(law), R(0.0),
+                           SUM_2(force[0], at->slip[0], force[1], at->slip[1]));
     }
     const REAL loss = FN(coulomb_mu)(law, s2) * FN(coulomb_load)(at) * REAL_SQRT(s2) + law->rate * s2;
     const REAL_MASK sticks = FN(coulomb_sticks)(law);
@@ -226,10 +226,10 @@ static inline REAL FN(coulomb_loss)(const FN(coulomb) * law, const FN(contact) *
 }
 
 /* dt/dtheta of the time theta in which slip is integrated: sigma = s/sqrt(s^2 + s_r^2), with s how fast the
- * contact moves (motion_2 = s^2).  In theta a slip that dies in a finite time decays exponentially, its direction
- * turns no faster than at a bounded rate, and all is smooth (ode/contact.c tells more).  On a disc, s counts
- * pivoting: the rate (7/2) (3 pi/8) mu N/(a |w|) at which a creep settles is bounded in theta too, however slowly
- * the bead pivots.  A bead that sticks, or has just been released, is integrated in time. */
+ * contact moves (motion_2 = s^2).  In theta a slip that dies in a finite time decays exponentially, its
+ * direction turns no faster than at a bounded rate, and all is smooth (ode/contact.c tells more).  On a disc, s
+ * counts pivoting: the rate (7/2) (3 pi/8) mu N/(a |w|) at which a creep settles is bounded in theta too,
+ * however slowly the bead pivots.  A bead that sticks, or has just been released, is integrated in time. */
 static inline REAL FN(coulomb_pace)(const FN(coulomb) * law, REAL motion_2)
 {
     const REAL pace = REAL_SQRT(motion_2 / (motion_2 + law->usual_slip_2));

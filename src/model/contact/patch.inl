@@ -29,9 +29,9 @@
  * use in place of all this.  They have the right limits and are up to 48 % too small in between.
  *
  * With w != 0 nothing sticks: f is smooth at V = 0, and a bead that a point would hold creeps at some fraction
- * of a |w|.  At w = 0 the direction of w is not defined: below a `slow`, which is far below any rotation and follows the
- * tolerance of a trajectory (ode/disc.c), |w| bends smoothly to (5/16) slow instead of 0.  A bead that neither slips nor pivots at all is held by a mode of its own (stick,
- * coulomb.inl).
+ * of a |w|.  At w = 0 the direction of w is not defined: below a `slow`, which is far below any rotation and
+ * follows the tolerance of a trajectory (ode/disc.c), |w| bends smoothly to (5/16) slow instead of 0.  A bead
+ * that neither slips nor pivots at all is held by a mode of its own (stick, coulomb.inl).
  *
  * The radius follows the load, a = (3 N R/(4 E*))^(1/3) with N in newtons, where the modulus E* is given.
  */
@@ -43,8 +43,8 @@ typedef struct FN(patch) {
 
 /* ------------------------------------------------------------------ functions */
 
-/* x^(1/3) of x >= 0; of a smaller x than 1e-30 that of 1e-30.  Four times y -> (x y)^(1/4), each of which leaves
- * a quarter of the error of log y, then Halley's fractions, each of which leaves its cube. */
+/* x^(1/3) of x >= 0; of a smaller x than 1e-30 that of 1e-30.  Four times y -> (x y)^(1/4), each of which
+ * leaves a quarter of the error of log y, then Halley's fractions, each of which leaves its cube. */
 static inline REAL FN(cube_root)(REAL x)
 {
     const REAL positive = REAL_MAX(x, R(1e-30));
@@ -107,8 +107,7 @@ static inline FN(shares) FN(hertz_middle)(REAL s, REAL p)
     at.grip = tau * inverse_s;
     at.bend = (by_nu / p - at.grip) * inverse_s * inverse_s;
     at.across = -(by_nu / (p * p));
-    at.twist = R(0.75) * (R(0.5) * (R(1.0) - nu2 + R(0.375) * nu2 * nu2) * t +
-                          R(0.1875) * (R(2.0) - nu2) * q);
+    at.twist = R(0.75) * (R(0.5) * (R(1.0) - nu2 + R(0.375) * nu2 * nu2) * t + R(0.1875) * (R(2.0) - nu2) * q);
     at.twist_s = at.across;
     at.twist_p = nu2 * by_nu / p;
     return at;
