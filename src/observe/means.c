@@ -109,7 +109,8 @@ static double energy_residual(const fst_mark_series *series, const fst_mark *las
         const fst_mark *from = &series->kept[i], *to = i + 1 < series->count ? &series->kept[i + 1] : last;
         const double work = (to->integrals[FST_Q_DRIVE_POWER] - from->integrals[FST_Q_DRIVE_POWER]) -
                             (to->integrals[FST_Q_FRICTION_POWER] - from->integrals[FST_Q_FRICTION_POWER]) -
-                            (to->integrals[FST_Q_ROLLING_POWER] - from->integrals[FST_Q_ROLLING_POWER]);
+                            (to->integrals[FST_Q_ROLLING_POWER] - from->integrals[FST_Q_ROLLING_POWER]) -
+                            (to->integrals[FST_Q_PIVOTING_POWER] - from->integrals[FST_Q_PIVOTING_POWER]);
         const double defect = fabs((to->energy - from->energy) - work);
         worst = defect > worst ? defect : worst;
     }
