@@ -22,6 +22,7 @@ import hashlib
 import json
 import os
 import queue
+import re
 import shutil
 import signal
 import subprocess
@@ -378,23 +379,32 @@ def report(entries, results, write):
                  not left and all(entry.why for entry in survivors)) else 1
 
 
+def results_version():
+    """FST_RESULTS_VERSION of the tree: which state of the code the numbers are about."""
+    with open(os.path.join(SOURCE, "include", "festoon", "festoon.h"), encoding="utf-8") as file:
+        return re.search(r"#define FST_RESULTS_VERSION (\d+)", file.read())[1]
+
+
 def text_of(rows, survivors, few):
-    """The section of docs/reliability.md; `few` are the faults that only their likely tests were asked about."""
-    text = ("Faults that a reviewer would call bugs (a wrong sign, factor, index or threshold, a check, a term or an "
-            "error bar\nleft out, a text unquoted, a status ignored) are put into the code by hand, one at a time: "
-            "`tests/mutants/*.mutants`\nlists them, a block a fault. For each, the tree is built and its tests are "
-            "run, all but the long ones, until one fails or\nhangs. Faults that compile to the same object files do "
-            "not count.\n\n")
+    """The section of docs/reliability.md; `few` are the faults of which only the likely tests were run."""
+    text = ("Faults that a reviewer would call bugs (a wrong sign, factor, index or threshold; a check, a term or an "
+            "error bar left\nout; an unquoted text; an ignored status) are put into the code by hand, one at a time. "
+            "`tests/mutants/*.mutants` lists\nthem, a block for each fault. For each fault the tree is built, and its "
+            "tests are run, all but the long ones, until one\nfails or hangs. Faults that compile to the same object "
+            f"files do not count. The numbers are of the code with\n`FST_RESULTS_VERSION` {results_version()}.\n\n")
     left = rows[-1][5]  # this column is written only if something is left
     text += section.table(*([HEAD, rows] if left else [HEAD[:5] + HEAD[6:], [row[:5] + row[6:] for row in rows]]))
     if left:
         text += f"\n\n{left} faults were not tried: `make mutants` goes on with them."
-    text += "\n\nFaults that no test notices, and why that is accepted:\n\n" if survivors else "\n\nNone of those tried survives.\n"
+    text += ("\n\nFaults that no test notices, and why that is accepted:\n\n" if survivors
+             else "\n\nTests noticed every fault that was tried.\n")
     for entry in survivors:
         what = " ".join(entry.comment) or "`" + " ".join(" ".join(entry.old).split()).replace("|", "\\|") + "`"
         text += f"- `{entry.name}` in `{entry.path}` ({what}): {' '.join(entry.why) or 'no reason yet'}\n"
-    if few:
-        text += f"\nOf these, only the likely tests were asked about {len(few)}: `{'`, `'.join(few)}`.\n"
+    if few and len(few) == len(survivors):
+        text += "\nFor these faults only the likely tests were run.\n"
+    elif few:
+        text += f"\nFor {len(few)} of these only the likely tests were run: `{'`, `'.join(few)}`.\n"
     return text
 
 
