@@ -80,6 +80,17 @@ class Usage(Case):
             self.assertEqual(text, self.good("help", command))
             self.assertIn(command, self.good("--help"))
 
+    def test_the_manual_page_names_what_the_help_names(self):
+        """Every option in the manual page is in a command's help, and every command is in the manual page."""
+        with open(os.path.join(SOURCE_DIR, "docs", "festoon.1.in"), encoding="utf-8") as file:
+            page = file.read().replace("\\-", "-")
+        commands = re.findall(r"^  ([a-z]+) +[A-Z]", self.good("--help"), re.M)
+        self.assertEqual(len(commands), 14)
+        known = set(re.findall(r"--[a-z-]*[a-z]", self.good("--help") + "".join(self.good(c, "--help") for c in commands)))
+        self.assertEqual(set(re.findall(r"--[a-z-]*[a-z]", page)) - known - {"--mpi"}, set())
+        for command in commands:
+            self.assertRegex(page, rf"(?m)^\.BR? {command}\b")
+
     def test_version_is_quick(self):
         """A start takes less than 10 ms. The test takes the best of many, because the machine may be busy."""
         best = math.inf
