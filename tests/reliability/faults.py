@@ -432,12 +432,13 @@ def report(campaign):
 that names what failed, and the old file as it was. It never crashes, never leaves a file of its own behind, never
 says that a disk's failure is bad input, and is not disturbed by signals and writes that take a part.
 
-The attack: `tests/reliability/faults.py` runs {names} with a library before the C library that lets a call fail: the
+The attack: `tests/reliability/faults.py` runs {names} with a preloaded library that
+makes a chosen call fail: the
 disk is full (or a quota used up) after so many bytes, at {PLACES} places over each file; the Nth write, sync, rename,
 truncation, opening, closing or reading fails; every write takes one byte; every second call is interrupted; the
 directory goes away between two writes. Besides: a limit of file sizes (`ulimit -f`), a real file system of 4 to
 512 KiB, a directory that cannot be written, two commands to one name at once, a command killed while it writes, and
-gnuplot and ffmpeg that are missing, fail, die half way, or report a success that is none.
+gnuplot and ffmpeg that are missing, fail, die half way, or report success without a whole file.
 
 A sweep's database is not replaced but goes on: after a fault the same command must finish it with the same rows. A
 folder of frames holds whole frames. A directory that cannot be synced is told (status 1) over a complete new file.
