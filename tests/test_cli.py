@@ -86,7 +86,8 @@ class Usage(Case):
             page = file.read().replace("\\-", "-")
         commands = re.findall(r"^  ([a-z]+) +[A-Z]", self.good("--help"), re.M)
         self.assertEqual(len(commands), 14)
-        known = set(re.findall(r"--[a-z-]*[a-z]", self.good("--help") + "".join(self.good(c, "--help") for c in commands)))
+        helps = self.good("--help") + "".join(self.good(command, "--help") for command in commands)
+        known = set(re.findall(r"--[a-z-]*[a-z]", helps))
         self.assertEqual(set(re.findall(r"--[a-z-]*[a-z]", page)) - known - {"--mpi"}, set())
         for command in commands:
             self.assertRegex(page, rf"(?m)^\.BR? {command}\b")

@@ -35,7 +35,7 @@ static void dips_of_any_place_and_width(void **state)
         assert_int_equal(fst_flow_step(flow, 100.0, &error), FST_OK);
     dip.from = flow->step.y[FST_X];
     dip.to = flow->step.end[FST_X];
-    for (int i = 1; i <= 64; ++i) /* X rises all along this step */
+    for (int i = 1; i <= 64; ++i) /* X moves one way all along this step */
         assert_true(way_at(flow, i / 64.0) > way_at(flow, (i - 1) / 64.0));
     int found = 0;
     for (int k = 1; k < 320; ++k)

@@ -397,7 +397,7 @@ class Paper(unittest.TestCase):
             self.assertIn(figure["verdict"], VERDICTS | {None})
 
     def test_a_figure_has_the_worst_verdict_of_what_it_shows(self):
-        """Every statement that a figure shows counts, those that fail included."""
+        """A figure has the worst verdict of its statements, failed ones included."""
         order = ["reproduced", "close", "not reproduced"]
         shows = {"evolution": ("friction", "spin-term", "magnetic-term", "asymptotic-hz"),
                  "magint": ("magint-least", "magint-field", "magint-aligned", "magint-across", "force-ends", "pull-weakens"),

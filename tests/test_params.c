@@ -33,7 +33,7 @@ static void table_is_consistent(void **state)
     assert_int_equal(fst_param_find("bead"), -1);
 }
 
-/* Units: each kind of quantity accepts those that the header lists. */
+/* Each kind of quantity accepts the units that the header lists for it. */
 static void units_are_read(void **state)
 {
     (void)state;

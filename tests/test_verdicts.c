@@ -1,5 +1,5 @@
-/* Verdicts at their borders: for each rule a value just inside and just outside "reproduced" and "close".  The
- * rules are those that docs/paper.md prints. */
+/* Verdicts at their borders: for each rule a value just inside and just outside "reproduced" and "close". The
+ * rules are printed in docs/paper.md. */
 #include "numeric.h"
 
 #include "paper/runs.h"
