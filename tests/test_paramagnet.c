@@ -197,8 +197,9 @@ static void the_least_kappa_is_below_what_a_bisection_finds(void **unused)
     (void)unused;
     static const struct {
         double a, bisected;
-    } cases[] = {
-        {1.4e-3, 0.0110}, {2.6e-3, 0.0175}, {3e-3, 0.039}}; /* in the first case the motions below are irregular */
+    } cases[] = {{1.4e-3, 0.0110},
+                 {2.6e-3, 0.0175},
+                 {3e-3, 0.039}}; /* in the first case the motions below are irregular */
     char *text = page("docs/paper.md");
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         fst_params params = bead(FST_MATERIAL_MIXED, 0.0, cases[i].a, 0.0);
