@@ -20,13 +20,18 @@ RANGES = {
     "magnet.depth": ("15mm:17mm", 15e-3, 17e-3), "magnet.b0": ("10mT:200G", 10e-3, 20e-3),
     "drive.frequency": ("600rpm:12Hz", 10, 12), "drive.omega": ("0.2:0.4", 0.2, 0.4),
     "friction.gamma": ("0.3 1/ms:330 1/s", 300, 330), "friction.mu": ("0.1:0.3", 0.1, 0.3),
+    "friction.mu_static": ("0.25:0.4", 0.25, 0.4), "friction.stribeck_speed": ("1 mm/s:0.01", 1e-3, 1e-2),
+    "friction.rolling_resistance": ("1e-4:1e-3", 1e-4, 1e-3), "friction.contact_rate": ("1:0.1 1/ms", 1, 100),
     "model.kappa": ("1:2", 1, 2), "model.eps": ("0.1:0.12", 0.1, 0.12), "model.h": ("0.7:0.9", 0.7, 0.9),
     "model.lambda": ("0.3:0.5", 0.3, 0.5), "plate.radius": ("20cm:230mm", 0.2, 0.23),
     "plate.gravity": ("9.8 m/s2:10", 9.8, 10), "start.r": ("0.5:0.9", 0.5, 0.9),
     "start.phi": ("-90:0.25turn", -90, 90), "run.periods": ("2:3", 2, 3), "run.discard": ("0:1", 0, 1),
     "run.rtol": ("1e-6:1e-5", 1e-6, 1e-5),
 }
-NEEDS = {"bead.a": "bead.material=paramagnetic", "bead.b": "bead.material=mixed"}
+DRY = "friction.law=coulomb"
+NEEDS = {"bead.a": ["bead.material=paramagnetic"], "bead.b": ["bead.material=mixed"], "friction.mu_static": [DRY],
+         "friction.stribeck_speed": [DRY, "friction.mu_static=0.4"], "friction.rolling_resistance": [DRY],
+         "friction.contact_rate": [DRY]}
 # Parameters that no row shows: the tesla scale, masses if kappa is given, and an edge that is not reached.
 INVISIBLE = {"bead.moment", "magnet.b0", "bead.mass", "plate.radius"}
 WHOLE = {"magnet.lines"}
@@ -77,7 +82,7 @@ class Keys(Over):
 
     def check_real(self, key):
         text, low, high = RANGES[key]
-        sets = [NEEDS[key]] if key in NEEDS else []
+        sets = NEEDS.get(key, [])
         rows = self.table(f"{key}={text}:3", sets=sets)
         for row, wanted in zip(rows, (low, (low + high) / 2, high)):
             self.assertTrue(math.isclose(row[key], wanted, rel_tol=1e-12, abs_tol=1e-15), (row[key], wanted))
