@@ -253,6 +253,9 @@ FST_API void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE],
 FST_API void fst_jacobian(const fst_model *model, const double state[FST_STATE_SIZE],
                           double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], double by_omega[FST_STATE_SIZE]);
 
+/* The velocity V = v - eps W x e of the bead's contact point on the plate, along X and Y. */
+FST_API void fst_slip(const fst_model *model, const double state[FST_STATE_SIZE], double slip[2]);
+
 /* Quantities of a state (paper, section IV and appendix; vectors in local components r, alpha, z). */
 typedef struct fst_observation {
     double r, cos_bead_angle,

@@ -113,6 +113,11 @@ void fst_field(const fst_model *model, double x, double y, double b[3], double g
     memcpy(grad, all, sizeof all);
 }
 
+void fst_slip(const fst_model *model, const double state[FST_STATE_SIZE], double slip[2])
+{
+    fst_slip_double(&model->coefficients, state, slip);
+}
+
 void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE], double derivative[FST_STATE_SIZE])
 {
     fst_pull_double p;

@@ -438,6 +438,8 @@ MEASURE(rolling_phi)
 MEASURE(friction_share)
 {
     const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
+    if (!is_viscous(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), note, size))
+        return NAN;
     const fst_run_result *fast =
         &paper->scans[FST_SCAN_FAST][dynamics][paper->counts[FST_SCAN_FAST] - 1].result;
     (void)snprintf(note, size, "at the drive 0.4; %.0f %% at the drive %.3g",
