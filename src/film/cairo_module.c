@@ -163,7 +163,8 @@ static void paint_plate(cairo_t *pen, const fst_film_stage *stage, const fst_fil
     cairo_save(pen);
     cairo_translate(pen, 0.5 * stage->width, 0.5 * stage->height);
     cairo_scale(pen, scale, -scale);
-    paint_magnet(pen, stage, frame->magnet_angle);
+    if (stage->bar)
+        paint_magnet(pen, stage, frame->magnet_angle);
     cairo_arc(pen, 0.0, 0.0, stage->reach / 120.0, 0.0, 2.0 * FST_PI);
     cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);
     cairo_fill(pen);
@@ -174,6 +175,22 @@ static void paint_plate(cairo_t *pen, const fst_film_stage *stage, const fst_fil
 }
 
 /* ------------------------------------------------------------------ around it, in pixels */
+
+/* The magnet's slab from the front, its poles the paler the more they point away. */
+static void paint_slab(cairo_t *pen, const fst_film_stage *stage, double angle)
+{
+    double c = cos(angle), s = sin(angle);
+    double half = 0.5 * (stage->magnet[0] * fabs(c) + stage->magnet[1] * fabs(s));
+    double bottom = -stage->depth - 0.5 * stage->magnet[2];
+    cairo_pattern_t *poles = cairo_pattern_create_linear(-half, 0.0, half, 0.0);
+    const double *right = c > 0.0 ? north : south, *other = c > 0.0 ? south : north;
+    cairo_pattern_add_color_stop_rgba(poles, 0.0, other[0], other[1], other[2], 0.15 + 0.4 * fabs(c));
+    cairo_pattern_add_color_stop_rgba(poles, 1.0, right[0], right[1], right[2], 0.15 + 0.4 * fabs(c));
+    cairo_rectangle(pen, -half, bottom, 2.0 * half, stage->magnet[2]);
+    cairo_set_source(pen, poles);
+    cairo_fill(pen);
+    cairo_pattern_destroy(poles);
+}
 
 /* The view from the front: the plate, the magnet's slab below it, and the bead on it. */
 static void paint_side(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame)
@@ -192,17 +209,8 @@ static void paint_side(cairo_t *pen, const fst_film_stage *stage, const fst_film
     cairo_clip(pen);
     cairo_translate(pen, left + 0.5 * width, top + scale * up);
     cairo_scale(pen, scale, -scale);
-    double c = cos(frame->magnet_angle), s = sin(frame->magnet_angle);
-    double half = 0.5 * (stage->magnet[0] * fabs(c) + stage->magnet[1] * fabs(s));
-    double bottom = -stage->depth - 0.5 * stage->magnet[2];
-    cairo_pattern_t *poles = cairo_pattern_create_linear(-half, 0.0, half, 0.0);
-    const double *right = c > 0.0 ? north : south, *other = c > 0.0 ? south : north;
-    cairo_pattern_add_color_stop_rgba(poles, 0.0, other[0], other[1], other[2], 0.15 + 0.4 * fabs(c));
-    cairo_pattern_add_color_stop_rgba(poles, 1.0, right[0], right[1], right[2], 0.15 + 0.4 * fabs(c));
-    cairo_rectangle(pen, -half, bottom, 2.0 * half, stage->magnet[2]);
-    cairo_set_source(pen, poles);
-    cairo_fill(pen);
-    cairo_pattern_destroy(poles);
+    if (stage->bar)
+        paint_slab(pen, stage, frame->magnet_angle);
     cairo_move_to(pen, -stage->reach, 0.0);
     cairo_line_to(pen, stage->reach, 0.0);
     cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);

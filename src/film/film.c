@@ -123,6 +123,7 @@ static void set_stage(film *f, const fst_table *table)
         .width = f->options->width,
         .height = f->options->height,
         .reach = fmax(1.25 * reach, 1.35) * m->millimetres,
+        .bar = p->magnet_shape == FST_MAGNET_LINES,
         .magnet = {2e3 * p->magnet_half_length, 1e3 * p->magnet_width, MAGNET_THICKNESS},
         .depth = 1e3 * p->magnet_depth,
         .radius = 1e3 * p->bead_radius,

@@ -11,7 +11,8 @@
 typedef struct fst_film_stage {
     int width, height;        /* pixels, both even */
     double reach;             /* half the side of the square of plate that is shown */
-    double magnet[3];         /* length, width, thickness */
+    int bar;                  /* whether the magnet is the bar of lines; another source is not painted */
+    double magnet[3];         /* length, width, thickness of the bar */
     double depth;             /* of the magnet's middle plane below the plate */
     double radius;            /* of the bead */
     const char *title;        /* frequency and dynamics */
