@@ -1,5 +1,6 @@
 /* Runs that are broken off and go on from their images have the bits of runs that never were, in every form of
  * arithmetic, however often and wherever that happens; images that are none are left out. */
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "lanes/lanes.h"
@@ -78,10 +79,14 @@ static int job_done(void *user, fst_row_job *job, fst_status status, const fst_r
     return 0;
 }
 
-static int is_stopped(void *user)
+static fst_status answer(void *user, double fraction, const char *what, fst_error *error)
 {
     store *s = user;
-    return s->patience > 0 && ++s->looks > s->patience;
+    (void)fraction, (void)what;
+    if (s->patience == 0 || ++s->looks <= s->patience)
+        return FST_OK;
+    (void)snprintf(error->sentence, sizeof error->sentence, "no more patience");
+    return error->code = FST_INTERRUPTED;
 }
 
 static void save(void *user, const fst_row_job *job, const void *bytes, size_t size)
@@ -131,12 +136,13 @@ static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int other_lan
     fst_status status = FST_INTERRUPTED;
     s->patience = patience;
     for (int turn = 0; status == FST_INTERRUPTED; ++turn) {
+        const fst_progress progress = {s, answer};
         const fst_row_work work = {.user = s,
                                    .arithmetic = arithmetic,
                                    .lanes = turn % 2 == 0 ? lanes : other_lanes,
                                    .next = next_job,
                                    .done = job_done,
-                                   .stopped = is_stopped};
+                                   .progress = &progress};
         fst_error error = {FST_OK, "", ""};
         s->next = s->looks = 0;
         status = fst_rows_with_images(&work, &images, &error);
@@ -144,12 +150,40 @@ static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int other_lan
             fail_msg("fst_rows_with_images: %s", error.sentence);
         if (status == FST_INTERRUPTED) {
             assert_int_equal(s->looks, s->patience + 1); /* obeyed when it was first said */
+            assert_string_equal(error.sentence, "no more patience");
             s->broken_off += 1;
         }
         s->patience += patience > 0;
     }
     for (int i = 0; i < JOBS; ++i)
         assert_true(s->done[i]);
+}
+
+static fst_status refuse(void *user, double fraction, const char *what, fst_error *error)
+{
+    (void)user, (void)what;
+    assert_true(fraction == 0.0);
+    (void)snprintf(error->sentence, sizeof error->sentence, "the disk is full");
+    return error->code = FST_IO;
+}
+
+/* Whatever the caller answers is handed back, and is no failure of the runs that were at work. */
+static void test_any_answer_ends_the_rows(void **state)
+{
+    (void)state;
+    static store s;
+    const fst_progress progress = {NULL, refuse};
+    for (int lanes = 1; lanes <= 4; lanes += 3) {
+        const fst_row_work work = {&s, FST_ARITHMETIC_PORTABLE, lanes, next_job, job_done, &progress};
+        fst_error error = {FST_OK, "", ""};
+        if (lanes > 1 && !fst_lane_engine_of(FST_ARITHMETIC_PORTABLE, lanes))
+            continue;
+        assert_int_equal(fst_rows(&work, &error), FST_IO);
+        assert_string_equal(error.sentence, "the disk is full");
+        for (int i = 0; i < JOBS; ++i)
+            assert_false(s.done[i]);
+        s.next = 0;
+    }
 }
 
 static void check_same(const store *a, const store *b)
@@ -306,6 +340,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_any_answer_ends_the_rows),
         cmocka_unit_test(test_what_is_no_image),
         cmocka_unit_test(test_exponents_hear),
         cmocka_unit_test(test_what_a_run_takes_up),

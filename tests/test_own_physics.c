@@ -126,16 +126,10 @@ static int job_done(void *user, fst_row_job *job, fst_status status, const fst_r
     return 0;
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 static void do_all(store *s, fst_arithmetic arithmetic, int lanes)
 {
     memset(s, 0, sizeof *s);
-    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, never};
+    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, NULL};
     fst_error error = {FST_OK, "", ""};
     if (fst_rows(&work, &error) != FST_OK)
         fail_msg("fst_rows: %s", error.sentence);

@@ -197,10 +197,10 @@ static double complex mean_phase(const fst_paper_state *paper, fst_dynamics dyna
 {
     const fst_table *table = &fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory;
     const double *a = fst_collected(table, "n_alpha"), *z = fst_collected(table, "n_z");
-    const double *phi = fst_collected(table, "Phi");
+    const double *bead_angle = fst_collected(table, "Phi");
     double complex sum = 0.0;
     for (size_t row = 0; row < table->rows; ++row)
-        sum += cexp(I * (atan2(a[row], -z[row]) + phi[row]));
+        sum += cexp(I * (atan2(a[row], -z[row]) + bead_angle[row]));
     return sum / (double)table->rows;
 }
 

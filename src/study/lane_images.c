@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/watch.h"
 #include "study/lane_worker.h"
 
 /* Make a run the one of its image; a parked one is given the exponent that it waits for. */
@@ -80,12 +81,12 @@ static void save(fst_row_worker *w, fst_lane *at, const fst_lane_batch *b, int l
     free(image);
 }
 
-int fst_worker_stopped(fst_row_worker *w)
+fst_status fst_worker_ask(fst_row_worker *w, fst_error *error)
 {
-    const int stop = w->work->stopped(w->work->user);
+    const fst_status answer = fst_tell(w->work->progress, 0.0, NULL, error);
     if (!w->images)
-        return stop;
-    const double time = stop ? INFINITY : fst_clock_seconds();
+        return answer;
+    const double time = answer == FST_OK ? fst_clock_seconds() : INFINITY;
     for (int l = 0; l < w->engine->width; ++l) {
         save(w, &w->run_up.lanes[l], &w->run_up, l, FST_STAGE_RUN_UP, time);
         save(w, &w->observed.lanes[l], &w->observed, l, FST_STAGE_OBSERVED, time);
@@ -94,5 +95,5 @@ int fst_worker_stopped(fst_row_worker *w)
         save(w, &w->ready[i], NULL, 0, FST_STAGE_READY, time);
     for (int i = 0; i < w->parked_count; ++i)
         save(w, &w->parked[i], NULL, 0, FST_STAGE_PARKED, time);
-    return stop;
+    return answer;
 }

@@ -262,7 +262,7 @@ static void finish(fst_row_worker *w, fst_lane_batch *b, int l, fst_status statu
 static fst_status watch_exponents(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)fraction, (void)what;
-    return fst_worker_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+    return fst_worker_ask(user, error);
 }
 
 /* The exponents of runs that are parked, side by side too: the last ones, as many as there are lanes. */
@@ -444,8 +444,8 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_row_images *images,
             status = conclude_parked(w, error);
             occupy_idle(w);
         }
-        if (status == FST_OK && steps % 64 == 0 && fst_worker_stopped(w))
-            status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+        if (status == FST_OK && steps % 64 == 0)
+            status = fst_worker_ask(w, error);
     }
     free_worker(w);
     return status;

@@ -86,7 +86,7 @@ void fst_worker_take_up(const fst_row_worker *w, fst_lane *at);
 /* Put what the image of a run knows of its lane into the lane, which was loaded; the image is done with. */
 void fst_worker_restore(fst_row_worker *w, fst_lane_batch *b, int l);
 
-/* Whether to stop; before that, make the images that are due: of all runs if so. */
-int fst_worker_stopped(fst_row_worker *w);
+/* Ask the caller whether to go on, and make the images that are due: of all runs if not. */
+fst_status fst_worker_ask(fst_row_worker *w, fst_error *error);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/watch.h"
 #include "study/conclude.h"
 #include "study/lane_rows.h"
 #include "study/run_image.h"
@@ -29,15 +30,16 @@ typedef struct lone_run {
     fst_run_stage stage;
     fst_exponent exponent; /* what a parked run waits for */
     double saved;
+    fst_status answer; /* of the caller, whether to go on */
 } lone_run;
 
-/* Whether to stop; before that, save the image if it is due. */
-static int is_stopped(lone_run *l)
+/* Ask whether to go on; save the image if it is due, or if not. */
+static fst_status ask(lone_run *l, fst_error *error)
 {
-    const int stop = l->work->stopped(l->work->user);
+    l->answer = fst_tell(l->work->progress, 0.0, NULL, error);
     const double time = l->images ? fst_clock_seconds() : 0.0;
-    if (!l->images || (!stop && time - l->saved < l->images->seconds))
-        return stop;
+    if (!l->images || (l->answer == FST_OK && time - l->saved < l->images->seconds))
+        return l->answer;
     const fst_run_place place = {.stage = l->stage};
     double *none;
     size_t size;
@@ -47,13 +49,13 @@ static int is_stopped(lone_run *l)
         l->images->save(l->images->user, &l->job, image, size);
     free(image);
     l->saved = time;
-    return stop;
+    return l->answer;
 }
 
 static fst_status watch_exponent(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)fraction, (void)what;
-    return is_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+    return ask(user, error);
 }
 
 static fst_status begin(lone_run *l, fst_error *error)
@@ -85,8 +87,8 @@ static fst_status go_on(lone_run *l, fst_run_result *result, fst_error *error)
     int needs_exponent = l->stage == FST_STAGE_PARKED;
     for (int over = needs_exponent; status == FST_OK && !over;) {
         status = fst_watched_run_go_on(l->run, STEPS, &over, error);
-        if (status == FST_OK && !over && is_stopped(l))
-            status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+        if (status == FST_OK && !over)
+            status = ask(l, error);
     }
     if (status == FST_OK && !needs_exponent) {
         status = fst_conclude(l->run, NULL, result, &needs_exponent, error);
@@ -117,8 +119,11 @@ static fst_status single_rows(const fst_row_work *work, const fst_row_images *im
         if (l.run)
             fst_watched_run_free(l.run);
         free(l.run);
-        if (status == FST_INTERRUPTED)
-            return fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+        if (l.answer != FST_OK) {
+            if (error)
+                *error = own;
+            return l.answer;
+        }
         more = work->done(work->user, &l.job, status, &result, &own) || work->next(work->user, &l.job);
     }
     return FST_OK;
