@@ -48,8 +48,8 @@ typedef struct store {
     fst_run_result results[JOBS];
     fst_status statuses[JOBS];
     int done[JOBS];
-    int stages[FST_STAGE_COUNT]; /* what images of each were found */
-    int parked;                  /* images that were saved of runs that wait for their exponents */
+    int stations[FST_STATION_COUNT]; /* what images of each were found */
+    int parked;                      /* images that were saved of runs that wait for their exponents */
     image images[JOBS];
     void (*spoil)(struct store *s, image *i); /* what happens to an image before it is found; NULL: nothing */
 } store;
@@ -101,7 +101,7 @@ static void save(void *user, const fst_row_job *job, const void *bytes, size_t s
     i->size = size;
     fst_run_place place;
     memcpy(&place, (const unsigned char *)bytes + sizeof(uint64_t), sizeof place);
-    s->parked += place.stage == FST_STAGE_PARKED;
+    s->parked += place.station == FST_STATION_PARKED;
 }
 
 static void *find(void *user, const fst_row_job *job, size_t *size)
@@ -114,7 +114,7 @@ static void *find(void *user, const fst_row_job *job, size_t *size)
     s->found += 1;
     fst_run_place place; /* it follows the number of the layout */
     memcpy(&place, (const unsigned char *)bytes + sizeof(uint64_t), sizeof place);
-    s->stages[place.stage] += 1;
+    s->stations[place.station] += 1;
     if (s->spoil)
         s->spoil(s, i);
     *size = i->size;
@@ -198,7 +198,7 @@ static void test_bits(void **state)
 {
     (void)state;
     static store whole, parts;
-    int stages[FST_STAGE_COUNT] = {0}, fused = 0;
+    int stations[FST_STATION_COUNT] = {0}, fused = 0;
     static const struct {
         fst_arithmetic arithmetic;
         int lanes, other_lanes;
@@ -223,15 +223,16 @@ static void test_bits(void **state)
             assert_true(parts.broken_off > 3);
             assert_true(parts.found > 8);
             check_same(&whole, &parts);
-            for (int stage = 0; stage < FST_STAGE_COUNT; ++stage)
-                stages[stage] += parts.stages[stage];
+            for (int station = 0; station < FST_STATION_COUNT; ++station)
+                stations[station] += parts.stations[station];
             clear(&parts);
         }
         fused = fused || kinds[k].arithmetic != FST_ARITHMETIC_PORTABLE;
         clear(&whole);
     }
-    assert_true(stages[FST_STAGE_ALONE] > 0 && stages[FST_STAGE_PARKED] > 0 && stages[FST_STAGE_OBSERVED] > 0);
-    assert_true(!fused || stages[FST_STAGE_RUN_UP] > 0);
+    assert_true(stations[FST_STATION_ALONE] > 0 && stations[FST_STATION_PARKED] > 0 &&
+                stations[FST_STATION_OBSERVED] > 0);
+    assert_true(!fused || stations[FST_STATION_RUN_UP] > 0);
 }
 
 static void cut(store *s, image *i)
@@ -249,7 +250,7 @@ static void of_another_build(store *s, image *i)
 
 static void with_wild_numbers(store *s, image *i)
 {
-    /* Every byte after the layout: where counts, strides and stages lie, that is found out. */
+    /* Every byte after the layout: where counts, strides and stations lie, that is found out. */
     (void)s;
     memset((unsigned char *)i->bytes + 8, 0xff, i->size - 8);
     s->spoilt += 1;
@@ -307,8 +308,8 @@ static void test_what_a_run_takes_up(void **state)
     const fst_params p = job_params(1), other = job_params(2);
     fst_exponent exponent;
     for (int cut_off = 0; cut_off < 2; ++cut_off) {
-        const fst_run_place place = {.stage = FST_STAGE_ALONE};
-        fst_run_place found = {.stage = FST_STAGE_PARKED};
+        const fst_run_place place = {.station = FST_STATION_ALONE};
+        fst_run_place found = {.station = FST_STATION_PARKED};
         double *lane;
         const double *read;
         size_t size;
@@ -322,7 +323,7 @@ static void test_what_a_run_takes_up(void **state)
         assert_non_null(bytes);
         const int taken = fst_run_image_take(bytes, size - (size_t)cut_off, 0, &to, &exponent, &found, &read);
         assert_int_equal(taken, !cut_off);
-        assert_int_equal(found.stage, cut_off ? FST_STAGE_PARKED : FST_STAGE_ALONE);
+        assert_int_equal(found.station, cut_off ? FST_STATION_PARKED : FST_STATION_ALONE);
         assert_int_equal(to.flow->accepted, steps);
         assert_ptr_equal(to.params, &other);
         assert_ptr_equal(to.model, begun.model);

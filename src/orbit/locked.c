@@ -119,7 +119,7 @@ static int settle(finder *f, fst_solution *s)
 }
 
 /* Every start, every state's image under S2 as well. */
-static fst_status search(finder *f, int starts, fst_error *error)
+static fst_status try_starts(finder *f, int starts, fst_error *error)
 {
     fst_setup setup;
     fst_status status = fst_family_setup(f->family, f->value, &setup, error);
@@ -151,7 +151,7 @@ static fst_status find_all(const fst_family *family, double value, int starts, d
     f->found = calloc(MOST, sizeof *f->found);
     if (!f->found)
         return fst_fail(error, FST_NO_MEMORY, "locked", "out of memory");
-    return search(f, starts, error);
+    return try_starts(f, starts, error);
 }
 
 /* Stable ones first, then from the axis outwards. */

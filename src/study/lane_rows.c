@@ -168,16 +168,16 @@ static void enter_run_up(fst_row_worker *w, int l, fst_lane *from)
 static void place(fst_row_worker *w, fst_lane *fresh)
 {
     const int runs_up = w->engine->fused && fresh->run->window.span.from > 0;
-    const fst_run_stage stage = fresh->image ? fresh->place.stage
-                                : runs_up    ? FST_STAGE_RUN_UP
-                                             : FST_STAGE_READY;
-    if (stage == FST_STAGE_RUN_UP) {
+    const fst_run_station station = fresh->image ? fresh->place.station
+                                    : runs_up    ? FST_STATION_RUN_UP
+                                                 : FST_STATION_READY;
+    if (station == FST_STATION_RUN_UP) {
         enter_run_up(w, idle_lane(w, &w->run_up), fresh);
         return;
     }
-    fst_lane *to = stage == FST_STAGE_PARKED ? &w->parked[w->parked_count++] : &w->ready[w->ready_count++];
+    fst_lane *to = station == FST_STATION_PARKED ? &w->parked[w->parked_count++] : &w->ready[w->ready_count++];
     move_run(to, fresh);
-    if (stage == FST_STAGE_OBSERVED)
+    if (station == FST_STATION_OBSERVED)
         return; /* the image is wanted when there is a lane */
     free(to->image);
     to->image = NULL;

@@ -27,7 +27,7 @@ typedef struct lone_run {
     const fst_row_images *images;
     fst_row_job job;
     fst_watched_run *run;
-    fst_run_stage stage;
+    fst_run_station station;
     fst_exponent exponent; /* what a parked run waits for */
     double saved;
     fst_status answer; /* of the caller, whether to go on */
@@ -40,11 +40,11 @@ static fst_status ask(lone_run *l, fst_error *error)
     const double time = l->images ? fst_clock_seconds() : 0.0;
     if (!l->images || (l->answer == FST_OK && time - l->saved < l->images->seconds))
         return l->answer;
-    const fst_run_place place = {.stage = l->stage};
+    const fst_run_place place = {.station = l->station};
     double *none;
     size_t size;
-    void *image =
-        fst_run_image_make(l->run, l->stage == FST_STAGE_PARKED ? &l->exponent : NULL, &place, 0, &none, &size);
+    void *image = fst_run_image_make(l->run, l->station == FST_STATION_PARKED ? &l->exponent : NULL, &place, 0,
+                                     &none, &size);
     if (image)
         l->images->save(l->images->user, &l->job, image, size);
     free(image);
@@ -60,7 +60,7 @@ static fst_status watch_exponent(void *user, double fraction, const char *what, 
 
 static fst_status begin(lone_run *l, fst_error *error)
 {
-    l->stage = FST_STAGE_ALONE;
+    l->station = FST_STATION_ALONE;
     l->run = calloc(1, sizeof *l->run);
     if (!l->run)
         return fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
@@ -73,7 +73,7 @@ static fst_status begin(lone_run *l, fst_error *error)
     const double *none;
     void *image = l->images->find(l->images->user, &l->job, &size);
     if (fst_run_image_take(image, size, 0, l->run, &l->exponent, &place, &none))
-        l->stage = place.stage;
+        l->station = place.station;
     free(image);
     l->saved = fst_clock_seconds();
     return FST_OK;
@@ -84,7 +84,7 @@ static fst_status go_on(lone_run *l, fst_run_result *result, fst_error *error)
 {
     enum { STEPS = 64 }; /* between two looks whether to stop */
     fst_status status = FST_OK;
-    int needs_exponent = l->stage == FST_STAGE_PARKED;
+    int needs_exponent = l->station == FST_STATION_PARKED;
     for (int over = needs_exponent; status == FST_OK && !over;) {
         status = fst_watched_run_go_on(l->run, STEPS, &over, error);
         if (status == FST_OK && !over)
@@ -99,7 +99,7 @@ static fst_status go_on(lone_run *l, fst_run_result *result, fst_error *error)
         return status;
     const fst_progress progress = {l, watch_exponent};
     fst_exponent *asked = &l->exponent;
-    l->stage = FST_STAGE_PARKED;
+    l->station = FST_STATION_PARKED;
     status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, &progress, error);
     fst_result_clear(result);
     return status == FST_OK ? fst_conclude(l->run, asked, result, &needs_exponent, error) : status;
