@@ -29,7 +29,7 @@ def content_of(path, mode="rb"):
 
 
 def change(path, *statements, known=True):
-    """Change a sweep's database by SQL, and give it the checksums that it then should have; `known`: whether its
+    """Changes a sweep's database by SQL, and gives it the checksums that fit its new contents; `known`: whether its
     scene is still one that this program reads."""
     base = sqlite3.connect(path)
     for statement in statements:

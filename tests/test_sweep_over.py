@@ -1,4 +1,4 @@
-"""--over, for every parameter there is and in every form: each key can be varied, with units, or is refused in words.
+"""--over for every parameter in every form: a key can be varied, with units, or is refused in words.
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
@@ -27,7 +27,7 @@ RANGES = {
     "run.rtol": ("1e-6:1e-5", 1e-6, 1e-5),
 }
 NEEDS = {"bead.a": "bead.material=paramagnetic", "bead.b": "bead.material=mixed"}
-# What no row shows: the tesla scale, masses where kappa is given, and an edge that is not reached.
+# Parameters that no row shows: the tesla scale, masses if kappa is given, and an edge that is not reached.
 INVISIBLE = {"bead.moment", "magnet.b0", "bead.mass", "plate.radius"}
 WHOLE = {"magnet.lines"}
 REFUSED = {"run.samples": "changes nothing in a row"}
@@ -82,10 +82,10 @@ class Keys(Over):
         for row, wanted in zip(rows, (low, (low + high) / 2, high)):
             self.assertTrue(math.isclose(row[key], wanted, rel_tol=1e-12, abs_tol=1e-15), (row[key], wanted))
         self.assertEqual({row["status"] for row in rows}, {"done"}, rows[0]["reason"])
-        if key not in INVISIBLE:  # it makes a difference
+        if key not in INVISIBLE:  # the two values give different rows
             self.assertNotEqual(*[[value for name, value in row.items() if name not in (key, "point")]
                                   for row in (rows[0], rows[2])])
-        # The same as a list, and as the one point of a run.
+        # The same values as a list, and each alone as a run.
         values = text.split(":")
         listed = self.table(f"{key}={values[0]},{values[1]}", sets=sets)
         for row, other in zip(listed, (rows[0], rows[2])):
@@ -105,7 +105,7 @@ class Keys(Over):
         self.says("no effect", "bead.a=1,2")
         self.says("no effect", "bead.b=1,2", sets=["bead.material=paramagnetic"])
         rows = self.table("bead.material=hard,paramagnetic", "bead.a=1,2")
-        self.assertEqual([row["final_state"] for row in rows].count(rows[0]["final_state"]), 2)  # hard: twice the same
+        self.assertEqual([row["final_state"] for row in rows].count(rows[0]["final_state"]), 2)  # hard: both end alike
         self.assertNotEqual(rows[2]["final_state"], rows[3]["final_state"])
 
 
