@@ -26,6 +26,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "observe/means.h"
 #include "study/drift.h"
 
 /* Thresholds, scaled.  docs/regimes.md says why these. */
