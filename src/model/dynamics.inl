@@ -155,6 +155,12 @@ static inline void FN(lost_term)(const REAL *n, const REAL *w, REAL out[3])
     out[2] = spin * (w[0] * n[1] - w[1] * n[0]);
 }
 
+/* The mask of a bead in the air. */
+static inline REAL_MASK FN(in_flight)(const FN(coefficients) * c)
+{
+    return REAL_LESS(REAL_OF(FST_MODE_FLIGHT) - R(0.5), c->law.coulomb.mode);
+}
+
 static inline __attribute__((always_inline)) FN(contact)
     FN(contact_of)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p)
 {
@@ -162,6 +168,8 @@ static inline __attribute__((always_inline)) FN(contact)
     FN(contact) at;
     FN(slip)(c, y, at.slip);
     at.load = FN(load)(c, p->force);
+    if (c->kinds.flies)
+        at.load = REAL_SELECT(FN(in_flight)(c), R(0.0), at.load);
     at.push[0] = at.push[1] = at.torque[0] = at.torque[1] = at.torque[2] = R(0.0);
     at.patch = c->kinds.patch;
     at.pivot = w[2];

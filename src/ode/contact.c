@@ -35,6 +35,7 @@
  *
  */
 #include "ode/disc.h"
+#include "ode/flight.h"
 
 #include "base/error.h"
 #include "model/tangent.inl"
@@ -97,8 +98,7 @@ static fst_contact_double contact_at(const fst_flow *flow, const double *state)
 
 /* ------------------------------------------------------------------ changes of mode */
 
-/* Change the slip by an impulse of the plate: the moment about the contact stays what it was. */
-static void set_slip(const fst_coefficients_double *c, double *state, const double slip[2])
+void fst_set_slip(const fst_coefficients_double *c, double *state, const double slip[2])
 {
     double before[2];
     fst_slip_double(c, state, before);
@@ -139,8 +139,32 @@ static void hold_disc(const fst_flow *flow, int mode, double *state)
         return;
     if (mode == FST_MODE_SLIP)
         fst_disc_release(flow, state, &p, slip, &pivot);
-    set_slip(c, state, slip);
+    fst_set_slip(c, state, slip);
     state[FST_WZ] = pivot;
+}
+
+/* The mode of a bead that is put down in a state. */
+static int mode_at(const fst_flow *flow, const double *state)
+{
+    fst_pull_double p;
+    fst_magnetic_pull_double(&flow->step.context.coefficients, state, &p);
+    if (fst_flight_allowed(flow) && fst_flight_load(flow, state, &p) < 0)
+        return FST_MODE_FLIGHT;
+    if (is_disc(flow))
+        return fst_disc_rests(flow, state, &p) ? FST_MODE_STICK : FST_MODE_SLIP;
+    const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, &p);
+    if (norm(at.slip) > captured(flow))
+        return FST_MODE_SLIP;
+    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : FST_MODE_SLIP;
+}
+
+/* A bead leaves the plate, or comes back to it: the mode that follows. */
+static int leave_or_return(fst_flow *flow, double *state)
+{
+    if (fst_flight_is_on(flow))
+        return fst_flight_impact(flow, state) ? mode_at(flow, state) : FST_MODE_FLIGHT;
+    fst_flight_begin(flow, 0.0);
+    return FST_MODE_FLIGHT;
 }
 
 /* The mode changes at `state`, which may be moved by less than anything else feels. */
@@ -150,11 +174,16 @@ static void enter(fst_flow *flow, int mode, double *state)
     fst_coulomb_double *law = law_of(flow);
     static const double nothing[2] = {0.0, 0.0};
     double slip[2];
+    flow->contact.proposal[fst_contact_mode(flow)] = flow->control.proposal;
+    if (mode == FST_MODE_FLIGHT)
+        mode = leave_or_return(flow, state);
     fst_slip_double(c, state, slip);
-    if (is_disc(flow)) {
+    if (mode == FST_MODE_FLIGHT) {
+        ; /* the state is no matter of the plate */
+    } else if (is_disc(flow)) {
         hold_disc(flow, mode, state);
     } else if (mode == FST_MODE_STICK) {
-        set_slip(c, state, nothing);
+        fst_set_slip(c, state, nothing);
     } else if (mode == FST_MODE_ONSET) {
         const fst_contact_double at = contact_at(flow, state);
         const double omega = fst_flow_omega(flow, flow->t);
@@ -162,27 +191,11 @@ static void enter(fst_flow *flow, int mode, double *state)
     } else if (norm(slip) < captured(flow)) {
         const fst_contact_double at = contact_at(flow, state);
         const double part = captured(flow) / norm(at.push);
-        set_slip(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
+        fst_set_slip(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
     }
-    const int before = fst_contact_mode(flow);
-    flow->contact.proposal[before] = flow->control.proposal;
     law->mode = mode;
     flow->control.proposal = flow->contact.proposal[mode] > 0 ? flow->contact.proposal[mode] : FIRST_SIZE;
     flow->contact.next_mode = -1;
-}
-
-/* The mode of a bead that is put down in a state. */
-static int mode_at(const fst_flow *flow, const double *state)
-{
-    if (is_disc(flow)) {
-        fst_pull_double p;
-        fst_magnetic_pull_double(&flow->step.context.coefficients, state, &p);
-        return fst_disc_rests(flow, state, &p) ? FST_MODE_STICK : FST_MODE_SLIP;
-    }
-    const fst_contact_double at = contact_at(flow, state);
-    if (norm(at.slip) > captured(flow))
-        return FST_MODE_SLIP;
-    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : FST_MODE_SLIP;
 }
 
 void fst_contact_put_down(fst_flow *flow, double *state)
@@ -191,10 +204,12 @@ void fst_contact_put_down(fst_flow *flow, double *state)
     static const double nothing[2] = {0.0, 0.0};
     if (is_disc(flow))
         fst_disc_begin(flow);
-    if (c->kinds.paced)
+    if (fst_flight_is_on(flow))
+        fst_flight_go_on(flow);
+    else if (c->kinds.paced)
         enter(flow, mode_at(flow, state), state);
     else if (c->kinds.contact == FST_FRICTION_ROLLING)
-        set_slip(c, state, nothing);
+        fst_set_slip(c, state, nothing);
 }
 
 /* ------------------------------------------------------------------ events that end a mode */
@@ -232,14 +247,23 @@ static double mode_ends(fst_flow *flow, int *next)
 {
     const fst_coulomb_double *law = law_of(flow);
     double first = 2.0, x;
-    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x)) {
+    if (fst_flight_is_on(flow)) {
+        *next = FST_MODE_FLIGHT;
+        return fst_flight_lands(flow, &x) ? x : first;
+    }
+    if (fst_flight_allowed(flow) && fst_flow_first_negative(flow, fst_flight_load, 0.0, &x)) {
+        *next = FST_MODE_FLIGHT;
+        first = x;
+    }
+    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x) &&
+        x < first) {
         const int falls_at_once = law->holding > fst_coulomb_mu_double(law, 0.0);
         *next = falls_at_once || is_disc(flow) ? FST_MODE_SLIP : FST_MODE_ONSET;
         first = x;
     }
     if (fst_contact_mode(flow) != FST_MODE_ONSET)
         return first;
-    if (fst_flow_first_negative(flow, until_handed_over, 0.0, &x)) {
+    if (fst_flow_first_negative(flow, until_handed_over, 0.0, &x) && x < first) {
         *next = FST_MODE_SLIP;
         first = x;
     }
@@ -288,6 +312,20 @@ static void land(fst_flow *flow, double rest)
     }
 }
 
+/* Make the last step anew, up to the event at its fraction x: a bead in the air comes down just there. */
+static void cut_at(fst_flow *flow, double x)
+{
+    enum { TRIES = 4 };
+    if (x < 1.0)
+        make_anew(flow, x * flow->step.h);
+    for (int i = 0; fst_flight_is_on(flow) && i < TRIES; ++i) {
+        const double missing = fst_flight_missing(flow);
+        if (fabs(missing) <= 1e-15 * (1.0 + fabs(flow->t.high)) || missing < -0.5 * flow->step.h)
+            return;
+        make_anew(flow, flow->step.h + missing);
+    }
+}
+
 fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
 {
     const fst_twofold limit = {t_limit, 0.0};
@@ -312,8 +350,8 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
     const int lands = end <= 1.0 && end <= event;
     if (lands)
         land(flow, rest);
-    else if (event < 1.0)
-        make_anew(flow, event * flow->step.h);
+    else if (event <= 1.0)
+        cut_at(flow, event);
     flow->rhs_calls += 1;
     flow->accepted += 1;
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));

@@ -16,7 +16,9 @@
 typedef struct fst_contact_state {
     int next_mode;      /* begins with the next step; -1: the mode goes on */
     int64_t captures;   /* slips that came to rest before the last step */
-    double proposal[3]; /* size of the next step in each mode */
+    double proposal[FST_MODES]; /* size of the next step in each mode */
+    int64_t impacts;            /* of a bead that flew, the impulses that held it up, and the energy they took */
+    double impulse, impact_loss;
     double clock[8];    /* dense output of the time over the last step, */
     int has_clock;      /* once formed */
 } fst_contact_state;
@@ -104,6 +106,9 @@ int fst_contact_mode(const fst_flow *flow);
 double fst_contact_elapsed(const fst_flow *flow);
 double fst_contact_fraction(fst_flow *flow, double since_start);
 double fst_contact_time(fst_flow *flow, double x);
+
+/* Change the slip of a state by an impulse of the plate: the moment about the contact stays what it was. */
+void fst_set_slip(const fst_coefficients_double *c, double *state, const double slip[2]);
 
 /* Let the drive change at this rate from now on; the flow must be at the end of a step. */
 void fst_flow_begin_ramp(fst_flow *flow, double rate);

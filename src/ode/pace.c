@@ -8,7 +8,7 @@
  * Errors.  While |V| falls over many orders of magnitude, a tolerance on v and W would stop seeing V long
  * before the end.  So a step must also keep some digits of V itself, however small it is.
  */
-#include "ode/flow.h"
+#include "ode/flight.h"
 
 #include "base/bracket.h"
 
@@ -44,6 +44,8 @@ double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *
 {
     const double error = fst_bead_step_error_double(s, rtol, atol);
     const fst_coefficients_double *c = &s->context.coefficients;
+    if (fst_is_in_flight_double(c))
+        return fmax(error, fst_flight_error(s, rtol));
     if (!c->kinds.paced || c->law.coulomb.mode != FST_MODE_SLIP)
         return error;
     double start[2], end[2];

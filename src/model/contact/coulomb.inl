@@ -8,6 +8,7 @@
  *     slip    V != 0                   mu(|V|) N V/|V| + rate V
  *     stick   |A| <= (7/2) mu_s N      (2/7) A:  V stays 0
  *     onset   just released            mu(|V|) N u, u near A/|A|
+ *     flight  in the air               0 (dynamics.inl leaves it no load; ode/flight.c)
  *
  * Onset.  Where |A| grows past (7/2) mu_s N and sliding friction is no weaker than static, the slip begins with
  * no speed and hardly any acceleration.  Its direction u follows A at the rate |A|/|V|, without bound, so that
@@ -29,6 +30,7 @@ typedef struct FN(coulomb) {
     REAL stribeck;     /* 1/v_S^2, else 0 */
     REAL rate;         /* viscous part, in gamma */
     REAL usual_slip_2; /* s_r^2 of the pace */
+    REAL restitution;  /* e_n of an impact, where a bead may fly */
     FN(patch) patch;
 } FN(coulomb);
 
@@ -46,6 +48,7 @@ static inline FN(coulomb) FN(make_coulomb)(const fst_params *params, const fst_g
         .stribeck = REAL_OF(isnan(speed) ? 0.0 : 1.0 / (speed * speed)),
         .rate = REAL_OF(params->friction_contact_rate * g->time_unit),
         .usual_slip_2 = R(0.0025),
+        .restitution = REAL_OF(isnan(params->impact_restitution) ? 0.0 : params->impact_restitution),
         .patch = FN(make_patch)(params, g),
     };
     return law;
