@@ -280,6 +280,7 @@ static void check_refused(const char *key, const char *text, const char *sentenc
 {
     fst_params p = fst_default_params();
     fst_error error = {FST_OK, "", ""};
+    p.friction_law = FST_FRICTION_COULOMB;
     p.contact_patch = FST_PATCH_HERTZ;
     fst_model *model = NULL;
     fst_status status = key ? fst_params_set(&p, key, text, &error) : FST_OK;

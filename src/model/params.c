@@ -339,8 +339,8 @@ fst_status fst_params_validate(const fst_params *params, fst_error *error)
             error, FST_BAD_INPUT, "contact.radius",
             "contact.radius and contact.modulus are both given, but the radius follows from the modulus: "
             "give one of them");
-    if (params->contact_patch != FST_PATCH_POINT && isnan(params->contact_radius) &&
-        isnan(params->contact_modulus))
+    if (params->friction_law == FST_FRICTION_COULOMB && params->contact_patch != FST_PATCH_POINT &&
+        isnan(params->contact_radius) && isnan(params->contact_modulus))
         return fst_fail(
             error, FST_BAD_INPUT, "contact.patch",
             "contact.patch needs the size of the disc: give contact.radius, or contact.modulus, from which "

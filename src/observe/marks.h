@@ -18,7 +18,7 @@ typedef struct fst_mark {
     int64_t captures;     /* slips that have come to rest */
     int64_t impacts;      /* of a bead that flies; the impulses that held it up, and the energy they took */
     double impulse, impact_loss;
-    double activity;      /* marks of periods: greatest speed in the turning frame since the mark before */
+    double activity; /* marks of periods: greatest speed in the turning frame since the mark before */
 } fst_mark;
 
 enum { FST_MARKS = 32 };

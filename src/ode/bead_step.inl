@@ -14,8 +14,8 @@
  * then those by theta.  The pace is kept at every stage too: its integral over the step is the time that
  * passes.  Under other laws theta is t, and none of this is done.  Lanes have no such laws.
  *
- * Flight.  A bead in the air (ode/flight.c) has a height and a climb besides.  They are no part of the state, but
- * are carried through the stages by the same weights, and the source is raised to each stage's height.
+ * Flight.  A bead in the air (ode/flight.c) has a height and a climb besides.  They are no part of the state,
+ * but are carried through the stages by the same weights, and the source is raised to each stage's height.
  */
 #include "ode/dop853_tableau.h"
 
@@ -23,7 +23,7 @@
 typedef struct FN(flight) {
     fst_params params; /* of which the source of another height is made */
     fst_groups groups;
-    REAL start[2];                       /* height and climb at the start of a step */
+    REAL start[2];                        /* height and climb at the start of a step */
     REAL height[16], climb[16], lift[16]; /* z, z' and z'' at its stages */
 } FN(flight);
 #endif
@@ -62,7 +62,8 @@ static inline void FN(raise_source)(FN(bead) * bead, REAL z)
 {
     fst_groups groups = bead->flight.groups;
     groups.h = (double)(REAL_OF(groups.h) + z);
-    bead->coefficients.source = FN(make_source_numbers)(&bead->coefficients.kinds, &bead->flight.params, &groups);
+    bead->coefficients.source =
+        FN(make_source_numbers)(&bead->coefficients.kinds, &bead->flight.params, &groups);
 }
 
 /* Height and climb at a stage of a step of the size h. */
@@ -115,7 +116,7 @@ static inline REAL FN(stage_drive)(const FN(bead) * bead, REAL h, REAL omega, RE
 
 #define STEP_DERIVATIVES(s, drive, j)                                                                          \
     FN(paced_rhs)                                                                                              \
-    (&(s)->context, (s)->h, FN(stage_drive)(&(s)->context, (s)->h, (s)->omega, (s)->ramp, drive, (j)-1),               \
+    (&(s)->context, (s)->h, FN(stage_drive)(&(s)->context, (s)->h, (s)->omega, (s)->ramp, drive, (j)-1),       \
      (s)->stage[(j)-1], (j)-1, (s)->k[(j)-1])
 #else
 #define STEP_DERIVATIVES(s, drive, j)                                                                          \

@@ -1,8 +1,8 @@
 /* flight.c - a bead that leaves the plate, flies, and comes down again.
  *
- * Where the magnet's pull no longer presses the bead onto the plate, N = 0, and impact.restitution is given, the
- * bead flies.  It then has a height z over the plate and a speed of climb z', no friction, and the field of its
- * own height:
+ * Where the magnet's pull no longer presses the bead onto the plate, N = 0, and impact.restitution is given,
+ * the bead flies.  It then has a height z over the plate and a speed of climb z', no friction, and the field of
+ * its own height:
  *
  *     z'' = F_z - g,      f = 0
  *
@@ -12,13 +12,13 @@
  *     --+--o----------------o--o--------o-o--o----> t
  *        N = 0          impacts                contact again
  *
- * A step has the state's ten numbers.  Height and climb are the flight's own: bead_step.inl carries them through
- * the stages of a step with the method's weights, so that they are as exact as the rest.
+ * A step has the state's ten numbers.  Height and climb are the flight's own: bead_step.inl carries them
+ * through the stages of a step with the method's weights, so that they are as exact as the rest.
  *
  * Impact.  The plate returns the part e_n of the speed with which the bead comes down, by an impulse p_n = (1 +
- * e_n)|z'|, and rubs with the impulse p_t = min(mu p_n, (2/7)|V|) against the slip V, which stays along its line:
- * V -> V (1 - (7/2) p_t/|V|).  (An impact is taken as one at a point, whatever the contact's patch is: it does not
- * change W.e.)
+ * e_n)|z'|, and rubs with the impulse p_t = min(mu p_n, (2/7)|V|) against the slip V, which stays along its
+ * line: V -> V (1 - (7/2) p_t/|V|).  (An impact is taken as one at a point, whatever the contact's patch is: it
+ * does not change W.e.)
  *
  * Hops become ever shorter, infinitely many within a finite time.  So the bead stays down when it would bounce
  * with less than a tolerance of speed and the load is positive.
@@ -89,14 +89,13 @@ int fst_flight_impact(fst_flow *flow, double *state)
     }
     c->law.coulomb.mode = FST_MODE_FLIGHT;
     fst_flight_begin(flow, bounces);
-    /* A hop lasts 2 z'/N: the first step is no longer. */
+    /* A short hop lasts 2 z'/N: the first step is hardly longer. */
     flow->contact.proposal[FST_MODE_FLIGHT] =
-        load > 0 ? fmin(2.0 * bounces / load, flow->control.proposal) : flow->control.proposal;
+        load > 0 ? fmin(2.5 * bounces / load, flow->control.proposal) : flow->control.proposal;
     return 0;
 }
 
 /* ------------------------------------------------------------------ within a step */
-
 
 /* What z or z' has gained at the fraction x, by its derivative at the stages. */
 static double gained(fst_flow *flow, const double *slope, double x)
@@ -144,7 +143,7 @@ static double locate_landing(fst_flow *flow, double lo, double hi)
 int fst_flight_lands(fst_flow *flow, double *x)
 {
     enum { PIECES = 16 };
-    const double least = 1e-6;
+    const double least = 1e-15;
     for (int i = 1; i <= PIECES; ++i) {
         const double at = (double)i / PIECES;
         if (height_at(flow, at) >= 0)

@@ -111,6 +111,13 @@ static int is_sound_series(const fst_mark_series *s)
     return s->count >= 0 && s->count <= FST_MARKS && s->stride >= 1 && s->offered >= 0;
 }
 
+/* Under a law with modes the image tells in which one the bead is. */
+static int is_sound_mode(const fst_flow *flow)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    return !c->kinds.paced || (c->law.coulomb.mode >= 0 && c->law.coulomb.mode < FST_MODES);
+}
+
 static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
 {
     const int count =
@@ -120,7 +127,8 @@ static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
            (unsigned)i->place.station < FST_STATION_COUNT &&
            (i->place.station == FST_STATION_ALONE) ==
                (numbers == 0 && i->place.station != FST_STATION_PARKED) &&
-           is_sound_series(&i->window.returns.marks) && is_sound_series(&i->window.periods);
+           is_sound_mode(&i->flow) && is_sound_series(&i->window.returns.marks) &&
+           is_sound_series(&i->window.periods);
 }
 
 int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_run *run,
@@ -138,6 +146,11 @@ int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_
     run->end = from->end;
     *run->flow = from->flow;
     run->flow->step.context.coefficients = coefficients;
+    if (coefficients.kinds.paced) { /* the mode belongs to the motion, not to the setup */
+        const fst_coulomb_double *law = &from->flow.step.context.coefficients.law.coulomb;
+        run->flow->step.context.coefficients.law.coulomb.mode = law->mode;
+        run->flow->step.context.coefficients.law.coulomb.lean = law->lean;
+    }
     run->flow->groups = groups;
     *place = from->place;
     if (place->station == FST_STATION_PARKED) {
