@@ -149,7 +149,23 @@ static inline void FN(stop_slip)(const FN(coefficients) * c, REAL *y)
     y[FST_VY] = -(c->eps * y[FST_WX]);
 }
 
-/* The same, and of a bead that is held on a disc the pivoting. */
+#ifdef REAL_IS_SCALAR
+/* Change the slip by an impulse of the plate: the moment about the contact stays what it was. */
+static inline void FN(set_slip)(const FN(coefficients) * c, REAL *y, const REAL slip[2])
+{
+    REAL before[2];
+    FN(slip)(c, y, before);
+    const REAL change[2] = {slip[0] - before[0], slip[1] - before[1]};
+    y[FST_VX] += R(2.0) / R(7.0) * change[0];
+    y[FST_VY] += R(2.0) / R(7.0) * change[1];
+    y[FST_WX] += R(5.0) / (R(7.0) * c->eps) * change[1];
+    y[FST_WY] -= R(5.0) / (R(7.0) * c->eps) * change[0];
+    if (slip[0] == R(0.0) && slip[1] == R(0.0))
+        FN(stop_slip)(c, y);
+}
+#endif
+
+/* Take the slip out of a state that rolls, and of a bead that is held on a disc the pivoting. */
 static inline void FN(stop_contact)(const FN(coefficients) * c, REAL *y)
 {
     FN(stop_slip)(c, y);

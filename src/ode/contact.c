@@ -98,19 +98,6 @@ static fst_contact_double contact_at(const fst_flow *flow, const double *state)
 
 /* ------------------------------------------------------------------ changes of mode */
 
-void fst_set_slip(const fst_coefficients_double *c, double *state, const double slip[2])
-{
-    double before[2];
-    fst_slip_double(c, state, before);
-    const double change[2] = {slip[0] - before[0], slip[1] - before[1]};
-    state[FST_VX] += 2.0 / 7.0 * change[0];
-    state[FST_VY] += 2.0 / 7.0 * change[1];
-    state[FST_WX] += 5.0 / (7.0 * c->eps) * change[1];
-    state[FST_WY] -= 5.0 / (7.0 * c->eps) * change[0];
-    if (slip[0] == 0.0 && slip[1] == 0.0)
-        fst_stop_slip_double(c, state);
-}
-
 /* The rate at which the direction of A turns in the magnet's frame, in a bead that sticks. */
 static double turning_of_push(const fst_flow *flow, const double *state)
 {
@@ -139,7 +126,7 @@ static void hold_disc(const fst_flow *flow, int mode, double *state)
         return;
     if (mode == FST_MODE_SLIP)
         fst_disc_release(flow, state, &p, slip, &pivot);
-    fst_set_slip(c, state, slip);
+    fst_set_slip_double(c, state, slip);
     state[FST_WZ] = pivot;
 }
 
@@ -183,7 +170,7 @@ static void enter(fst_flow *flow, int mode, double *state)
     } else if (is_disc(flow)) {
         hold_disc(flow, mode, state);
     } else if (mode == FST_MODE_STICK) {
-        fst_set_slip(c, state, nothing);
+        fst_set_slip_double(c, state, nothing);
     } else if (mode == FST_MODE_ONSET) {
         const fst_contact_double at = contact_at(flow, state);
         const double omega = fst_flow_omega(flow, flow->t);
@@ -191,7 +178,7 @@ static void enter(fst_flow *flow, int mode, double *state)
     } else if (norm(slip) < captured(flow)) {
         const fst_contact_double at = contact_at(flow, state);
         const double part = captured(flow) / norm(at.push);
-        fst_set_slip(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
+        fst_set_slip_double(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
     }
     law->mode = mode;
     flow->control.proposal = flow->contact.proposal[mode] > 0 ? flow->contact.proposal[mode] : FIRST_SIZE;
@@ -209,7 +196,7 @@ void fst_contact_put_down(fst_flow *flow, double *state)
     else if (c->kinds.paced)
         enter(flow, mode_at(flow, state), state);
     else if (c->kinds.contact == FST_FRICTION_ROLLING)
-        fst_set_slip(c, state, nothing);
+        fst_set_slip_double(c, state, nothing);
 }
 
 /* ------------------------------------------------------------------ events that end a mode */

@@ -76,7 +76,7 @@ int fst_flight_impact(fst_flow *flow, double *state)
     const double s2 = at.slip[0] * at.slip[0] + at.slip[1] * at.slip[1], s = sqrt(s2);
     const double tangential = fmin(fst_coulomb_mu_double(&c->law.coulomb, s2) * normal, 2.0 / 7.0 * s);
     const double left = s > 0 ? 1.0 - 3.5 * tangential / s : 0.0;
-    fst_set_slip(c, state, (const double[2]){left * at.slip[0], left * at.slip[1]});
+    fst_set_slip_double(c, state, (const double[2]){left * at.slip[0], left * at.slip[1]});
     flow->contact.impacts += 1;
     flow->contact.impulse += normal;
     flow->contact.impact_loss +=

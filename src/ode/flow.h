@@ -107,9 +107,6 @@ double fst_contact_elapsed(const fst_flow *flow);
 double fst_contact_fraction(fst_flow *flow, double since_start);
 double fst_contact_time(fst_flow *flow, double x);
 
-/* Change the slip of a state by an impulse of the plate: the moment about the contact stays what it was. */
-void fst_set_slip(const fst_coefficients_double *c, double *state, const double slip[2]);
-
 /* Let the drive change at this rate from now on; the flow must be at the end of a step. */
 void fst_flow_begin_ramp(fst_flow *flow, double rate);
 
