@@ -30,18 +30,19 @@
  * large enough to have a direction of its own.  If friction is weaker in sliding, the slip begins at once, with
  * a tiny speed along A.
  *
- * Sizes follow the tolerance: `captured` is a thousandth of it, and the hand-over goes with its power 3/8, by
- * which the error of onset, (hand-over)^(5/2), shrinks like the tolerance.
+ * Sizes follow the tolerance: `captured` is a thousandth of it, and the hand-over goes with its power 5/16, by
+ * which the error of onset, (hand-over)^(7/2), shrinks like the tolerance (onset.c).
  *
  */
 #include "ode/flow.h"
 
 #include "base/error.h"
-#include "model/tangent.inl"
 
 static const double SLOWER = 1e-3;         /* captured, in tolerances */
 static const double LEAST_SPEED = 1e-14;   /* that rounding leaves of a slip's digits */
-static const double HAND_OVER = 0.5;       /* times tolerance^(3/8) */
+static const double HAND_OVER = 0.12;      /* times tolerance^(5/16) */
+static const double USUAL_GROWTH = 0.1;    /* of a slip, in l gamma^3: the time of the hand-over follows from it */
+static const double FEW = 0.01;            /* slip then, in those of the hand-over */
 static const double RELEASE_SLACK = 1e-13; /* relative excess of |A| at a release */
 static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not met before */
 
@@ -78,8 +79,8 @@ static double captured(const fst_flow *flow)
 
 static double handed_over(const fst_flow *flow)
 {
-    const double eighth = sqrt(sqrt(sqrt(flow->rtol)));
-    return HAND_OVER * (eighth * eighth * eighth);
+    const double quarter = sqrt(sqrt(flow->rtol));
+    return HAND_OVER * (quarter * sqrt(sqrt(quarter)));
 }
 
 static fst_contact_double contact_at(const fst_flow *flow, const double *state)
@@ -106,23 +107,6 @@ static void set_slip(const fst_coefficients_double *c, double *state, const doub
         fst_stop_slip_double(c, state);
 }
 
-/* The rate at which the direction of A turns in the magnet's frame, in a bead that sticks. */
-static double turning_of_push(const fst_flow *flow, const double *state)
-{
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
-    fst_linear_double l;
-    double dy[FST_STATE_SIZE], force[3], turning[3], twist[3], torque[3];
-    fst_linearise_double(c, fst_flow_omega(flow, flow->t), state, &l, dy);
-    fst_contact_double by;
-    fst_pull_change_double(c, &l, state, dy, force, turning);
-    by.load = -force[2];
-    fst_cross_double(dy + FST_NX, l.at.b, twist);
-    fst_cross_double(state + FST_NX, turning, torque);
-    fst_dry_change_double(c, &l, state, dy, force, twist, torque, &by);
-    const double *a = l.contact.push;
-    return (a[0] * by.push[1] - a[1] * by.push[0]) / (a[0] * a[0] + a[1] * a[1]);
-}
-
 /* The mode changes at `state`, which may be moved by less than anything else feels. */
 static void enter(fst_flow *flow, int mode, double *state)
 {
@@ -131,19 +115,17 @@ static void enter(fst_flow *flow, int mode, double *state)
     static const double nothing[2] = {0.0, 0.0};
     double slip[2];
     fst_slip_double(c, state, slip);
+    flow->contact.proposal[fst_contact_mode(flow)] = flow->control.proposal;
     if (mode == FST_MODE_STICK) {
         set_slip(c, state, nothing);
     } else if (mode == FST_MODE_ONSET) {
-        const fst_contact_double at = contact_at(flow, state);
-        const double omega = fst_flow_omega(flow, flow->t);
-        law->lean = (turning_of_push(flow, state) + omega) / (2.0 * norm(at.push) - brake(flow, &at));
+        fst_contact_begin_onset(flow, state);
+        flow->contact.released = flow->t;
     } else if (norm(slip) < captured(flow)) {
         const fst_contact_double at = contact_at(flow, state);
         const double part = captured(flow) / norm(at.push);
         set_slip(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
     }
-    const int before = fst_contact_mode(flow);
-    flow->contact.proposal[before] = flow->control.proposal;
     law->mode = mode;
     flow->control.proposal = flow->contact.proposal[mode] > 0 ? flow->contact.proposal[mode] : FIRST_SIZE;
     flow->contact.next_mode = -1;
@@ -195,6 +177,14 @@ static double until_back_at_rest(const fst_flow *flow, const double *state, cons
     return onset_speed(flow, state, p) + captured(flow);
 }
 
+/* Where the slip hardly grows, its direction is no longer known after some time; *x: that place in the step. */
+static int onset_is_long(fst_flow *flow, double *x)
+{
+    const double time = sqrt(2.0 * handed_over(flow) / USUAL_GROWTH) - law_of(flow)->since;
+    *x = time > 0 && time < flow->step.h ? time / flow->step.h : 1.0;
+    return time <= flow->step.h && fst_flow_function_at(flow, *x, onset_speed) >= FEW * handed_over(flow);
+}
+
 /* The fraction of the last step at which an event ends its mode, 2 where none does, and the mode that follows.
  */
 static double mode_ends(fst_flow *flow, int *next)
@@ -208,7 +198,7 @@ static double mode_ends(fst_flow *flow, int *next)
     }
     if (fst_contact_mode(flow) != FST_MODE_ONSET)
         return first;
-    if (fst_flow_first_negative(flow, until_handed_over, 0.0, &x)) {
+    if (fst_flow_first_negative(flow, until_handed_over, 0.0, &x) || onset_is_long(flow, &x)) {
         *next = FST_MODE_SLIP;
         first = x;
     }
@@ -270,6 +260,8 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
         fst_bead_flow_restart(flow);
     }
     fst_bead_flow_prepare(flow);
+    if (fst_contact_mode(flow) == FST_MODE_ONSET)
+        law_of(flow)->since = fst_twofold_difference(flow->t, flow->contact.released);
     flow->contact.has_clock = flow->has_dense = 0;
     if (!fst_bead_flow_try_until_good(flow, INFINITY))
         return fst_flow_fail(flow, error);
