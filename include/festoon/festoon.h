@@ -266,6 +266,9 @@ typedef struct fst_observation {
     double load;               /* normal load per mass, l gamma^2 */
     double energy;             /* kinetic and magnetic energy per mass, l^2 gamma^2 */
     double friction_power;     /* f.V */
+    double friction;           /* |f|, horizontal force between plate and bead per mass, l gamma^2 */
+    double friction_use;       /* |f|/(mu_s N), of what static friction could take; 0 where that is nothing */
+    int sticks;                /* the contact rolls without slipping, by its law */
     double drive_power;        /* dU/dt at fixed x, n, W */
 } fst_observation;
 FST_API fst_observation fst_observe(const fst_model *model, const double state[FST_STATE_SIZE]);
