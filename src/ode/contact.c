@@ -209,15 +209,22 @@ static double mode_ends(fst_flow *flow, int *next)
     return first;
 }
 
-/* A slip ends where it is nearly nothing and friction is stronger than the push. */
-static int slip_ends(const fst_flow *flow)
+/* The mode that follows a slip that is nearly nothing, -1 where it goes on.  It ends where friction is stronger
+ * than the push.  A slip straight against a push that is stronger stops as well, but lets go at once; it would
+ * approach rest for ever in theta. */
+static int after_slip(const fst_flow *flow)
 {
     const fst_bead_step_double *s = &flow->step;
     if (fst_contact_mode(flow) != FST_MODE_SLIP)
-        return 0;
+        return -1;
     const fst_contact_double at =
         fst_contact_of_double(&s->context.coefficients, s->end, FST_PATH_PULL(s, FST_PATH_END));
-    return norm(at.slip) <= captured(flow) && norm(at.push) < brake(flow, &at);
+    if (norm(at.slip) > captured(flow))
+        return -1;
+    const int against = at.slip[0] * at.push[0] + at.slip[1] * at.push[1] < 0;
+    if (norm(at.push) < (against ? hold(flow, &at) : brake(flow, &at)))
+        return FST_MODE_STICK;
+    return against ? FST_MODE_SLIP : -1;
 }
 
 /* ------------------------------------------------------------------ steps */
@@ -277,6 +284,6 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
     flow->accepted += 1;
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));
     flow->has_step = 1;
-    flow->contact.next_mode = !lands && event <= 1.0 ? next : slip_ends(flow) ? FST_MODE_STICK : -1;
+    flow->contact.next_mode = !lands && event <= 1.0 ? next : after_slip(flow);
     return FST_OK;
 }
