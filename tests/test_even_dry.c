@@ -79,7 +79,7 @@ static void check_capture(double part, double angle)
         CHECK_CLOSE(c * s + a * v[0] + (c * c - a * a) * t, c * s0 + a * s0 * cos(angle), 1e-12);
         if (s > 0.01) {
             const double d = atan2(v[1], v[0]);
-            CHECK_CLOSE(s * sin(d) * pow(tan(0.5 * d), -c / a) / invariant, 1, 1e-8);
+            CHECK_CLOSE(s * sin(d) * pow(tan(0.5 * d), -c / a) / invariant, 1, 1e-10 * (1 + c / a) / sin(d));
         }
     }
     CHECK_CLOSE(at / ends, 1, 1e-9);

@@ -25,7 +25,7 @@
  *                t*
  *
  * Release.  |A| passes (7/2) mu_s N, a function of the state whose zero is located as other events are; the
- * step is made anew as long as up to there.  If friction is as strong in sliding, the slip begins with onset:
+ * step is made anew as long as up to there.  If friction is (nearly) as strong in sliding, the slip begins with onset:
  * the slip grows from nothing while its direction is tied to that of A, and is handed over to slip when it is
  * large enough to have a direction of its own.  If friction is weaker in sliding, the slip begins at once, with
  * a tiny speed along A.
@@ -43,6 +43,7 @@ static const double LEAST_SPEED = 1e-14;   /* that rounding leaves of a slip's d
 static const double HAND_OVER = 0.12;      /* times tolerance^(5/16) */
 static const double USUAL_GROWTH = 0.1;    /* of a slip, in l gamma^3: the time of the hand-over follows from it */
 static const double FEW = 0.01;            /* slip then, in those of the hand-over */
+static const double FALL_AT_ONCE = 1.01;   /* static friction over sliding */
 static const double RELEASE_SLACK = 1e-13; /* relative excess of |A| at a release */
 static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not met before */
 
@@ -131,13 +132,22 @@ static void enter(fst_flow *flow, int mode, double *state)
     flow->contact.next_mode = -1;
 }
 
+/* The mode of a bead whose contact lets go: slip, if friction falls at once, so that the slip has an acceleration
+ * to begin with. */
+static int released_mode(const fst_flow *flow)
+{
+    const fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
+    const int falls_at_once = law->holding > FALL_AT_ONCE * fst_coulomb_mu_double(law, 0.0);
+    return falls_at_once ? FST_MODE_SLIP : FST_MODE_ONSET;
+}
+
 /* The mode of a bead that is put down in a state. */
 static int mode_at(const fst_flow *flow, const double *state)
 {
     const fst_contact_double at = contact_at(flow, state);
     if (norm(at.slip) > captured(flow))
         return FST_MODE_SLIP;
-    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : FST_MODE_SLIP;
+    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : released_mode(flow);
 }
 
 void fst_contact_put_down(fst_flow *flow, double *state)
@@ -189,11 +199,9 @@ static int onset_is_long(fst_flow *flow, double *x)
  */
 static double mode_ends(fst_flow *flow, int *next)
 {
-    const fst_coulomb_double *law = law_of(flow);
     double first = 2.0, x;
     if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x)) {
-        const int falls_at_once = law->holding > fst_coulomb_mu_double(law, 0.0);
-        *next = falls_at_once ? FST_MODE_SLIP : FST_MODE_ONSET;
+        *next = released_mode(flow);
         first = x;
     }
     if (fst_contact_mode(flow) != FST_MODE_ONSET)
@@ -224,7 +232,7 @@ static int after_slip(const fst_flow *flow)
     const int against = at.slip[0] * at.push[0] + at.slip[1] * at.push[1] < 0;
     if (norm(at.push) < (against ? hold(flow, &at) : brake(flow, &at)))
         return FST_MODE_STICK;
-    return against ? FST_MODE_SLIP : -1;
+    return against ? released_mode(flow) : -1;
 }
 
 /* ------------------------------------------------------------------ steps */

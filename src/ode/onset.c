@@ -5,11 +5,12 @@
  *
  *     s' = a cos(delta) - c,        delta' = B - (a/s) sin(delta)
  *
- * At a release s = 0 and a = c, and a - c then grows from 0 at some rate k: s = k t^2/2.  Of all solutions one
- * is bounded, and a bead that was at rest follows that one.  With delta = s e it is, to orders in s and t,
+ * At a release s = 0, a = c, and a - c then grows from 0 at some rate k: s = k t^2/2.  (A bead may also be put
+ * down at rest where a > c.)  Of all solutions one is bounded, and a bead that was at rest follows that one.
+ * With delta = s e it is, to orders in s and t,
  *
  *     s' e + s e' = B - a e + O(s^2):       e = lean + lean_slip s + O(s^2, s t),
- *     lean(t) = B/(2 a - c),                lean_slip = -lean'/a
+ *     lean(t) = B/(2 a - c),                lean_slip = -lean'/(3 a - 2 c)
  *
  * lean(t) is known where the slip begins, with two derivatives, from states a little before and after on the
  * motion that begins there.  What is left out is of the order s t^3 in delta, of t^6 in the impulse of the
@@ -22,8 +23,8 @@
 
 static const double APART = 1e-3; /* of the states before and after, in 1/gamma */
 
-/* `lean` in a state of this motion; *push: a there. */
-static double lean_in(const fst_flow *flow, double omega, const double *state, double *push)
+/* `lean` in a state of this motion; *across: 3 a - 2 c there. */
+static double lean_in(const fst_flow *flow, double omega, const double *state, double *across)
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
     fst_linear_double l;
@@ -38,8 +39,9 @@ static double lean_in(const fst_flow *flow, double omega, const double *state, d
     const double *a = l.contact.push, size2 = a[0] * a[0] + a[1] * a[1], size = sqrt(size2);
     const double turns = omega + (a[0] * by.push[1] - a[1] * by.push[0]) / size2;
     const double mu = fst_coulomb_mu_double(&c->law.coulomb, 0.0);
-    *push = size;
-    return turns / (2.0 * size - 3.5 * mu * fst_coulomb_load_double(&l.contact));
+    const double excess = size - 3.5 * mu * fst_coulomb_load_double(&l.contact);
+    *across = size + 2.0 * excess;
+    return turns / (size + excess);
 }
 
 /* The states APART before (0) and after (1) the given one, to the second order in time. */
@@ -65,14 +67,14 @@ void fst_contact_begin_onset(fst_flow *flow, const double *state)
 {
     fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
     const double omega = fst_flow_omega(flow, flow->t), turn = APART * flow->step.ramp;
-    double around[2][FST_STATE_SIZE], push;
+    double around[2][FST_STATE_SIZE], across;
     law->mode = FST_MODE_ONSET;
     law->lean = law->lean_slip = law->since = 0.0;
     states_around(flow, omega, state, around);
-    const double before = lean_in(flow, omega - turn, around[0], &push),
-                 after = lean_in(flow, omega + turn, around[1], &push);
-    law->lean = law->lean_then[0] = lean_in(flow, omega, state, &push);
+    const double before = lean_in(flow, omega - turn, around[0], &across),
+                 after = lean_in(flow, omega + turn, around[1], &across);
+    law->lean = law->lean_then[0] = lean_in(flow, omega, state, &across);
     law->lean_then[1] = (after - before) / (2.0 * APART);
     law->lean_then[2] = 0.5 * (after - 2.0 * law->lean + before) / (APART * APART);
-    law->lean_slip = -law->lean_then[1] / push;
+    law->lean_slip = -law->lean_then[1] / across;
 }
