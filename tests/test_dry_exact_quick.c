@@ -1,5 +1,6 @@
-/* Dry friction on a plate without a magnet, where everything is known: how a slip ends, what it leaves behind, and
- * how rolling resistance brings a bead to rest.  The turning frame, which computes all this, must not show. */
+/* Dry friction on a plate without a magnet, where everything is known: how a slip ends, what it leaves behind,
+ * and how rolling resistance brings a bead to rest.  The turning frame, which computes all this, must not show.
+ */
 #include "physics.h"
 
 #include "model/model.h"
@@ -44,7 +45,8 @@ static void check_thrown(fst_params p, double t)
         const double v = s[FST_VX + i] - brake * slid * u[i];
         CHECK_CLOSE(lab[FST_VX + i], v, 2e-13);
         CHECK_CLOSE(lab[FST_X + i],
-                    s[FST_X + i] + s[FST_VX + i] * slid - 0.5 * brake * slid * slid * u[i] + v * (t - slid), 3e-12);
+                    s[FST_X + i] + s[FST_VX + i] * slid - 0.5 * brake * slid * slid * u[i] + v * (t - slid),
+                    3e-12);
     }
     for (int i = 0; i < 3; ++i)
         CHECK_CLOSE(lab[FST_WX + i], s[FST_WX + i] + 2.5 / g.eps * brake * slid * exu[i], 3e-12);
@@ -129,7 +131,8 @@ static void test_rolling_stops(void **unused)
             p.friction_rolling_resistance = j ? 0.05 : 0.001;
             fst_model *model = model_of(&p);
             const fst_groups g = fst_model_groups(model);
-            const double v = 0.03, brake = 5.0 / 7 * p.friction_rolling_resistance * g.gravity, stops = v / brake;
+            const double v = 0.03, brake = 5.0 / 7 * p.friction_rolling_resistance * g.gravity,
+                         stops = v / brake;
             const double start[FST_STATE_SIZE] = {0.4, 0.1, v, 0, 0, 0, 1, 0, v / g.eps, 0};
             double lab[FST_STATE_SIZE];
             const double t = 0.9 * stops;

@@ -39,7 +39,8 @@ typedef struct FN(bead) {
     (&(s)->context.coefficients, (s)->stage[(next)-1], &(s)->context.pull[(next)-1], drive, (s)->stage[(j)-1], \
      &(s)->context.pull[(j)-1], (s)->k[(j)-1])
 #elif defined REAL_IS_SCALAR
-/* The time since the start of a step of the size h (in theta) at one of its stages, by the method's own weights.
+/* The time since the start of a step of the size h (in theta) at one of its stages, by the method's own
+ * weights.
  */
 static inline REAL FN(stage_time)(const FN(bead) * bead, REAL h, int stage)
 {
@@ -73,7 +74,7 @@ static inline REAL FN(stage_drive)(const FN(bead) * bead, REAL h, REAL omega, RE
 
 #define STEP_DERIVATIVES(s, drive, j)                                                                          \
     FN(paced_rhs)                                                                                              \
-    (&(s)->context, (s)->h, FN(stage_drive)(&(s)->context, (s)->h, (s)->omega, (s)->ramp, drive, (j)-1),               \
+    (&(s)->context, (s)->h, FN(stage_drive)(&(s)->context, (s)->h, (s)->omega, (s)->ramp, drive, (j)-1),       \
      (s)->stage[(j)-1], (j)-1, (s)->k[(j)-1])
 #else
 #define STEP_DERIVATIVES(s, drive, j)                                                                          \

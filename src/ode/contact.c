@@ -25,10 +25,10 @@
  *                t*
  *
  * Release.  |A| passes (7/2) mu_s N, a function of the state whose zero is located as other events are; the
- * step is made anew as long as up to there.  If friction is (nearly) as strong in sliding, the slip begins with onset:
- * the slip grows from nothing while its direction is tied to that of A, and is handed over to slip when it is
- * large enough to have a direction of its own.  If friction is weaker in sliding, the slip begins at once, with
- * a tiny speed along A.
+ * step is made anew as long as up to there.  If friction is (nearly) as strong in sliding, the slip begins with
+ * onset: the slip grows from nothing while its direction is tied to that of A, and is handed over to slip when
+ * it is large enough to have a direction of its own.  If friction is weaker in sliding, the slip begins at
+ * once, with a tiny speed along A.
  *
  * Sizes follow the tolerance: `captured` is a thousandth of it, and the hand-over goes with its power 5/16, by
  * which the error of onset, (hand-over)^(7/2), shrinks like the tolerance (onset.c).
@@ -38,11 +38,13 @@
 
 #include "base/error.h"
 
-static const double SLOWER = 1e-3;         /* captured, in tolerances */
-static const double LEAST_SPEED = 1e-14;   /* that rounding leaves of a slip's digits */
-static const double HAND_OVER = 0.12;      /* times tolerance^(5/16) */
-static const double USUAL_GROWTH = 0.1;    /* of a slip, in l gamma^3: the time of the hand-over follows from it */
-static const double FEW = 0.01;            /* slip then, in those of the hand-over */
+static const double SLOWER = 1e-3;       /* captured, in tolerances */
+static const double LEAST_SPEED = 1e-14; /* that rounding leaves of a slip's digits */
+static const double LEAST_FALL = 1e-12;  /* below this slip, or the tolerance, rounding may end it: */
+static const double ROUNDING = 2e-15;    /* by so much, in the speeds of which it is made */
+static const double HAND_OVER = 0.12;    /* times tolerance^(5/16) */
+static const double USUAL_GROWTH = 0.1; /* of a slip, in l gamma^3: the time of the hand-over follows from it */
+static const double FEW = 0.01;         /* slip then, in those of the hand-over */
 static const double FALL_AT_ONCE = 1.01;   /* static friction over sliding */
 static const double RELEASE_SLACK = 1e-13; /* relative excess of |A| at a release */
 static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not met before */
@@ -132,8 +134,8 @@ static void enter(fst_flow *flow, int mode, double *state)
     flow->contact.next_mode = -1;
 }
 
-/* The mode of a bead whose contact lets go: slip, if friction falls at once, so that the slip has an acceleration
- * to begin with. */
+/* The mode of a bead whose contact lets go: slip, if friction falls at once, so that the slip has an
+ * acceleration to begin with. */
 static int released_mode(const fst_flow *flow)
 {
     const fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
@@ -217,6 +219,17 @@ static double mode_ends(fst_flow *flow, int *next)
     return first;
 }
 
+/* Whether a slip is so slow, and falls so slowly because the push is nearly as strong as friction, that
+ * rounding of the velocities keeps it as it is. */
+static int falls_no_more(const fst_flow *flow, const double slip[2])
+{
+    const double *y = flow->step.y, eps = flow->step.context.coefficients.eps;
+    const double speeds = fabs(y[FST_VX]) + fabs(y[FST_VY]) + eps * (fabs(y[FST_WX]) + fabs(y[FST_WY]));
+    double before[2];
+    fst_slip_double(&flow->step.context.coefficients, y, before);
+    return norm(slip) < fmax(flow->rtol, LEAST_FALL) && fabs(norm(slip) - norm(before)) <= ROUNDING * speeds;
+}
+
 /* The mode that follows a slip that is nearly nothing, -1 where it goes on.  It ends where friction is stronger
  * than the push.  A slip straight against a push that is stronger stops as well, but lets go at once; it would
  * approach rest for ever in theta. */
@@ -227,7 +240,7 @@ static int after_slip(const fst_flow *flow)
         return -1;
     const fst_contact_double at =
         fst_contact_of_double(&s->context.coefficients, s->end, FST_PATH_PULL(s, FST_PATH_END));
-    if (norm(at.slip) > captured(flow))
+    if (norm(at.slip) > captured(flow) && !falls_no_more(flow, at.slip))
         return -1;
     const int against = at.slip[0] * at.push[0] + at.slip[1] * at.push[1] < 0;
     if (norm(at.push) < (against ? hold(flow, &at) : brake(flow, &at)))
