@@ -113,6 +113,11 @@ void fst_field(const fst_model *model, double x, double y, double b[3], double g
     memcpy(grad, all, sizeof all);
 }
 
+void fst_slip(const fst_model *model, const double state[FST_STATE_SIZE], double slip[2])
+{
+    fst_slip_double(&model->coefficients, state, slip);
+}
+
 /* The coefficients, in the mode of a contact that is in this state: without slip, under a push that static
  * friction takes, it sticks. */
 static fst_coefficients_double in_mode_of(const fst_model *model, const double *state)
