@@ -81,23 +81,9 @@ static inline void FN(rise)(FN(bead) * bead, REAL h, int stage)
     FN(raise_source)(bead, flight->height[stage]);
 }
 
-/* The derivative of the state `y` by theta at a stage of a step of the size h. */
-static inline void FN(paced_rhs)(FN(bead) * bead, REAL h, REAL drive, const REAL *y, int stage, REAL *k)
-{
-    const FN(coefficients) *c = &bead->coefficients;
-    if (FN(is_in_flight)(c))
-        FN(rise)(bead, h, stage);
-    FN(rhs)(c, drive, y, k, &bead->pull[stage]);
-    if (!c->kinds.paced)
-        return;
-    bead->flight.lift[stage] = bead->pull[stage].force[2] - c->gravity;
-    const REAL pace = bead->pace[stage] = FN(pace)(c, y);
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        k[i] = pace * k[i];
-}
-
-/* On a ramp: the time since the start of a step of the size h (in theta) at one of its stages, by the method's
- * own weights. */
+/* The time since the start of a step of the size h (in theta) at one of its stages, by the method's own
+ * weights.
+ */
 static inline REAL FN(stage_time)(const FN(bead) * bead, REAL h, int stage)
 {
     static const REAL weights[16][15] = DOP_WEIGHTS;
@@ -105,6 +91,23 @@ static inline REAL FN(stage_time)(const FN(bead) * bead, REAL h, int stage)
     for (int i = 0; i < 15 && i < stage; ++i)
         sum += weights[stage][i] * bead->pace[i];
     return h * sum;
+}
+
+/* The derivative of the state `y` by theta at a stage of a step of the size h. */
+static inline void FN(paced_rhs)(FN(bead) * bead, REAL h, REAL drive, const REAL *y, int stage, REAL *k)
+{
+    FN(coefficients) *c = &bead->coefficients;
+    if (FN(is_in_flight)(c))
+        FN(rise)(bead, h, stage);
+    if (c->kinds.paced && c->law.coulomb.mode == FST_MODE_ONSET)
+        FN(coulomb_lean)(&c->law.coulomb, FN(stage_time)(bead, h, stage));
+    FN(rhs)(c, drive, y, k, &bead->pull[stage]);
+    if (!c->kinds.paced)
+        return;
+    bead->flight.lift[stage] = bead->pull[stage].force[2] - c->gravity;
+    const REAL pace = bead->pace[stage] = FN(pace)(c, y);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        k[i] = pace * k[i];
 }
 
 /* The drive there: `drive` is what it is where theta is t. */

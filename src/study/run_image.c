@@ -146,11 +146,8 @@ int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_
     run->end = from->end;
     *run->flow = from->flow;
     run->flow->step.context.coefficients = coefficients;
-    if (coefficients.kinds.paced) { /* the mode belongs to the motion, not to the setup */
-        const fst_coulomb_double *law = &from->flow.step.context.coefficients.law.coulomb;
-        run->flow->step.context.coefficients.law.coulomb.mode = law->mode;
-        run->flow->step.context.coefficients.law.coulomb.lean = law->lean;
-    }
+    if (coefficients.kinds.paced) /* the mode belongs to the motion, not to the setup */
+        run->flow->step.context.coefficients.law.coulomb = from->flow.step.context.coefficients.law.coulomb;
     run->flow->groups = groups;
     *place = from->place;
     if (place->station == FST_STATION_PARKED) {
