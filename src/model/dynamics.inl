@@ -233,6 +233,17 @@ static inline REAL FN(pace)(const FN(coefficients) * c, const REAL *y)
     return FN(coulomb_pace)(&c->law.coulomb, slip);
 }
 
+/* Its change along a tangent vector. */
+static inline REAL FN(pace_change)(const FN(coefficients) * c, const REAL *y, const REAL *tangent)
+{
+    REAL slip[2], change[2];
+    if (!c->kinds.paced)
+        return R(0.0);
+    FN(slip)(c, y, slip);
+    FN(slip)(c, tangent, change);
+    return FN(coulomb_pace_change)(&c->law.coulomb, slip, change);
+}
+
 /* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for a caller that observes the state. */
 RHS_KIND void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy, FN(pull) * p)
 {
