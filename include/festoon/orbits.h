@@ -23,7 +23,8 @@ typedef enum {
     FST_ORBIT_FOUND,
     FST_ORBIT_LOCKED,   /* no orbit: the bead comes to rest in the turning frame */
     FST_ORBIT_EJECTED,  /* no orbit: it flies away */
-    FST_ORBIT_UNSETTLED /* it settles on no stable orbit in the time that it was given */
+    FST_ORBIT_UNSETTLED, /* it settles on no stable orbit in the time that it was given */
+    FST_ORBIT_ROLLS      /* no orbit that attracts: the contact no longer slips, and the start decides */
 } fst_orbit_outcome;
 
 /* A periodic orbit of the turning frame. */
@@ -93,9 +94,11 @@ typedef enum {
     FST_SPECIAL_HOPF,
     FST_SPECIAL_NEIMARK_SACKER,
     FST_SPECIAL_ORIGIN_CROSSING,
-    FST_SPECIAL_TRANSCRITICAL /* two families pass through each other */
+    FST_SPECIAL_TRANSCRITICAL, /* two families pass through each other */
+    FST_SPECIAL_GRAZING        /* dry friction: an orbit gains or loses a rest of the contact */
 } fst_special_type;
-/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing", "transcritical" */
+/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing", "transcritical",
+ * "grazing" */
 FST_API const char *fst_special_name(fst_special_type type);
 
 /* A point of a branch. */

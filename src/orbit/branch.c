@@ -35,7 +35,7 @@
 const char *fst_special_name(fst_special_type type)
 {
     static const char *const names[] = {"fold",           "pitchfork",       "period-doubling", "hopf",
-                                        "neimark-sacker", "origin-crossing", "transcritical"};
+                                        "neimark-sacker", "origin-crossing", "transcritical", "grazing"};
     return (unsigned)type < sizeof names / sizeof *names ? names[type] : "unknown";
 }
 

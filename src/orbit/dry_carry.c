@@ -349,6 +349,8 @@ static fst_status follow(bundle *b, fst_flow *flow, double duration, fst_error *
         if (status != FST_OK)
             return status;
         carry_along_step(b, flow);
+        if (b->setup->sticks && fst_sticks_double(&flow->step.context.coefficients) > 0.5)
+            *b->setup->sticks = 1;
         pending = flow->step.context.coefficients.kinds.paced && flow->contact.next_mode >= 0;
         if (pending)
             change_mode(b, flow);

@@ -34,6 +34,7 @@ typedef struct fst_setup {
     fst_coefficients_double below, above;
     double spread;    /* of the parameter between them */
     fst_watch *watch; /* the family's */
+    int *sticks;      /* set to 1 where the contact comes to rest on a way (NULL: nobody asks) */
 } fst_setup;
 
 /* A family over `key` (NULL: none free); clears the other forms of the quantity.  FST_BAD_INPUT: no such key,

@@ -9,6 +9,7 @@ typedef struct fst_node {
     fst_solution s;
     fst_branch_point seen;
     double closest; /* of an orbit: see describe.h */
+    int captures;   /* likewise */
     double length;  /* along the curve, from the node before */
 } fst_node;
 
