@@ -89,7 +89,7 @@ static char *contents(const char *name, size_t *size)
     return bytes;
 }
 
-/* Everything in the directory is removed; a leftover of a half-made file is an error. */
+/* Removes everything in the directory; a leftover of a half-made file is an error. */
 static int clear_directory(void **state)
 {
     (void)state;
@@ -107,7 +107,7 @@ static int clear_directory(void **state)
     return 0;
 }
 
-/* A program called gnuplot that does something else, first along PATH. */
+/* Puts a program called gnuplot first on PATH that does something else. */
 static void pretend_gnuplot(const char *body)
 {
     FILE *file = fopen(inside("gnuplot"), "w");
@@ -148,6 +148,30 @@ static void every_kind_in_every_format(void **state)
     free_table(&table);
 }
 
+/* The outline in a figure is that of the bar of lines: the data hang on its width.  Of another source it is not
+ * known, and not drawn. */
+static void only_the_bar_of_lines_is_drawn(void **state)
+{
+    (void)state;
+    for (int bar = 0; bar < 2; bar++) {
+        char *data[2];
+        size_t size[2];
+        for (int wide = 0; wide < 2; wide++) {
+            fst_table table = make_table();
+            fst_figure_options options = fst_default_figure_options();
+            table.params.magnet_width = wide ? 0.06 : 0.03;
+            table.params.magnet_shape = bar ? (int)FST_MAGNET_LINES : (int)FST_MAGNET_SHAPES;
+            assert_int_equal(fst_figure_trajectory(&table, inside("bar.svg"), &options, NULL), FST_OK);
+            data[wide] = contents("bar.dat", &size[wide]);
+            free_table(&table);
+        }
+        assert_int_equal(strcmp(data[0], data[1]) != 0, bar);
+        assert_int_equal(strstr(data[0], "magnet") != NULL, bar);
+        free(data[0]);
+        free(data[1]);
+    }
+}
+
 static void the_script_draws_the_figure_again(void **state)
 {
     (void)state;
@@ -155,7 +179,7 @@ static void the_script_draws_the_figure_again(void **state)
     fst_figure_options options = fst_default_figure_options();
     options.title = "100 % 'quoted' {text}_^@ \\n";
     options.colour = "slip";
-    /* A name with all that a shell or gnuplot might take for something else. */
+    /* A file name with every character that a shell or gnuplot might interpret. */
     assert_int_equal(fst_figure_trajectory(&table, inside("-it's a $(figure).svg"), &options, NULL), FST_OK);
     FILE *other = fopen(inside("it's again.svg"), "w");
     assert_non_null(other);
@@ -230,7 +254,7 @@ static void a_failing_gnuplot_leaves_the_old_figure(void **state)
     assert_non_null(strstr(error.sentence, "no such thing"));
     pretend_gnuplot("kill -9 $$");
     assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), NULL, &error), FST_IO);
-    /* It says that all is well, and has written nothing: a full disk looks like this. */
+    /* This gnuplot reports success and has written nothing, which is what a full disk looks like. */
     pretend_gnuplot("exit 0");
     assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), NULL, &error), FST_IO);
 
@@ -242,7 +266,7 @@ static void a_failing_gnuplot_leaves_the_old_figure(void **state)
     free_table(&table);
 }
 
-/* Its outputs stay open in a process that goes on: nothing may wait for that. */
+/* A background process keeps gnuplot's outputs open: festoon must not wait for it. */
 static void much_output_does_not_block(void **state)
 {
     (void)state;
@@ -317,7 +341,7 @@ static void units_have_their_symbols(void **unused)
         fst_unit_symbols(pairs[i][0], text, sizeof text);
         assert_string_equal(text, pairs[i][1]);
     }
-    char tight[4]; /* never beyond its end */
+    char tight[4]; /* the text must not overrun it */
     fst_unit_symbols("1/gamma", tight, sizeof tight);
     assert_true(strlen(tight) < sizeof tight);
 }
@@ -334,6 +358,7 @@ int main(void)
         cmocka_unit_test(between_samples_the_path_is_smooth),
         cmocka_unit_test(units_have_their_symbols),
         cmocka_unit_test_teardown(every_kind_in_every_format, clear_directory),
+        cmocka_unit_test_teardown(only_the_bar_of_lines_is_drawn, clear_directory),
         cmocka_unit_test_teardown(the_script_draws_the_figure_again, clear_directory),
         cmocka_unit_test_teardown(bad_requests_say_what_is_wrong, clear_directory),
         cmocka_unit_test_teardown(without_gnuplot_the_package_is_named, clear_directory),

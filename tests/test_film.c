@@ -1,5 +1,5 @@
-/* The motion that a film shows, from samples whose motion is known exactly: a body that turns evenly about an
- * axis at rest, and a bead that goes straight on.  And what tells a whole film from one that was cut short. */
+/* The motion that a film shows, from samples of motions that are known exactly: a body that turns evenly about
+ * a fixed axis, and a bead that goes straight on. And how a whole film is told from one that was cut short. */
 #include "numeric.h"
 
 #include <stdlib.h>
@@ -12,8 +12,8 @@
 
 enum { ROWS = 81 };
 
-static const double TURNS = 4.0;                  /* of the drive, over all rows */
-static const double AXIS[3] = {0.48, -0.6, 0.64}; /* of the body's turning, a unit vector */
+static const double TURNS = 4.0;                  /* turns of the drive over all rows */
+static const double AXIS[3] = {0.48, -0.6, 0.64}; /* the axis about which the body turns, a unit vector */
 static const double RATE = 3.1, TIME = 2.0, N0[3] = {0.36, 0.8, -0.48};
 
 /* v turned about AXIS by an angle. */
@@ -103,7 +103,7 @@ static void test_the_body_turns_with_the_bead(void **state)
     fst_table_free(&table);
 }
 
-/* The bead and the magnet are where they are at that moment, not at the sample before. */
+/* Bead and magnet are shown where they are at that moment, not where the sample before had them. */
 static void test_places_between_samples(void **state)
 {
     (void)state;
@@ -125,7 +125,8 @@ static void test_places_between_samples(void **state)
     fst_table_free(&table);
 }
 
-/* Colours: both signs alike about zero, from zero where the least is close to it, n_z from -1 to 1. */
+/* Ranges of colours: symmetric about zero for both signs, from zero where the least value is close to it, from
+ * -1 to 1 for n_z. */
 static void test_ranges_of_colours(void **state)
 {
     (void)state;
@@ -151,6 +152,59 @@ static void test_ranges_of_colours(void **state)
     }
 }
 
+/* ------------------------------------------------------------------ frames */
+
+enum { PICTURE_ROOM = 1 << 20 };
+
+/* The first frame of a film, as PNG. */
+static size_t first_frame(const fst_table *table, unsigned char *picture)
+{
+    char folder[] = "/tmp/festoon-film-XXXXXX", frames[64], name[128];
+    fst_film_options options = fst_default_film_options();
+    fst_error error = {FST_OK, "", ""};
+    assert_non_null(mkdtemp(folder));
+    (void)snprintf(frames, sizeof frames, "%s/frames", folder);
+    options.width = options.height = 200;
+    options.fps = 1.0;
+    const fst_status status = fst_film(table, frames, &options, &error);
+    if (status == FST_UNAVAILABLE) {
+        assert_int_equal(rmdir(folder), 0);
+        skip();
+    }
+    if (status != FST_OK)
+        fail_msg("%s", error.sentence);
+    (void)snprintf(name, sizeof name, "%s/frame-00001.png", frames);
+    FILE *file = fopen(name, "rb");
+    assert_non_null(file);
+    const size_t size = fread(picture, 1, PICTURE_ROOM, file);
+    assert_int_equal(fclose(file), 0);
+    (void)snprintf(name, sizeof name, "rm -r %s", folder);
+    assert_int_equal(system(name), 0);
+    return size;
+}
+
+/* The magnet that is painted is the bar of lines, as wide as it is.  Of another source the outline is not
+ * known, and nothing is painted. */
+static void test_only_the_bar_of_lines_is_painted(void **state)
+{
+    (void)state;
+    unsigned char *pictures[2] = {test_malloc(PICTURE_ROOM), test_malloc(PICTURE_ROOM)};
+    for (int bar = 0; bar < 2; ++bar) {
+        size_t size[2];
+        for (int wide = 0; wide < 2; ++wide) {
+            fst_table table = table_of_turning(0.0, 1.0);
+            table.params.magnet_width = wide ? 0.04 : 0.02;
+            table.params.magnet_shape = bar ? (int)FST_MAGNET_LINES : (int)FST_MAGNET_SHAPES;
+            size[wide] = first_frame(&table, pictures[wide]);
+            fst_table_free(&table);
+        }
+        const int same = size[0] == size[1] && memcmp(pictures[0], pictures[1], size[0]) == 0;
+        assert_int_equal(same, !bar);
+    }
+    test_free(pictures[0]);
+    test_free(pictures[1]);
+}
+
 /* ------------------------------------------------------------------ files */
 
 static void put_number(unsigned char *at, size_t value)
@@ -159,14 +213,16 @@ static void put_number(unsigned char *at, size_t value)
         at[i] = (unsigned char)(value >> (24 - 8 * i));
 }
 
-/* Make a box of what has been written from `start` on, which begins with the room for its head. */
+/* Make everything from `start` on a box of the mp4 format: its first bytes were left free for the box's head.
+ */
 static void close_box(unsigned char *bytes, size_t start, size_t end, const char *type)
 {
     put_number(bytes + start, end - start);
     memcpy(bytes + start + 4, type, 4);
 }
 
-/* An mp4 whose table has so many pictures of ten bytes, with so many bytes of contents; its size. */
+/* An mp4 whose table lists `pictures` pictures of ten bytes each, with `contents` bytes of contents; returns
+ * its size. */
 static size_t make_mp4(unsigned char *bytes, size_t pictures, size_t contents)
 {
     static const char *const holders[] = {"moov", "trak", "mdia", "minf", "stbl"};
@@ -222,6 +278,7 @@ int main(void)
         cmocka_unit_test(test_places_between_samples),
         cmocka_unit_test(test_ranges_of_colours),
         cmocka_unit_test(test_films_are_whole),
+        cmocka_unit_test(test_only_the_bar_of_lines_is_painted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
-/* A source and a contact law of one's own (own/) by the public ways: chosen by name, run, in lanes with the
- * bits of the scalar form, and as orbits whose derivatives are those of the motion; nothing in src knows of
- * them. */
+/* A source and a contact law from examples/c/own through the public functions: chosen by name, run, computed in
+ * lanes with the bits of the scalar form, and on orbits whose derivatives are those of the motion. No file of
+ * src/ knows of them. */
 #include "physics.h"
 
 #include "lanes/lanes.h"
@@ -35,7 +35,7 @@ static void test_names(void **unused)
     CHECK_CONTAINS(error.sentence, "viscous|none|");
     const fst_param_info *law = fst_param_at(fst_param_find("friction.law"));
     CHECK_CONTAINS(law->names, "viscous|none|");
-    CHECK_CONTAINS(law->names, "|quadratic"); /* after festoon's own, however many there are */
+    CHECK_CONTAINS(law->names, "|quadratic"); /* after festoon's own laws, whatever their number */
     CHECK_CONTAINS(law->doc, "viscous: friction force -m gamma V");
     CHECK_CONTAINS(law->doc, "; quadratic: friction force own.grip N |V| V, with the normal load N.");
     CHECK_CONTAINS(fst_param_at(fst_param_find("magnet.shape"))->names, "lines|");
@@ -44,8 +44,8 @@ static void test_names(void **unused)
 
 /* ------------------------------------------------------------------ a run */
 
-/* Two charges of strength 5 at X = 1 and -1 are a single line of festoon's: the same motion by another source.
- */
+/* Two charges of strength 5 at X = 1 and -1 make a single line of festoon's: the same motion from another
+ * source. */
 static void test_same_magnet_same_motion(void **unused)
 {
     (void)unused;
@@ -62,7 +62,7 @@ static void test_same_magnet_same_motion(void **unused)
     CHECK_CLOSE(greatest_difference(a.final_state, b.final_state, FST_STATE_SIZE), 0.0, 1e-6);
 }
 
-/* What the drive puts in, the law takes out; and the motion does not depend on the tolerance. */
+/* The law takes out what the drive puts in, and the result does not depend on the tolerance. */
 static void test_run(void **unused)
 {
     (void)unused;
@@ -87,7 +87,7 @@ typedef struct store {
     fst_run_result results[JOBS];
 } store;
 
-/* Sources and laws of both kinds among each other, and some whose regime takes an exponent. */
+/* Festoon's own sources and laws mixed with these, including runs whose regime needs an exponent. */
 static fst_params job_params(int i)
 {
     fst_params p = own_bead(0.44 + 0.02 * i);
@@ -126,16 +126,10 @@ static int job_done(void *user, fst_row_job *job, fst_status status, const fst_r
     return 0;
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 static void do_all(store *s, fst_arithmetic arithmetic, int lanes)
 {
     memset(s, 0, sizeof *s);
-    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, never};
+    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, NULL};
     fst_error error = {FST_OK, "", ""};
     if (fst_rows(&work, &error) != FST_OK)
         fail_msg("fst_rows: %s", error.sentence);
@@ -190,7 +184,7 @@ static fst_orbit orbit_of(const fst_params *p)
     return orbit;
 }
 
-/* The map of which the multipliers are: over a half turn and S2, or over a whole turn. */
+/* The map whose multipliers the library reports: over half a turn and S2, or over a whole turn. */
 static void return_map(const fst_model *model, const fst_orbit *orbit, const double *start, double *end)
 {
     const int half = orbit->symmetry == FST_SYMMETRY_S2;
@@ -253,7 +247,7 @@ static void check_multipliers(const fst_model *model, const fst_orbit *orbit)
     }
 }
 
-/* What one of Newton's iterations leaves of a guess that is `off` away from the orbit. */
+/* The residual after one of Newton's iterations from a guess at the distance `off`. */
 static double left_by_newton(const fst_params *p, const fst_orbit *orbit, double off)
 {
     static fst_newton_system system;
@@ -294,8 +288,8 @@ static void check_half_turns(const fst_params *p, const fst_orbit *orbit, int ow
                      own_image ? FST_OK : FST_NO_CONVERGENCE);
 }
 
-/* A magnet that is its own image under half a turn, and one that lies off the middle: no orbit over the latter
- * is sought or found by half turns. */
+/* One magnet is its own image under half a turn, the other lies off the middle: over that one no orbit is
+ * sought or found by half turns. */
 static void check_orbit(double shift)
 {
     fst_params p = own_bead(0.5);
@@ -312,7 +306,7 @@ static void check_orbit(double shift)
     CHECK_CLOSE(greatest_difference(end, orbit.state, FST_STATE_SIZE), 0.0, 1e-11);
     check_multipliers(model, &orbit);
     fst_model_free(model);
-    /* Quadratic convergence: a tenth of the distance leaves a hundredth. */
+    /* Quadratic convergence: a guess ten times closer leaves a residual a hundred times smaller. */
     const double far = left_by_newton(&p, &orbit, 1e-2), near = left_by_newton(&p, &orbit, 1e-3);
     assert_true(far < 1e-2 && near > 1e-8);
     CHECK_WITHIN(far / near, 50.0, 200.0);
@@ -346,12 +340,45 @@ static void test_locked(void **unused)
     fst_locked_free(&list);
 }
 
+/* A branch over the weight: friction that asks for the load moves the locked states with it; that of a viscous
+ * plate does not, and such a branch is refused. */
+static void test_weight(void **unused)
+{
+    (void)unused;
+    fst_params p = own_bead(0.1);
+    fst_branch_options options = fst_default_branch_options();
+    fst_branch branch;
+    fst_error error = {FST_OK, "", ""};
+    options.kind = FST_BRANCH_LOCKED;
+    options.key = "plate.gravity";
+    options.from = 9.0;
+    options.to = 10.0;
+    if (fst_branch_follow(&p, &options, &branch, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    double least = INFINITY, greatest = 0.0;
+    for (size_t i = 0; i < branch.point_count; ++i)
+        if (branch.points[i].branch == 0) {
+            least = fmin(least, branch.points[i].bead_angle_deg);
+            greatest = fmax(greatest, branch.points[i].bead_angle_deg);
+        }
+    assert_true(branch.complete && greatest > least + 1e-6);
+    fst_branch_free(&branch);
+    p.friction_law = FST_FRICTION_VISCOUS;
+    assert_int_equal(fst_branch_follow(&p, &options, &branch, &error), FST_BAD_INPUT);
+    assert_string_equal(error.where, "fst_branch_options.key");
+    CHECK_CONTAINS(error.sentence, "with friction.law = viscous");
+    p.friction_law = FST_FRICTION_QUADRATIC;
+    options.key = "plate.radius";
+    assert_int_equal(fst_branch_follow(&p, &options, &branch, &error), FST_BAD_INPUT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_names), cmocka_unit_test(test_same_magnet_same_motion),
-        cmocka_unit_test(test_run),   cmocka_unit_test(test_lanes),
-        cmocka_unit_test(test_orbit), cmocka_unit_test(test_locked),
+        cmocka_unit_test(test_names),  cmocka_unit_test(test_same_magnet_same_motion),
+        cmocka_unit_test(test_run),    cmocka_unit_test(test_lanes),
+        cmocka_unit_test(test_orbit),  cmocka_unit_test(test_locked),
+        cmocka_unit_test(test_weight),
     };
     return cmocka_run_group_tests_name("own_physics", tests, NULL, NULL);
 }

@@ -15,6 +15,7 @@ typedef struct FN(coefficients) {
     FN(source_numbers) source;
     FN(law_numbers) law;
     FN(resistance) resistance;
+    REAL holding; /* coefficient of static friction, which says how much of it a motion uses */
 } FN(coefficients);
 
 static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, const fst_groups *g)
@@ -22,9 +23,9 @@ static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, c
     FN(coefficients) c;
     c.kinds.source = (int)g->shape;
     c.kinds.pieces = g->lines;
-    c.kinds.contact = (int)g->friction;
-    c.kinds.dry = g->friction == FST_FRICTION_COULOMB || g->friction == FST_FRICTION_ROLLING;
-    c.kinds.paced = g->friction == FST_FRICTION_COULOMB;
+    c.kinds.contact = fst_law_in_effect(params, g->friction);
+    c.kinds.dry = c.kinds.contact == FST_FRICTION_COULOMB || c.kinds.contact == FST_FRICTION_ROLLING;
+    c.kinds.paced = c.kinds.contact == FST_FRICTION_COULOMB;
     c.kinds.magnetisable = g->material != FST_MATERIAL_HARD;
     c.kinds.gyroscopic_term_lost = g->dynamics == FST_DYNAMICS_FARAGO2020;
     c.eps = REAL_OF(g->eps);
@@ -39,5 +40,6 @@ static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, c
     c.source = FN(make_source_numbers)(&c.kinds, params, g);
     c.law = FN(make_law_numbers)(&c.kinds, params, g);
     c.resistance = FN(make_resistance)(params, g);
+    c.holding = REAL_OF(isnan(params->friction_mu_static) ? params->friction_mu : params->friction_mu_static);
     return c;
 }

@@ -41,6 +41,8 @@
 
 static const double SLOWER = 1e-3;         /* captured, in tolerances */
 static const double LEAST_SPEED = 1e-14;   /* that rounding leaves of a slip's digits */
+static const double STALLED_SPEED = 1e-12; /* and below this a slip that no longer falls is rounding: */
+static const double SLOWEST_FALL = 0.9;    /* over a step */
 static const double HAND_OVER = 0.5;       /* times tolerance^(3/8) */
 static const double RELEASE_SLACK = 1e-13; /* relative excess of |A| at a release */
 static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not met before */
@@ -219,7 +221,9 @@ static double mode_ends(fst_flow *flow, int *next)
     return first;
 }
 
-/* A slip ends where it is nearly nothing and friction is stronger than the push. */
+/* A slip ends where it is nearly nothing and friction is stronger than the push; and sooner where it no longer
+ * falls as it then must, since what it has left is rounding: friction hardly stronger than the push, or a fast
+ * bead. */
 static int slip_ends(const fst_flow *flow)
 {
     const fst_bead_step_double *s = &flow->step;
@@ -227,7 +231,13 @@ static int slip_ends(const fst_flow *flow)
         return 0;
     const fst_contact_double at =
         fst_contact_of_double(&s->context.coefficients, s->end, FST_PATH_PULL(s, FST_PATH_END));
-    return norm(at.slip) <= captured(flow) && norm(at.push) < brake(flow, &at);
+    if (!(norm(at.push) < brake(flow, &at)))
+        return 0;
+    double before[2];
+    fst_slip_double(&s->context.coefficients, s->y, before);
+    const double speed = fmax(1.0, fmax(fabs(s->end[FST_VX]), fabs(s->end[FST_VY])));
+    const int stalls = norm(at.slip) > SLOWEST_FALL * norm(before) && norm(at.slip) <= STALLED_SPEED * speed;
+    return stalls || norm(at.slip) <= captured(flow);
 }
 
 /* ------------------------------------------------------------------ steps */
@@ -263,8 +273,10 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, "fst_flow",
                         "time cannot run backwards under dry friction: what was at rest does not tell when it "
                         "came to rest");
-    if (flow->contact.next_mode >= 0) {
-        enter(flow, flow->contact.next_mode, flow->step.end);
+    const int next_mode = flow->contact.next_mode;
+    if (next_mode >= 0) {
+        flow->contact.captures += fst_contact_mode(flow) == FST_MODE_SLIP && next_mode == FST_MODE_STICK;
+        enter(flow, next_mode, flow->step.end);
         fst_bead_flow_restart(flow);
     }
     fst_bead_flow_prepare(flow);
@@ -284,7 +296,5 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));
     flow->has_step = 1;
     flow->contact.next_mode = !lands && event <= 1.0 ? next : slip_ends(flow) ? FST_MODE_STICK : -1;
-    flow->contact.captures +=
-        fst_contact_mode(flow) == FST_MODE_SLIP && flow->contact.next_mode == FST_MODE_STICK;
     return FST_OK;
 }

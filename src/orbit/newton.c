@@ -367,6 +367,9 @@ fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const
     /* From far away, as equilibria are sought, the way is long and the residual may rise on it; an orbit's
      * iterations are dear, and its guess is good. */
     const int far = s->segments == 0 && !across, most = far ? 40 : 14, patience = far ? 20 : 4;
+    /* Dry friction: beside a motion that rolls the system is singular, and a way far longer than the guess is
+     * dear. */
+    const double longest = family->params.friction_law == FST_FRICTION_COULOMB ? 2.0 * s->period : 1e4;
     for (s->iterations = 1; s->iterations <= most; ++s->iterations) {
         fst_status status = fst_newton_equations(family, s, &l, error);
         if (status != FST_OK)
@@ -385,7 +388,7 @@ fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const
             break;
         const double limit = far ? 1.0 : LONGEST_CORRECTION;
         fst_solution_move(s, &step, size > limit ? limit / size : 1.0);
-        if (s->segments > 0 && !(s->period > 1e-3 && s->period < 1e4))
+        if (s->segments > 0 && !(s->period > 1e-3 && s->period < longest))
             break;
     }
     return fst_fail(error, FST_NO_CONVERGENCE, "Newton's method",

@@ -30,6 +30,8 @@
  * exponent to be told (conclude.h).  Their runs are parked until there are as many as lanes, and followed side
  * by side too.
  *
+ * A run with dry friction has modes, which lanes do not know: it is done alone, while the lanes wait.
+ *
  * No row's bits depend on any of this: lanes do not mix (only the order in which rows come out does).
  */
 #include "study/lane_rows.h"
@@ -41,6 +43,7 @@
 #include "base/error.h"
 #include "study/conclude.h"
 #include "study/lane_worker.h"
+#include "study/lone_run.h"
 
 /* ------------------------------------------------------------------ beginning and ending */
 
@@ -96,9 +99,10 @@ static int fits(const fst_row_worker *w, const fst_model *model)
     return at_work(w) == 0 || fst_kinds_equal(&w->kind.kinds, &model->coefficients.kinds);
 }
 
-typedef enum { BEGUN, REFUSED, FAILED } beginning;
+typedef enum { BEGUN, REFUSED, ALONE, FAILED } beginning;
 
-/* Begin the job of `at`.  FAILED: `error` says why; REFUSED: it has to wait until nothing is at work. */
+/* Begin the job of `at`.  FAILED: `error` says why; REFUSED: it has to wait until nothing is at work; ALONE: it
+ * is one for no lane, since lanes know no contact that slips and sticks. */
 static beginning begin(fst_row_worker *w, fst_lane *at, fst_status *status, fst_error *error)
 {
     fst_watched_run *run = calloc(1, sizeof *run);
@@ -107,11 +111,12 @@ static beginning begin(fst_row_worker *w, fst_lane *at, fst_status *status, fst_
         return FAILED;
     }
     *status = fst_watched_run_begin(run, &at->job.params, at->job.has_start ? at->job.start : NULL, error);
-    const int refused = *status == FST_OK && !fits(w, run->model);
-    if (*status != FST_OK || refused) {
+    const int alone = *status == FST_OK && run->model->coefficients.kinds.dry;
+    const int refused = *status == FST_OK && !alone && !fits(w, run->model);
+    if (*status != FST_OK || refused || alone) {
         fst_watched_run_free(run);
         free(run);
-        return refused ? REFUSED : FAILED;
+        return alone ? ALONE : refused ? REFUSED : FAILED;
     }
     at->run = run;
     w->kind = run->model->coefficients;
@@ -168,16 +173,16 @@ static void enter_run_up(fst_row_worker *w, int l, fst_lane *from)
 static void place(fst_row_worker *w, fst_lane *fresh)
 {
     const int runs_up = w->engine->fused && fresh->run->window.span.from > 0;
-    const fst_run_stage stage = fresh->image ? fresh->place.stage
-                                : runs_up    ? FST_STAGE_RUN_UP
-                                             : FST_STAGE_READY;
-    if (stage == FST_STAGE_RUN_UP) {
+    const fst_run_station station = fresh->image ? fresh->place.station
+                                    : runs_up    ? FST_STATION_RUN_UP
+                                                 : FST_STATION_READY;
+    if (station == FST_STATION_RUN_UP) {
         enter_run_up(w, idle_lane(w, &w->run_up), fresh);
         return;
     }
-    fst_lane *to = stage == FST_STAGE_PARKED ? &w->parked[w->parked_count++] : &w->ready[w->ready_count++];
+    fst_lane *to = station == FST_STATION_PARKED ? &w->parked[w->parked_count++] : &w->ready[w->ready_count++];
     move_run(to, fresh);
-    if (stage == FST_STAGE_OBSERVED)
+    if (station == FST_STATION_OBSERVED)
         return; /* the image is wanted when there is a lane */
     free(to->image);
     to->image = NULL;
@@ -197,6 +202,13 @@ static int admit(fst_row_worker *w)
         fst_status status;
         fst_error error = {FST_OK, "", ""};
         const beginning begun = begin(w, &fresh, &status, &error);
+        if (begun == ALONE) {
+            w->answer = fst_row_alone(w->work, w->images, &fresh.job, &has_job, &w->said);
+            w->no_more = w->no_more || w->answer != FST_OK;
+            if (w->answer != FST_OK)
+                return 0;
+            continue;
+        }
         if (begun == REFUSED) {
             w->deferred[w->deferred_count++] = fresh.job;
             return 1;
@@ -262,7 +274,7 @@ static void finish(fst_row_worker *w, fst_lane_batch *b, int l, fst_status statu
 static fst_status watch_exponents(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)fraction, (void)what;
-    return fst_worker_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+    return fst_worker_ask(user, error);
 }
 
 /* The exponents of runs that are parked, side by side too: the last ones, as many as there are lanes. */
@@ -444,8 +456,13 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_row_images *images,
             status = conclude_parked(w, error);
             occupy_idle(w);
         }
-        if (status == FST_OK && steps % 64 == 0 && fst_worker_stopped(w))
-            status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+        if (status == FST_OK && steps % 64 == 0)
+            status = fst_worker_ask(w, error);
+    }
+    if (status == FST_OK && w->answer != FST_OK) {
+        if (error)
+            *error = w->said;
+        status = w->answer;
     }
     free_worker(w);
     return status;
