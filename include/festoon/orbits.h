@@ -65,6 +65,30 @@ typedef struct fst_locked {
     int found; /* the number of starts from which Newton's method came here */
 } fst_locked;
 
+/* Dry friction: locked states whose contact does not slip form families.  Why one ends: static friction holds no
+ * more, the bead lifts off, it spins or stands too far away to be followed on, the family is a closed curve. */
+typedef enum {
+    FST_ROLLING_CONE,
+    FST_ROLLING_LIFTED,
+    FST_ROLLING_SPIN,
+    FST_ROLLING_RADIUS,
+    FST_ROLLING_CLOSED,
+    FST_ROLLING_LOST
+} fst_rolling_end;
+/* "cone", "lifted", "spin", "radius", "closed", "lost" */
+FST_API const char *fst_rolling_end_name(fst_rolling_end end);
+
+typedef struct fst_rolling_lock {
+    double state[FST_STATE_SIZE];
+    double r, bead_angle_deg; /* Phi, NAN on the axis */
+    double use;               /* |f|/(mu_s N); NAN under the law rolling */
+    fst_rolling_end end;      /* why the family ends here */
+} fst_rolling_lock;
+
+typedef struct fst_rolling_family {
+    fst_rolling_lock from, to;
+} fst_rolling_family;
+
 typedef struct fst_locked_list {
     fst_locked *states; /* ordered by falling stability, then by r */
     size_t count;
@@ -72,6 +96,8 @@ typedef struct fst_locked_list {
     int index_sum; /* the sum of the signs of det(-J): the same at every omega, unless a state comes from
                       infinity */
     int truncated; /* there are more states than the list can hold: they form continua */
+    fst_rolling_family *families; /* of states that roll, under dry friction */
+    size_t family_count;
 } fst_locked_list;
 
 /* Find every equilibrium, by Newton's method from many starts.  Free the list with fst_locked_free().

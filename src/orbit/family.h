@@ -49,6 +49,13 @@ void fst_family_tighten(fst_family *family, double tolerance);
 /* The scale of a parameter for the length of arcs, on a range of it. */
 double fst_family_scale(const char *key, double from, double to);
 
+/* Whether the contact may come to rest and slip again on a way: then the flow is not smooth. */
+static inline int fst_family_rests(const fst_family *family)
+{
+    const fst_friction_law law = (fst_friction_law)family->params.friction_law;
+    return fst_law_in_effect(&family->params, law) == FST_FRICTION_COULOMB;
+}
+
 /* The parameters and the setup at a value of the free parameter. */
 fst_params fst_family_params(const fst_family *family, double value);
 fst_status fst_family_setup(const fst_family *family, double value, fst_setup *setup, fst_error *error);

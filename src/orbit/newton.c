@@ -369,7 +369,7 @@ fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const
     const int far = s->segments == 0 && !across, most = far ? 40 : 14, patience = far ? 20 : 4;
     /* Dry friction: beside a motion that rolls the system is singular, and a way far longer than the guess is
      * dear. */
-    const double longest = family->params.friction_law == FST_FRICTION_COULOMB ? 2.0 * s->period : 1e4;
+    const double longest = fst_family_rests(family) ? 2.0 * s->period : 1e4;
     for (s->iterations = 1; s->iterations <= most; ++s->iterations) {
         fst_status status = fst_newton_equations(family, s, &l, error);
         if (status != FST_OK)
