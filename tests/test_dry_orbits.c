@@ -1,5 +1,5 @@
-/* Orbits, exponents and locked states under dry friction: against an independent integrator (an event-driven one
- * in other variables, tolerance 1e-12), and against each other. */
+/* Orbits, exponents and locked states under dry friction: against an independent integrator (an event-driven
+ * one in other variables, tolerance 1e-12), and against each other. */
 #include "branches.h"
 
 #include <stdlib.h>
@@ -7,6 +7,7 @@
 
 #include "ode/flow.h"
 #include "orbit/family.h"
+#include "study/exponent.h"
 
 static fst_params coulomb(double hertz, double mu)
 {
@@ -94,6 +95,34 @@ static void exponents_against_multipliers(void **unused)
     }
 }
 
+/* The exponent that a run asks for, of the one vector across the flow: that of the leading multiplier; the same
+ * with friction that is stronger at rest, where the release is a jump. */
+static void exponent_of_a_run(void **unused)
+{
+    (void)unused;
+    for (int stronger = 0; stronger < 2; ++stronger) {
+        fst_params params = coulomb(10.7, 0.2);
+        params.friction_mu_static = stronger ? 0.25 : NAN;
+        const fst_orbit orbit = orbit_of(&params);
+        fst_model *model;
+        fst_error error;
+        fst_exponent exponent, *asked = &exponent;
+        if (fst_model_new(&params, &model, &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+        memset(&exponent, 0, sizeof exponent);
+        exponent.coefficients = &model->coefficients;
+        memcpy(exponent.state, orbit.state, sizeof exponent.state);
+        exponent.duration = 400.0 * orbit.means.period;
+        exponent.rtol = 1e-10;
+        if (fst_largest_exponents(&fst_tangents_scalar, &asked, 1, NULL, &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+        assert_false(exponent.failed);
+        CHECK_CLOSE(exponent.value, -1.0 / orbit.relaxation_time, exponent.standard_error);
+        assert_true(exponent.standard_error < 1e-3);
+        fst_model_free(model);
+    }
+}
+
 /* A bead that only rolls: no orbit, and the sentence says why. */
 static void rolling_has_no_orbit(void **unused)
 {
@@ -116,7 +145,8 @@ static double dot(const double *a, const double *b)
 }
 
 /* The equations of rest of a bead that rolls, written out for a hard magnet:
- * (7/5) eps^2 omega e x W_h = tau_h + eps e x F, tau_z = 0, v = omega e x x = eps W x e, W = omega e + psi n. */
+ * (7/5) eps^2 omega e x W_h = tau_h + eps e x F, tau_z = 0, v = omega e x x = eps W x e, W = omega e + psi n.
+ */
 static void check_rolling_lock(const fst_model *model, double mu, const fst_rolling_lock *l)
 {
     const fst_groups g = fst_model_groups(model);
@@ -199,11 +229,79 @@ static void families_grow_with_friction(void **unused)
     assert_true(reach[0] > 0.0 && reach[1] > reach[0]);
 }
 
+/* Between two drives the orbit loses a rest: grazing is where. */
+static void grazing(void **unused)
+{
+    (void)unused;
+    fst_params params = coulomb(10.7, 0.2);
+    fst_error error;
+    assert_int_equal(fst_params_set(&params, "drive.omega", "0.435", &error), FST_OK);
+    fst_branch_options o = over_omega(FST_BRANCH_COUNTER, 0.43, 0.445);
+    fst_branch branch = followed(&params, &o);
+    const fst_special *s = special_near(&branch, FST_SPECIAL_GRAZING, 0.43853);
+    double rests[2];
+    for (int k = 0; k < 2; ++k) {
+        char text[32];
+        (void)snprintf(text, sizeof text, "%.17g", s->value + (k ? 1e-4 : -1e-4));
+        assert_int_equal(fst_params_set(&params, "drive.omega", text, &error), FST_OK);
+        rests[k] = orbit_of(&params).means.captures_per_return;
+    }
+    assert_true(rests[0] != rests[1]);
+    for (size_t i = 0; i < branch.end_count; ++i)
+        assert_int_equal(branch.ends[i].type, FST_END_RANGE);
+    fst_branch_free(&branch);
+}
+
+/* A slipping lock over the drive: it folds, and ends where its slip falls to nothing on a family that rolls, at
+ * that one's own end. */
+static void slipping_lock_meets_rolling_ones(void **unused)
+{
+    (void)unused;
+    fst_params params = coulomb(6.5, 0.2);
+    fst_error error;
+    fst_branch_options o = fst_default_branch_options();
+    o.kind = FST_BRANCH_LOCKED;
+    o.key = "drive.frequency";
+    o.from = 6.2;
+    o.to = 7.6;
+    fst_branch branch = followed(&params, &o);
+    int folds = 0, met = 0;
+    for (size_t i = 0; i < branch.special_count; ++i)
+        folds += branch.specials[i].type == FST_SPECIAL_FOLD;
+    assert_true(folds >= 1);
+    for (size_t i = 0; i < branch.end_count; ++i) {
+        if (branch.ends[i].type != FST_END_ROLLS)
+            continue;
+        fst_locked_list list;
+        char text[32];
+        double r = NAN, nearest = INFINITY;
+        for (size_t k = 0; k < branch.point_count; ++k)
+            if (branch.points[k].branch == branch.ends[i].branch && branch.points[k].slip < 1e-4)
+                r = branch.points[k].mean_r;
+        (void)snprintf(text, sizeof text, "%.17g", branch.ends[i].value);
+        assert_int_equal(fst_params_set(&params, "drive.frequency", text, &error), FST_OK);
+        if (fst_locked_find(&params, NULL, &list, &error) != FST_OK)
+            fail_msg("%s", error.sentence);
+        for (size_t k = 0; k < list.family_count; ++k)
+            nearest = fmin(nearest, fmin(fabs(list.families[k].from.r - r), fabs(list.families[k].to.r - r)));
+        CHECK_CLOSE(nearest, 0.0, 1e-3);
+        met += 1;
+        fst_locked_free(&list);
+    }
+    assert_true(met >= 1);
+    fst_branch_free(&branch);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(against_another_integrator), cmocka_unit_test(without_rests),
-        cmocka_unit_test(exponents_against_multipliers), cmocka_unit_test(rolling_has_no_orbit),
-        cmocka_unit_test(rolling_locks), cmocka_unit_test(families_grow_with_friction)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(against_another_integrator),
+                                       cmocka_unit_test(without_rests),
+                                       cmocka_unit_test(exponents_against_multipliers),
+                                       cmocka_unit_test(exponent_of_a_run),
+                                       cmocka_unit_test(rolling_has_no_orbit),
+                                       cmocka_unit_test(rolling_locks),
+                                       cmocka_unit_test(families_grow_with_friction),
+                                       cmocka_unit_test(grazing),
+                                       cmocka_unit_test(slipping_lock_meets_rolling_ones)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -21,8 +21,8 @@ enum { FST_MULTIPLIER_COUNT = 8, FST_EIGENVALUE_COUNT = 9, FST_LYAPUNOV_TRACE = 
 /* Where a start leads. */
 typedef enum {
     FST_ORBIT_FOUND,
-    FST_ORBIT_LOCKED,   /* no orbit: the bead comes to rest in the turning frame */
-    FST_ORBIT_EJECTED,  /* no orbit: it flies away */
+    FST_ORBIT_LOCKED,    /* no orbit: the bead comes to rest in the turning frame */
+    FST_ORBIT_EJECTED,   /* no orbit: it flies away */
     FST_ORBIT_UNSETTLED, /* it settles on no stable orbit in the time that it was given */
     FST_ORBIT_ROLLS      /* no orbit that attracts: the contact no longer slips, and the start decides */
 } fst_orbit_outcome;
@@ -65,8 +65,9 @@ typedef struct fst_locked {
     int found; /* the number of starts from which Newton's method came here */
 } fst_locked;
 
-/* Dry friction: locked states whose contact does not slip form families.  Why one ends: static friction holds no
- * more, the bead lifts off, it spins or stands too far away to be followed on, the family is a closed curve. */
+/* Dry friction: locked states whose contact does not slip form families.  Why one ends: static friction holds
+ * no more, the bead lifts off, it spins or stands too far away to be followed on, the family is a closed curve.
+ */
 typedef enum {
     FST_ROLLING_CONE,
     FST_ROLLING_LIFTED,
@@ -164,10 +165,12 @@ typedef enum {
     FST_END_REAL_AXIS,       /* over two parameters: the critical pair meets on the real axis */
     FST_END_NOT_BEGUN,       /* over two parameters: the point is degenerate, and no curve leaves it */
     FST_END_COUNT_LIMIT,     /* so many points were followed that it was given up */
+    FST_END_ROLLS,           /* dry friction: the slip of a locked bead falls to nothing, beyond it rolls */
+    FST_END_LIFTED,          /* dry friction: a locked bead lifts off the plate */
     FST_END_LOST             /* no further point was found */
 } fst_end_type;
 /* "range", "closed", "symmetric-orbit", "equilibrium", "higher-symmetry", "other-branch", "period", "radius",
- * "spin", "real-axis", "not-begun", "count-limit", "lost"; "none" */
+ * "spin", "real-axis", "not-begun", "count-limit", "rolls", "lifted", "lost"; "none" */
 FST_API const char *fst_end_name(fst_end_type type);
 
 /* An end of a branch, and why it ends there. */

@@ -37,11 +37,12 @@ static void print_list(FILE *out, double omega, int dry, const fst_locked_list *
 
 static void print_families(FILE *out, const fst_locked_list *list)
 {
-    (void)fprintf(out, "\n%zu families of locked beads whose contact does not slip, from one end to the other:\n",
+    (void)fprintf(out,
+                  "\n%zu families of locked beads whose contact does not slip, from one end to the other:\n",
                   list->family_count);
     if (list->family_count > 0)
-        (void)fprintf(out, "%14s %10s  %17s  %19s %10s  %s\n", "r (l)", "Phi (deg)", "n_X, n_Z", "W_X, W_Z (gamma)",
-                      "|f|/(mu N)", "ends by");
+        (void)fprintf(out, "%14s %10s  %17s  %19s %10s  %s\n", "r (l)", "Phi (deg)", "n_X, n_Z",
+                      "W_X, W_Z (gamma)", "|f|/(mu N)", "ends by");
     for (size_t i = 0; i < 2 * list->family_count; ++i) {
         const fst_rolling_family *family = &list->families[i / 2];
         const fst_rolling_lock *l = i % 2 ? &family->to : &family->from;
@@ -73,7 +74,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
             status = print_and_free(fst_locked_json(&params, omega, &list), out, error);
         else
             print_list(out, omega,
-                       params.friction_law == FST_FRICTION_COULOMB || params.friction_law == FST_FRICTION_ROLLING,
+                       params.friction_law == FST_FRICTION_COULOMB ||
+                           params.friction_law == FST_FRICTION_ROLLING,
                        &list);
         if (!option_value(given, "json") &&
             (params.friction_law == FST_FRICTION_COULOMB || params.friction_law == FST_FRICTION_ROLLING))

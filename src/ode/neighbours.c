@@ -68,7 +68,8 @@ static void same_slip(const fst_coefficients_double *c, const fst_coefficients_d
 }
 
 /* How v changes with the parameter at an unchanged slip. */
-static void at_same_slip(const fst_neighbours *b, const fst_coefficients_double *c, const double *y, double by[2])
+static void at_same_slip(const fst_neighbours *b, const fst_coefficients_double *c, const double *y,
+                         double by[2])
 {
     double below[2], above[2];
     by[0] = by[1] = 0.0;
@@ -155,7 +156,8 @@ static void stop_slips(fst_neighbours *b, const fst_coefficients_double *c, cons
 
 /* The derivatives of the differences by theta at a stage. */
 static void slopes(const fst_neighbours *b, const fst_coefficients_double *c, double omega, const double *y,
-                   double d[FST_NEIGHBOURS][FST_STATE_SIZE], double k[FST_NEIGHBOURS][FST_STATE_SIZE], double *kt)
+                   double d[FST_NEIGHBOURS][FST_STATE_SIZE], double k[FST_NEIGHBOURS][FST_STATE_SIZE],
+                   double *kt)
 {
     fst_linear_double linear;
     double f[FST_STATE_SIZE], by[FST_STATE_SIZE], seen[FST_STATE_SIZE], pace_by;
@@ -182,7 +184,8 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
     static const double weights[16][15] = DOP_WEIGHTS;
     const fst_bead_step_double *s = &flow->step;
     const fst_coefficients_double *c = &s->context.coefficients;
-    double k[STAGES][FST_NEIGHBOURS][FST_STATE_SIZE], kt[STAGES][FST_NEIGHBOURS], at[FST_NEIGHBOURS][FST_STATE_SIZE];
+    double k[STAGES][FST_NEIGHBOURS][FST_STATE_SIZE], kt[STAGES][FST_NEIGHBOURS],
+        at[FST_NEIGHBOURS][FST_STATE_SIZE];
     take_mode(b, c);
     for (int stage = 0; stage <= STAGES; ++stage) { /* the last is the end of the step */
         memcpy(at, b->d, sizeof at);

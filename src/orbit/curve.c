@@ -140,6 +140,9 @@ static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *he
         fst_curve_end_set(&curve->end, FST_END_SPIN,
                           "its spin grows without bound (W_z = %.4g) while n turns upright",
                           here->s.y[0][FST_WZ]);
+    else if (here->s.segments == 0 && here->floats)
+        fst_curve_end_set(&curve->end, FST_END_LIFTED,
+                          "the bead lifts off the plate, and nothing rubs any more");
     else if (nodes >= MOST_NODES)
         fst_curve_end_set(&curve->end, FST_END_COUNT_LIMIT, "%d points were followed", nodes);
     else if (nodes > 8 && is_closed(curve, start, here, h))
@@ -158,7 +161,8 @@ static int leap(const fst_curve *curve, const fst_node *here, fst_node *next, do
     for (size_t i = 0; i < sizeof far / sizeof *far; ++i) {
         const double length = far[i] * STEP_AT_KINK;
         if (try_step(curve, NULL, here, length, 1, next, &ignored) != FST_OK ||
-            next->s.value > curve->to || next->s.value < curve->from)
+            (here->captures == 0 && next->captures == 0) || next->s.value > curve->to ||
+            next->s.value < curve->from)
             continue;
         *left = 0;
         *h = length;
@@ -183,17 +187,21 @@ static int next_node(fst_curve *curve, const fst_node *last, const fst_node *her
         *h *= 0.5;
         if (*h < SHORTEST_STEP || fst_watch_ask(curve->family->watch, &why) != FST_OK)
             break;
-        if (here->captures > 0 && *h < STEP_AT_KINK) {
+        if (fst_family_rests(curve->family) && here->s.segments > 0 && *h < STEP_AT_KINK) {
             if (leap(curve, here, next, h, left))
                 return 1;
             break;
         }
     }
-    if (here->captures > 0)
-        fst_curve_end_set(&curve->end, FST_END_LOST,
-                          "it could not be followed beyond %.10g, where a slip may just come to rest, or a rest "
-                          "just begin, and the return jumps or bends",
-                          here->s.value);
+    if (here->s.segments == 0 && fst_family_rests(curve->family) && here->seen.slip < 1e-4)
+        fst_curve_end_set(&curve->end, FST_END_ROLLS,
+                          "its slip falls to nothing at %.10g: beyond, the bead rolls", here->s.value);
+    else if (here->captures > 0)
+        fst_curve_end_set(
+            &curve->end, FST_END_LOST,
+            "it could not be followed beyond %.10g, where a slip may just come to rest, or a rest "
+            "just begin, and the return jumps or bends",
+            here->s.value);
     else
         fst_curve_end_set(&curve->end, FST_END_LOST, "it could not be followed beyond %.10g: %.110s",
                           here->s.value, why.sentence);

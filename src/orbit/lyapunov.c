@@ -120,7 +120,8 @@ static void orthonormalise(spectrum *s)
             for (int i = 0; i < FST_STATE_SIZE; ++i)
                 length += s->tangent[i][c] * s->tangent[i][c];
             length = sqrt(length);
-            if (pass == 0 && s->setup.model.coefficients.kinds.dry && !(length > LOST * fmax(1.0, sqrt(whole)))) {
+            if (pass == 0 && s->setup.model.coefficients.kinds.dry &&
+                !(length > LOST * fmax(1.0, sqrt(whole)))) {
                 lose_direction(s, c);
                 break;
             }

@@ -124,8 +124,8 @@ static void put_residual(fst_newton_system *l, fst_solution *s, int row, const d
     }
 }
 
-/* Under dry friction a locked bead whose contact slips is an isolated state like others.  Where it does not slip
- * the equations have no derivative; these states come in families (rolling_lock.c). */
+/* Under dry friction a locked bead whose contact slips is an isolated state like others.  Where it does not
+ * slip the equations have no derivative; these states come in families (rolling_lock.c). */
 static fst_status contact_slips(const fst_setup *setup, const fst_solution *s, fst_error *error)
 {
     const double least = 1e-9;
@@ -136,7 +136,8 @@ static fst_status contact_slips(const fst_setup *setup, const fst_solution *s, f
     if (setup->model.coefficients.kinds.paced && hypot(slip[0], slip[1]) > least)
         return FST_OK;
     return fst_fail(error, FST_NO_CONVERGENCE, "Newton's method",
-                    "the contact does not slip at %.10g: under dry friction such states are not isolated", s->value);
+                    "the contact does not slip at %.10g: under dry friction such states are not isolated",
+                    s->value);
 }
 
 static void equilibrium_equations(const fst_setup *setup, fst_solution *s, fst_newton_system *l)

@@ -2,8 +2,8 @@
  *
  * A bead that goes round with the magnet and rolls has W = omega e + psi n, and its place follows from v =
  * omega e x x = eps W x e: x = -(eps psi/omega) n_h.  What is left are the three components of W' = 0 for psi
- * and the two angles of n.  The magnets at hand have a plane of symmetry, Y = 0.  With n and x in it, two of the
- * three vanish by themselves, and one equation remains for the place X on the axis and the angle a of n,
+ * and the two angles of n.  The magnets at hand have a plane of symmetry, Y = 0.  With n and x in it, two of
+ * the three vanish by themselves, and one equation remains for the place X on the axis and the angle a of n,
  *
  *     g(X, a) = W_Y' = 0,      n = (sin a, 0, cos a),     psi sin a = -omega X/eps
  *
@@ -235,8 +235,7 @@ static fst_status trace_from(tracer *t, place start, fst_locked_list *list, fst_
     note(t, start);
     const place from = follow(t, start, -1.0, &which[0]);
     const place to = which[0] == FST_ROLLING_CLOSED ? from : follow(t, start, 1.0, &which[1]);
-    fst_rolling_family *more =
-        realloc(list->families, (list->family_count + 1) * sizeof *list->families);
+    fst_rolling_family *more = realloc(list->families, (list->family_count + 1) * sizeof *list->families);
     if (!more)
         return fst_fail(error, FST_NO_MEMORY, "locked", "out of memory");
     list->families = more;

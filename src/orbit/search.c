@@ -61,7 +61,7 @@ typedef struct search {
     int at_rest; /* the latest guess ended at an equilibrium that attracts */
     int leaves;  /* ... at one that does not: the bead is leaving it, or will */
     int tried_departure;
-    double slipped; /* the time at which a contact that can stick last slipped */
+    double slipped;              /* the time at which a contact that can stick last slipped */
     double rest[FST_STATE_SIZE]; /* that equilibrium */
     fst_orbit_outcome outcome;
 } search;
@@ -288,7 +288,8 @@ static int is_locked(const search *s)
 static const char *advice(fst_orbit_outcome outcome)
 {
     if (outcome == FST_ORBIT_ROLLS)
-        return "Try another start, or friction.rolling_resistance, which selects; festoon run describes the motion";
+        return "Try another start, or friction.rolling_resistance, which selects; festoon run describes the "
+               "motion";
     return outcome == FST_ORBIT_UNSETTLED
                ? "Try a longer run.periods or another start; fst_lyapunov_find() tells whether the motion is "
                  "chaotic"
@@ -343,10 +344,11 @@ static int only_rolls(search *s)
 static fst_status rolls_for_ever(search *s, fst_error *error)
 {
     s->outcome = FST_ORBIT_ROLLS;
-    return fst_fail(error, FST_NO_CONVERGENCE, "orbit",
-                    "the contact does not slip from %.4g to %.4g drive periods at omega = %.10g: a bead that only "
-                    "rolls approaches no orbit, and its start decides how it moves",
-                    s->slipped / s->drive_period, s->flow->t.high / s->drive_period, s->model->groups.omega);
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "orbit",
+        "the contact does not slip from %.4g to %.4g drive periods at omega = %.10g: a bead that only "
+        "rolls approaches no orbit, and its start decides how it moves",
+        s->slipped / s->drive_period, s->flow->t.high / s->drive_period, s->model->groups.omega);
 }
 
 static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *error)

@@ -269,9 +269,8 @@ static fst_status follow_dry(fst_exponent *asked, fst_flow *flow, double rtol, c
     fst_neighbours_start(&b, flow);
     for (unsigned steps = 1; !f.over; ++steps) {
         const double end = (f.done + 1.0) * f.piece;
-        fst_status status = progress && steps % STEPS_UNTOLD == 0
-                                ? fst_tell(progress, f.done / f.pieces, NULL, error)
-                                : FST_OK;
+        fst_status status =
+            progress && steps % STEPS_UNTOLD == 0 ? fst_tell(progress, f.done / f.pieces, NULL, error) : FST_OK;
         if (status != FST_OK)
             return status;
         if (fst_flow_step(flow, end, error) != FST_OK) {
