@@ -80,6 +80,11 @@ static chaos test_chaos(const fst_watched_run *run, const fst_exponent *known, f
 {
     if (!known)
         return NOT_KNOWN;
+    if (known->unknown) {
+        REASON("regular or chaotic is not told of a bead that may leave the plate and fall back "
+               "(impact.restitution)");
+        return UNCLEAR;
+    }
     const double exponent = known->value, standard_error = known->standard_error;
     result->rhs_calls += known->rhs_calls;
     result->largest_exponent = exponent;
