@@ -131,6 +131,18 @@ static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
            is_sound_series(&i->window.periods);
 }
 
+/* The coefficients of a run that begins, with the mode of its contact in the image, which is kept in the law's
+ * numbers.  0: there is no such mode. */
+static int take_mode(fst_coefficients_double *c, const image *from)
+{
+    const fst_law_numbers_double *then = &from->flow.step.context.coefficients.law;
+    if (!c->kinds.paced)
+        return 1;
+    const double mode = then->coulomb.mode;
+    c->law = *then;
+    return mode == FST_MODE_SLIP || mode == FST_MODE_STICK || mode == FST_MODE_ONSET;
+}
+
 int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_run *run,
                        fst_exponent *exponent, fst_run_place *place, const double **lane)
 {
@@ -139,7 +151,9 @@ int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_
     const image *from = bytes;
     if (!is_sound(from, layout(from->numbers == 0 ? 0 : numbers), numbers, size))
         return 0;
-    const fst_coefficients_double coefficients = run->flow->step.context.coefficients;
+    fst_coefficients_double coefficients = run->flow->step.context.coefficients;
+    if (!take_mode(&coefficients, from))
+        return 0;
     const fst_groups groups = run->flow->groups;
     run->window = from->window;
     run->window.groups = groups;
