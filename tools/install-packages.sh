@@ -74,6 +74,25 @@ install_missing() {
     $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing
 }
 
+# Siconos brings OpenBLAS, which Debian then puts before the plain LAPACK for every program.  On matrices as small as
+# festoon's its threads only cost time, so a machine that had the plain one keeps it.
+lapack_choices() {
+    update-alternatives --get-selections 2>/dev/null | grep -E '^lib(lapack|blas)[.]so[.]3-' || true
+}
+lapack_before=$(lapack_choices)
+
+keep_plain_lapack() {
+    case "$lapack_before" in *openblas*) return 0 ;; esac
+    lapack_choices | while read -r name mode chosen; do
+        library=${name%%-*}
+        room=${library%%.*}
+        plain=/usr/lib/${name#*.so.3-}/${room#lib}/$library
+        case "$mode $chosen" in
+        "auto "*openblas*) if [ -e "$plain" ]; then $as_root update-alternatives --set "$name" "$plain"; fi ;;
+        esac
+    done
+}
+
 echo "Installing the missing Debian packages: $missing"
 # The package lists are fetched only where there are none, or where those at hand have grown stale.
 if ! ls /var/lib/apt/lists/*_Packages* >/dev/null 2>&1; then
@@ -83,3 +102,4 @@ elif ! install_missing; then
     $as_root apt-get update -q
     install_missing
 fi
+case " $missing " in *" libsiconos-numerics-dev "*) keep_plain_lapack ;; esac
