@@ -48,11 +48,11 @@ static int by_festoon(const dry_job *job, const dry_setting *setting, double *me
 
 enum { AT_3, AT_4, AT_6, AT_8, AT_10 };
 static solver solvers[] = {
-    {.name = "festoon run", .goal = 1e-3, .solve = by_festoon, .setting = {.step = 2e-5}, .against = AT_3},
-    {.name = "festoon run", .goal = 1e-4, .solve = by_festoon, .setting = {.step = 6e-6}, .against = AT_4},
-    {.name = "festoon run", .goal = 1e-6, .solve = by_festoon, .setting = {.step = 1e-7}, .against = AT_6},
-    {.name = "festoon run", .goal = 1e-8, .solve = by_festoon, .setting = {.step = 8e-10}, .against = AT_8},
-    {.name = "festoon run", .goal = 1e-10, .solve = by_festoon, .setting = {.step = 5e-12}, .against = AT_10},
+    {.name = "festoon run", .goal = 1e-3, .solve = by_festoon, .setting = {.step = 2.2e-4}, .against = AT_3},
+    {.name = "festoon run", .goal = 1e-4, .solve = by_festoon, .setting = {.step = 3.7e-5}, .against = AT_4},
+    {.name = "festoon run", .goal = 1e-6, .solve = by_festoon, .setting = {.step = 5.5e-7}, .against = AT_6},
+    {.name = "festoon run", .goal = 1e-8, .solve = by_festoon, .setting = {.step = 2.4e-8}, .against = AT_8},
+    {.name = "festoon run", .goal = 1e-10, .solve = by_festoon, .setting = {.step = 1.5e-9}, .against = AT_10},
 #ifdef DRY_SICONOS
     {.name = "Siconos, its quickest solver",
      .goal = 1e-3,
@@ -99,7 +99,7 @@ static solver solvers[] = {
     {.name = "CVODE BDF, regularised law",
      .goal = 1e-8,
      .solve = dry_by_cvode,
-     .setting = {.step = 1e-13, .width = 8e-10},
+     .setting = {.step = 1e-14, .width = 6.5e-10},
      .against = AT_8},
 #endif
 };

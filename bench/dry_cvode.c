@@ -132,6 +132,7 @@ int dry_by_cvode(const dry_job *job, const dry_setting *setting, double *mean_r,
     SUNLinearSolver linear = SUNLinSol_Dense(y, matrix, context);
     const int good =
         CVodeInit(solver, rhs, 0, y) == CV_SUCCESS &&
+        CVodeSetErrFile(solver, NULL) == CV_SUCCESS && /* the table says what failed */
         CVodeSStolerances(solver, setting->step, setting->step) == CV_SUCCESS &&
         CVodeSetUserData(solver, &law) == CV_SUCCESS && CVodeSetMaxNumSteps(solver, 100000000) == CV_SUCCESS &&
         CVodeSetLinearSolver(solver, linear, matrix) == CV_SUCCESS &&
