@@ -30,16 +30,16 @@ typedef struct point {
 } point;
 
 static point points[OMEGAS];
-static uint64_t evaluations; /* of right-hand sides, by whichever solver runs */
+static uint64_t evaluations; /* evaluations of the right-hand side by the solver at work */
 
-/* Indices of `count` points spread over the omegas: those of a smaller power of two are among a larger one's.
- */
+/* Indices of `count` points spread over the omegas; the points of a smaller power of two are among those of a
+ * larger one. */
 static int spread(int i, int count)
 {
     return (int)((long)i * OMEGAS / count + OMEGAS / (2 * CHECKED));
 }
 
-/* Of this thread's processor time, which what else the machine does disturbs less; or by the wall clock. */
+/* Seconds of this thread's processor time, which other programs disturb less, or by the wall clock. */
 static double seconds(clockid_t clock)
 {
     struct timespec t;
@@ -70,9 +70,9 @@ typedef struct solver {
     const fst_lane_engine *engine;
     const gsl_odeiv2_step_type **step;
     int threads, sample;                              /* points of a timed round */
-    int first_quarter;                                /* looser tolerances are not tried */
-    int checked;                                      /* points at which the error is taken in the end */
-    double tolerance, error, ms[ROUNDS], evaluations; /* the last: a trajectory */
+    int first_quarter;                                /* looser tolerances are not tried, in quarter decades */
+    int checked;                                      /* points at which the final error is taken */
+    double tolerance, error, ms[ROUNDS], evaluations; /* evaluations of one trajectory */
     double processor_ms[ROUNDS];                      /* of all threads */
 } solver;
 
@@ -242,15 +242,15 @@ static double worst_error(const solver *s, double tolerance, int count)
     return worst;
 }
 
-/* The error at a tolerance: at few points, and if it reaches the goal there, at all. */
+/* The error at a tolerance: first at a few points, and if it reaches the goal there, at all. */
 static double error_at(const solver *s, double tolerance, double goal)
 {
     const double error = worst_error(s, tolerance, SEARCHED);
     return error <= goal && s->checked > SEARCHED ? worst_error(s, tolerance, s->checked) : error;
 }
 
-/* The loosest tolerance that reaches the goal: of quarter decades, then of sixteenths in the quarter before it,
- * so that no solver has to be much better than asked. */
+/* The loosest tolerance that reaches the goal: first among quarter decades, then among sixteenths within the
+ * quarter before it, so that no solver has to be much better than asked. */
 static void find_tolerance(solver *s, double goal)
 {
     int quarter = s->first_quarter;
@@ -267,7 +267,7 @@ static void time_round(solver *s, int round)
 {
     static int which[OMEGAS];
     static double ends[OMEGAS][FST_STATE_SIZE];
-    /* Runs at low omegas last longer: threads, which take a half of the list each, get every other one. */
+    /* Runs at low omegas last longer, so two threads get every other one instead of a half of the list each. */
     const int half = s->sample / 2;
     for (int i = 0; i < s->sample; ++i)
         which[i] = spread(i < half ? 2 * i : 2 * (i - half) + 1, s->sample);
@@ -293,7 +293,8 @@ static void report(const solver *s, const solver *opponent)
     fflush(stdout);
 }
 
-/* What two threads lose to each other; their time by the clock has in it what else the machine does. */
+/* The processor time that two threads lose to each other. Time by the clock would contain what other programs
+ * do. */
 static void report_threads(const solver *one, const solver *two)
 {
     double ratio[ROUNDS];
@@ -302,7 +303,7 @@ static void report_threads(const solver *one, const solver *two)
     printf("  two threads take %.3f times the processor time of one\n", median(ratio, ROUNDS));
 }
 
-/* Every other reference, from *part on; then *part is whether all are there. */
+/* Computes every other reference, from *part on; then *part says whether all succeeded. */
 static void *make_references(void *part)
 {
     int *good = part, i = *good;

@@ -32,7 +32,7 @@ typedef struct solver {
     const char *name;
     int (*solve)(const struct solver *self, const int *which, int count, double tolerance,
                  double (*ends)[FST_STATE_SIZE]);
-    int count; /* of trajectories */
+    int count; /* number of trajectories */
     const fst_lane_engine *engine;
     const gsl_odeiv2_step_type **step;
     int works[TOLERANCES];
@@ -161,7 +161,7 @@ static double tolerance_of(int i)
     return pow(10.0, -4 - i);
 }
 
-/* One turn of a solver at one tolerance: time and error. */
+/* One turn of a solver at one tolerance: its time and error. */
 static void take_turn(solver *s, int tolerance, int round)
 {
     int which[POINTS];

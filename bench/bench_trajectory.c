@@ -122,7 +122,8 @@ static double time_of(job *j, solver solve, double tolerance)
     return seconds() - start;
 }
 
-/* ns of one right-hand side in a chain of dependent calls: the least and the median of many short rounds. */
+/* Nanoseconds of one right-hand side in a chain of dependent calls: the least and the median of many short
+ * rounds. */
 static void time_rhs(const job *j)
 {
     enum { ROUNDS = 301, CALLS = 2000 };
@@ -135,11 +136,11 @@ static void time_rhs(const job *j)
             fst_pull_double p;
             fst_rhs_double(&j->model->coefficients, j->model->coefficients.omega, y, dy, &p);
             for (int k = 0; k < FST_STATE_SIZE; ++k)
-                y[k] += 1e-14 * dy[k]; /* the next call needs all of this one */
+                y[k] += 1e-14 * dy[k]; /* the next call depends on all of this one */
         }
         round_ns[r] = (seconds() - start) / CALLS * 1e9;
     }
-    const volatile double sink = y[0]; /* so that nothing is optimised away */
+    const volatile double sink = y[0]; /* keeps the compiler from leaving the calls out */
     (void)sink;
     const double middle = median(round_ns, ROUNDS);
     printf("right-hand side, 10 charges, 1 core:   %.1f ns (median), %.1f ns (least)\n", middle, round_ns[0]);

@@ -14,8 +14,8 @@ extern "C" {
 #define JOB_API __attribute__((visibility("default")))
 enum { JOB_STATE_SIZE = 10 };
 
-/* A trajectory to be computed; the omega is the `index`-th of `count`, each in the middle of an equal part of
- * the range.  NULL: no memory.  It is never freed: a job lasts as long as its program. */
+/* A trajectory to be computed; its omega is the middle of part `index` of `count` equal parts of the range.
+ * NULL if there is no memory. It is never freed: a job lasts as long as its program. */
 typedef struct job_trajectory job_trajectory;
 JOB_API const job_trajectory *job_trajectory_new(int index, int count);
 

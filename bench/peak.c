@@ -6,7 +6,11 @@
 #include <immintrin.h>
 #include <pthread.h>
 
-enum { CHAINS = 12, TURNS = 4000000, TRIES = 5 }; /* more chains than the operation's latency times its ports */
+enum {
+    CHAINS = 12,
+    TURNS = 4000000,
+    TRIES = 5
+}; /* more chains than the latency of the operation times the ports that do it */
 
 static double seconds(void)
 {
@@ -15,7 +19,7 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Every chain is its own register, and goes towards 1. */
+/* Every chain has its own register, and converges to 1. */
 #define LOOP(type, fused, chains)                                                                              \
     for (int i = 0; i < CHAINS; ++i)                                                                           \
         (chains)[i] = (type){0.5} + (double)i;                                                                 \

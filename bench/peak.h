@@ -2,8 +2,8 @@
 #ifndef FST_BENCH_PEAK_H
 #define FST_BENCH_PEAK_H
 
-/* Seconds that one operation on `doubles` numbers at once (4 or 8) takes where a core works at nothing else;
- * with two threads, where two do so side by side.  The best of some tries; 0 where the processor has no such
+/* Seconds for one operation on `doubles` numbers at once (4 or 8) on a core that does nothing else; with two
+ * threads, while two cores do so side by side. The best of some tries; 0 if the processor lacks the
  * instructions. */
 double peak_seconds(int doubles, int threads);
 

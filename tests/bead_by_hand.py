@@ -40,7 +40,7 @@ def rates(state, t, omega, printed):
     pull = [sum(n[i] * g[i][j] for i in range(3)) for j in range(2)]
     turning, rubbing, dn = cross(n, b), (-slip[1], slip[0], 0.0), cross(w, n)
     dw = [2.5 * (KAPPA * turning[i] + rubbing[i] / EPS) for i in range(3)]
-    if printed:  # n'' without psi' n x n': so much is added to dW/dt
+    if printed:  # Eq. (7) as printed lacks psi' n x n', which adds this to dW/dt
         spin, gyration = dot(w, n), cross(w, n)
         dw = [dw[i] + spin * gyration[i] for i in range(3)]
     return [vx, vy, KAPPA * EPS**2 * pull[0] - slip[0], KAPPA * EPS**2 * pull[1] - slip[1], *dn, *dw]
@@ -61,7 +61,7 @@ def wrapped(angle):
 
 
 def follow(state, omega, printed, duration, steps):
-    """Every state on the way, with t and the unwrapped polar angle."""
+    """All states over `duration`, with their times and the unwrapped polar angle."""
     h, alpha = duration / steps, math.atan2(state[1], state[0])
     path = [(0.0, alpha, state)]
     for i in range(steps):
@@ -72,10 +72,10 @@ def follow(state, omega, printed, duration, steps):
 
 
 def one_return(turning_state, omega, printed, steps=1200):
-    """From a state of the turning frame (the magnet along x) until the bead meets the magnet as before, once round.
-    What the motion is then, if it is the orbit that it should be."""
+    """Integrates from a state of the turning frame (the magnet along x) until the bead meets the magnet as before,
+    once round. Returns what the motion is then, which on a closed orbit must agree with the program."""
     period = 2 * math.pi / (omega + 0.06)
-    for _ in range(6):  # the time of a whole return, by Newton's rule on Phi
+    for _ in range(6):  # Newton's method on Phi finds the time of a whole return
         t, alpha, last = follow(turning_state, omega, printed, period, steps)[-1]
         met = alpha - omega * t - math.atan2(turning_state[1], turning_state[0]) + 2 * math.pi
         rate = (last[0] * last[3] - last[1] * last[2]) / (last[0]**2 + last[1]**2) - omega
@@ -87,7 +87,8 @@ def one_return(turning_state, omega, printed, steps=1200):
 
 
 class Return:
-    """Means over one return; on a closed orbit the plain mean over equal steps is exact beyond all powers."""
+    """Means over one return; on a closed orbit a plain mean over equal steps converges faster than any power of the
+    step."""
 
     def __init__(self, path, omega, period):
         self.omega, self.period = omega, period

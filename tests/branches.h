@@ -1,5 +1,4 @@
-/* branches.h - what tests of branches share: a scene, following, and finding a special point in what came out.
- */
+/* branches.h - what tests of branches share: a scene, following a branch, and finding a special point on it. */
 #ifndef FST_TESTS_BRANCHES_H
 #define FST_TESTS_BRANCHES_H
 

@@ -1,4 +1,4 @@
-"""What tests of kills and signals share: they wait for what happens, never for a time.
+"""What tests of kills and signals share: they wait for events, never for a time.
 
 A program that is to be struck while it works has to work long enough, on a quick processor too, and not all day on a
 slow one: so work is sized by measuring it (sized()), a blow follows an event (a committed row, an image of a run, a
@@ -24,7 +24,7 @@ POLL = 0.002
 
 
 def sized(run, seconds, size, most=10**7):
-    """The least of size, 3 size, 9 size, ... for which run(size) takes that long."""
+    """The least of size, 3 size, 9 size, ... for which run(size) takes at least that long."""
     seconds /= float(os.environ.get("FESTOON_SHORTER", "1"))
     while True:
         began = time.monotonic()
@@ -36,8 +36,8 @@ def sized(run, seconds, size, most=10**7):
 
 
 def ask(path, question):
-    """The answer of a database that may be at work, damaged or absent; None where there is none.  Nothing is written:
-    the log of a killed program stays for the one that goes on."""
+    """The answer of a database that may be in use, damaged or absent; None if there is none. Nothing is written: the
+    log of a killed program must stay for the program that goes on."""
     if not os.path.exists(path):
         return None
     try:
@@ -58,12 +58,12 @@ def rows(path):
 
 
 def images(path):
-    """What is kept of runs in flight: a number that changes when that does, 0 where there is nothing."""
+    """Tells whether images of runs in flight were saved: a number that changes with them, 0 if there are none."""
     return ask(path, "SELECT sum((point + 1) * (checksum % 1000003 + 2000003)) FROM checkpoints") or 0
 
 
 def wait_for(process, happened):
-    """Until something has happened, or the program is over; whether it happened first."""
+    """Waits until something has happened or the program is over; returns whether it happened first."""
     limit = time.monotonic() + HANG
     while not happened():
         if process.poll() is not None or time.monotonic() > limit:
@@ -79,7 +79,7 @@ def start(words, **options):
 
 
 def kill_when(words, happened, **options):
-    """Start a program and kill it as soon as something has happened; whether it was killed at work."""
+    """Starts a program and kills it as soon as something has happened; returns whether it was killed at work."""
     process = start(words, **options)
     wait_for(process, happened)
     process.kill()
@@ -88,8 +88,8 @@ def kill_when(words, happened, **options):
 
 
 def signal_when(words, happened, number, **options):
-    """The same with a signal that it may answer: status, output, messages.  Another one follows every second only
-    where the program lost the first one to a moment in which it did not listen yet: there is none after main()."""
+    """The same with a signal that the program may answer: status, output, messages. The signal is repeated every
+    second only because the program may miss the first one while it starts; after main() it must not need another."""
     process = start(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
     wait_for(process, happened)
     if process.poll() is None:
@@ -99,7 +99,7 @@ def signal_when(words, happened, number, **options):
 
 
 def struck(blow, size, tries=6, factor=4):
-    """blow(size) strikes and tells whether it struck; else it is tried again with more work."""
+    """blow(size) strikes and returns whether it struck; if not, it is tried again with more work."""
     for _ in range(tries):
         if blow(size):
             return size
@@ -118,7 +118,7 @@ def listens(process):
 
 
 def children_of(process):
-    """The process numbers of a program's children, as mpirun's ranks; none once they have ended.  process.had_children
+    """The process numbers of a program's children, as mpirun's ranks; none once they have ended. process.had_children
     says whether there ever were any (Linux tells in /proc)."""
     try:
         with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
@@ -130,7 +130,7 @@ def children_of(process):
 
 
 def lost_its_children(process):
-    """Whether a program had children and has none any more: an mpirun whose ranks were killed is known to hang then."""
+    """Whether a program had children and has none any more: an mpirun whose ranks were killed sometimes hangs then."""
     return not children_of(process) and getattr(process, "had_children", False)
 
 
@@ -151,9 +151,9 @@ def children_time():
 
 
 def on_a_terminal(words, until, number=signal.SIGINT, as_key=False, used=None):
-    """Run a program whose messages go to a terminal, and strike when the text there satisfies `until`; status, output
-    and text.  `as_key`: by Ctrl-C at the terminal, which the whole group gets.  The processor time from the strike on
-    is added to the list `used`."""
+    """Runs a program whose messages go to a terminal, and strikes when `until` holds for the text there; returns
+    status, output and text. `as_key` strikes by Ctrl-C at the terminal, which reaches the whole group. The
+    processor time from the strike on is added to the list `used`."""
     before, at_signal = children_time(), 0.0
     leader, follower = pty.openpty()
     process = subprocess.Popen(words, stdin=follower if as_key else subprocess.DEVNULL, stdout=subprocess.PIPE,

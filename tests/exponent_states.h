@@ -15,8 +15,9 @@
 #include "numeric.h"
 #include "study/exponent.h"
 
-/* What is known exactly of a motion: its exponents, falling, the flow's zero among those of an orbit, as many
- * as are not lost in the rounding of the multipliers; the greatest across the flow; and a state on it. */
+/* The exact values for a motion: its exponents from the greatest down, including the zero along the flow of an
+ * orbit, as many as are not lost in the rounding of the multipliers; the greatest across the flow; and a state
+ * on the motion. */
 typedef struct known_exponents {
     int count, is_orbit;
     double exponents[FST_EIGENVALUE_COUNT], across_flow, state[FST_STATE_SIZE];
@@ -53,7 +54,8 @@ static inline int known_of_orbit(const fst_params *params, known_exponents *know
     fst_orbit orbit;
     if (fst_orbit_find(params, NULL, &orbit, NULL) != FST_OK || !orbit.stable)
         return 0;
-    /* Multipliers are those of half the period with the symmetry S2.  Those under 1e-9 are noise. */
+    /* With the symmetry S2 the multipliers are those of half the period. Multipliers below 1e-9 are rounding
+     * errors. */
     const double time = orbit.means.symmetry == FST_SYMMETRY_S2 ? 0.5 * orbit.means.period : orbit.means.period;
     known->is_orbit = 1;
     known->across_flow = -INFINITY;
@@ -94,7 +96,7 @@ static inline int known_of_locked(const fst_params *params, const double *state,
     return known->count > 0;
 }
 
-/* 0: the motion of this scene is none of which exact exponents are known, or one that has not settled. */
+/* 0 if no exact exponents are known for the motion of this scene, or if it has not settled. */
 static inline int exponents_known(const fst_params *params, known_exponents *known)
 {
     fst_run_options options = fst_default_run_options();
@@ -112,7 +114,7 @@ static inline int exponents_known(const fst_params *params, known_exponents *kno
     return found;
 }
 
-/* The exponent that a run of this scene computes where its regime needs one: over the default window. */
+/* The exponent that a run of this scene computes if its regime needs one: over the default window. */
 static inline fst_exponent exponent_across_flow(const fst_params *params, const double *state)
 {
     fst_model *model = NULL;
@@ -131,10 +133,10 @@ static inline fst_exponent exponent_across_flow(const fst_params *params, const 
     return asked;
 }
 
-/* How often a bar covers. */
+/* How often error bars cover the exact value. */
 typedef struct coverage {
     int all, within_one, within_three;
-    double greatest; /* deviation in errors */
+    double greatest; /* the greatest deviation, in units of the error */
 } coverage;
 
 static inline void cover(coverage *c, double value, double error, double truth)

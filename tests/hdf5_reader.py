@@ -1,4 +1,4 @@
-"""HDF5 files read by HDF5's own library, called through ctypes: nothing of festoon's is in the way."""
+"""Reads HDF5 files by HDF5's own library, called through ctypes: none of festoon's code takes part."""
 
 import ctypes
 import ctypes.util
@@ -66,7 +66,7 @@ class Hdf5:
         return list(values)
 
     def attribute(self, name, key):
-        """A text that belongs to a data set or, where name is None, to the file."""
+        """An attribute with a text, of a data set or, if name is None, of the file."""
         data_set = ctypes.c_int64(self.library.H5Oopen(self.file, (name or "/").encode(), ctypes.c_int64(0)))
         attribute = ctypes.c_int64(self.library.H5Aopen(data_set, key.encode(), ctypes.c_int64(0)))
         kind = ctypes.c_int64(self.library.H5Aget_type(attribute))

@@ -71,7 +71,7 @@ static inline void FN(magnetic_jacobian)(const FN(coefficients) * c, const REAL 
         gn[i] = f->g[i][0] * n[0] + f->g[i][1] * n[1] + f->g[i][2] * n[2];
     for (int q = 0; q < 5; ++q) { /* q: X, Y, nX, nY, nZ */
         const int column = q < 2 ? FST_X + q : FST_NX + q - 2;
-        REAL db[3], dn[3]; /* how B and n change with q */
+        REAL db[3], dn[3]; /* derivatives of B and n by q */
         for (int i = 0; i < 3; ++i) {
             db[i] = q < 2 ? f->g[i][q] : R(0.0);
             dn[i] = q - 2 == i ? R(1.0) : R(0.0);

@@ -1,4 +1,4 @@
-/* numeric.h - cmocka, and what its version 1.1.5 lacks: comparing doubles. */
+/* numeric.h - cmocka, and comparisons of doubles, which its version 1.1.5 lacks. */
 #ifndef FST_TESTS_NUMERIC_H
 #define FST_TESTS_NUMERIC_H
 

@@ -29,7 +29,8 @@ static inline fst_params bead_at(double omega, fst_dynamics dynamics)
     return p;
 }
 
-/* Every material, friction law and dynamics in turn: case 0 to 11, with numbers in which every term counts. */
+/* Every material, friction law and dynamics in turn, cases 0 to 11, with numbers for which every term counts.
+ */
 enum { CASES = 12 };
 static inline fst_params params_of_case(int which)
 {
@@ -80,7 +81,7 @@ static inline fst_flow *flow_of(const fst_model *model, double tolerance, const 
     return flow;
 }
 
-/* On to t_end or the first of the events; returns why it stopped. */
+/* Goes on to t_end or to the first event; returns why it stopped. */
 static inline fst_stop advance_to(fst_flow *flow, double t_end, unsigned events)
 {
     fst_stop stop;
@@ -111,7 +112,7 @@ static inline fst_run_result run_of(const fst_params *p)
     return result;
 }
 
-/* Numbers that look random and are the same everywhere: splitmix64. */
+/* Pseudorandom numbers, the same on every machine: splitmix64. */
 static inline double uniform(uint64_t *seed, double least, double greatest)
 {
     uint64_t z = (*seed += 0x9e3779b97f4a7c15u);
@@ -164,7 +165,7 @@ static inline double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Turn a vector by `angle` about the unit vector `axis` (Rodrigues). */
+/* Turns a vector by `angle` about the unit vector `axis` (Rodrigues). */
 static inline void turn_about(const double axis[3], double angle, const double u[3], double turned[3])
 {
     double axu[3];
@@ -174,8 +175,8 @@ static inline void turn_about(const double axis[3], double angle, const double u
         turned[i] = cos(angle) * u[i] + sin(angle) * axu[i] + along * axis[i];
 }
 
-/* The components of a state along axes that stand at -angle from those it was given in: with angle = omega t,
- * from the magnet's axes to the laboratory's. */
+/* The components of a state along axes turned by -angle: with angle = omega t, from the magnet's axes to the
+ * laboratory's. */
 static inline void turn_state(const double *state, double angle, double *turned)
 {
     static const int horizontal[] = {FST_X, FST_VX, FST_NX, FST_WX};

@@ -1,4 +1,4 @@
-/* physics_ld.h - the bodies of the model over long double, and differences that are exact to its rounding. */
+/* physics_ld.h - the bodies of the model over long double, and finite differences accurate to its rounding. */
 #ifndef FST_TESTS_PHYSICS_LD_H
 #define FST_TESTS_PHYSICS_LD_H
 

@@ -8,7 +8,7 @@
 
 #include "numeric.h"
 
-/* Fail unless all that two runs found is the same; `job` is told. */
+/* Fails unless two results agree in every bit; the message names `job`. */
 static inline void check_same_result(int job, const fst_run_result *a, const fst_run_result *b)
 {
     for (int k = 0; k < fst_result_count(); ++k)

@@ -1,5 +1,5 @@
-/* special_curves.h - curves of special points over omega and kappa, and the same points found over omega alone.
- */
+/* special_curves.h - curves of special points over omega and kappa, compared with the same points found over
+ * omega alone. */
 #ifndef FST_TESTS_SPECIAL_CURVES_H
 #define FST_TESTS_SPECIAL_CURVES_H
 
@@ -28,7 +28,7 @@ static inline fst_branch curve(fst_branch_kind kind, fst_special_type type, doub
     return followed(&params, &o);
 }
 
-/* The special point near `omega` over omega alone, at another kappa. */
+/* The special point near `omega` that a branch over omega finds, at another kappa. */
 static inline double at_kappa(fst_branch_kind kind, fst_special_type type, double kappa, double omega,
                               double from, double to)
 {
@@ -49,8 +49,7 @@ static inline const fst_branch_point *point_at(const fst_branch *b, double kappa
     return NULL;
 }
 
-/* At both ends of the range of kappa the curve's omega is the one that a branch over omega alone gives there.
- */
+/* At both ends of the range of kappa, the curve has the omega that a branch over omega alone finds there. */
 #define CHECK_ENDS(b, kind, type, from, to, kappa_from, kappa_to, tolerance)                                   \
     do {                                                                                                       \
         for (int end_ = 0; end_ < 2; ++end_) {                                                                 \
@@ -59,7 +58,7 @@ static inline const fst_branch_point *point_at(const fst_branch *b, double kappa
         }                                                                                                      \
     } while (0)
 
-/* How near any multiplier is to a real number. */
+/* The least distance of a multiplier from a real number. */
 static inline double nearest_multiplier(const fst_branch_point *p, double value)
 {
     double nearest = INFINITY;
@@ -68,7 +67,8 @@ static inline double nearest_multiplier(const fst_branch_point *p, double value)
     return nearest;
 }
 
-/* How near any complex pair of an equilibrium is to the imaginary axis, or of an orbit to the unit circle. */
+/* The least distance of a complex pair from the border of stability: the imaginary axis for an equilibrium, the
+ * unit circle for an orbit. */
 static inline double least_real_part_of_pairs(const fst_branch_point *p)
 {
     double least = INFINITY;

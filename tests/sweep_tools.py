@@ -29,7 +29,7 @@ def content_of(path, mode="rb"):
 
 
 def change(path, *statements):
-    """Change a sweep's database by SQL, and give its rows the checksums that they then should have."""
+    """Changes a sweep's database by SQL, and gives its rows the checksums that fit their new contents."""
     base = sqlite3.connect(path)
     for statement in statements:
         base.execute(*statement) if isinstance(statement, tuple) else base.execute(statement)

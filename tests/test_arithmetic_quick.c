@@ -5,7 +5,7 @@
 #include "base/compensated.h"
 #include "base/winding.h"
 
-/* Products whose digits are known: powers of two, so that every part is exact. */
+/* The factors are powers of two and sums of them, so every part of a product is known exactly. */
 static void products_keep_what_a_double_loses(void **state)
 {
     (void)state;
@@ -18,7 +18,7 @@ static void products_keep_what_a_double_loses(void **state)
     p = fst_twofold_times((fst_twofold){1.0, 0.125 * u}, 3.0);
     CHECK_SAME_BITS(p.high, 3.0);
     CHECK_SAME_BITS(p.low, 0.375 * u);
-    /* Both, with signs: (1 + u - u/16) (-(1 + u)) = -(1 + 2u - u/16 + u^2 - u^2/16). */
+    /* Small parts in both factors, with signs: (1 + u - u/16) (-(1 + u)) = -(1 + 2u - u/16 + u^2 - u^2/16). */
     p = fst_twofold_times((fst_twofold){1.0 + u, -0.0625 * u}, -(1.0 + u));
     CHECK_SAME_BITS(p.high, -(1.0 + 2.0 * u));
     CHECK_SAME_BITS(p.low, 0.0625 * u - 0.9375 * (u * u));
@@ -37,10 +37,10 @@ static void sums_and_products_agree(void **state)
     double plain = 0.0;
     for (int i = 0; i < 1000000; ++i)
         plain += step;
-    assert_true(fabs(plain - product.high) > 1e-10); /* which a plain sum does not */
+    assert_true(fabs(plain - product.high) > 1e-10); /* a plain sum is off by more */
 }
 
-/* Start at this point and go round by `turns` turns in small steps: the angle grows by so much. */
+/* Start at this point and go round by `turns` turns in small steps: the angle must grow by as many turns. */
 static void check_turns(double x, double y, int turns)
 {
     const double two_pi = 6.283185307179586476925287;
@@ -52,14 +52,14 @@ static void check_turns(double x, double y, int turns)
         const double angle = begin + two_pi * turns * i / steps;
         fst_winding_advance(&w, r * cos(angle), r * sin(angle));
         const double now = fst_winding_angle(&w);
-        CHECK_CLOSE(now - before, two_pi * turns / steps, 1e-9); /* no jump anywhere */
+        CHECK_CLOSE(now - before, two_pi * turns / steps, 1e-9); /* the angle never jumps */
         before = now;
     }
     CHECK_CLOSE(before - begin, two_pi * turns, 1e-9);
 }
 
-/* Also from exactly Phi = 180 degrees, on either side of the half-axis on which turns are counted, and from
- * there back and forth. */
+/* The same from exactly Phi = 180 degrees, on either side of the half-axis on which turns are counted, and back
+ * and forth over it. */
 static void angles_do_not_jump(void **state)
 {
     (void)state;

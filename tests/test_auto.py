@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""AUTO-07p (Doedel et al.) finds the same branches and special points from equations written here once more.
+"""AUTO-07p (Doedel et al.) finds the same branches and special points from equations that are written here
+independently.
 
 AUTO gets the ten equations in Fortran, by collocation over the full turn of Phi, and one orbit to begin with; it knows
 nothing of the symmetry.  |n| = 1 is made attracting, which leaves the motion on the sphere as it is.  Skipped with a
@@ -103,7 +104,7 @@ def festoon(*words):
 
 
 def rhs(y, w):
-    """The equations once more, to give AUTO an orbit to start from."""
+    """The equations in Python, from which AUTO gets an orbit to start from."""
     x, yy, vx, vy, n, om = y[0], y[1], y[2], y[3], y[4:7], y[7:10]
     b, g = [0.0] * 3, [[0.0] * 3 for _ in range(3)]
     for k in range(-2, 3):
@@ -140,7 +141,7 @@ def sampled_orbit(state, period, w, pieces=400):
 
 
 def run_auto(directory, **constants):
-    """Run the built AUTO program; the rows of its bifurcation diagram: (type, label, omega, period)."""
+    """Runs the built AUTO program; returns the rows of its bifurcation diagram: (type, label, omega, period)."""
     for name in ("fort.7", "fort.8", "fort.9"):
         if os.path.exists(os.path.join(directory, name)):
             os.remove(os.path.join(directory, name))
@@ -169,7 +170,7 @@ def check(name, ours, its, digits=1e-6):
 
 
 def check_period(name, rows, omega):
-    """At the omega that AUTO says, which is near the one asked for."""
+    """Compared at the omega that AUTO reports, which is near the one asked for."""
     omega, period = next((r[2], r[3]) for r in rows if r[0] == -4 and abs(r[2] - omega) < 1e-4)
     check(name, festoon("orbit", "--set", f"drive.omega={omega}")["period"], period)
 

@@ -1,5 +1,5 @@
-/* The smallest pieces, each against the law that it stands for: zeros in brackets, sums without loss, unwrapped
- * angles, sines of whole degrees, quoted texts, numbers as text. */
+/* The smallest pieces of `src/base`: zeros in brackets, sums without loss, unwrapped angles, sines of whole
+ * degrees, quoted texts, numbers as text. */
 #include "numeric.h"
 
 #include <stdint.h>
@@ -13,8 +13,8 @@
 
 /* ------------------------------------------------------------------ brackets */
 
-/* Looks taken until the zero of x^9 - 1e-3 in [0, 1] is known to 1e-12; false position alone needs thousands.
- */
+/* How many function values it takes until the zero of x^9 - 1e-3 in [0, 1] is known to 1e-12; false position
+ * alone needs thousands. */
 static int looks_to_zero(double start_lo, double start_hi)
 {
     fst_bracket b = {start_lo, start_hi, pow(start_lo, 9) - 1e-3, pow(start_hi, 9) - 1e-3, 0};
@@ -32,7 +32,7 @@ static int looks_to_zero(double start_lo, double start_hi)
     return looks;
 }
 
-/* Both ends close in, also where the function is flat on one side. */
+/* Both ends of the bracket close in, even if the function is flat on one side. */
 static void test_brackets_close_from_both_sides(void **state)
 {
     (void)state;
@@ -72,7 +72,8 @@ static double angle_after(double points[][2], int count)
     return fst_winding_angle(&w);
 }
 
-/* Once round and back, from every place, the start on the half-axis included: the angle is where it was. */
+/* Going once round and back ends at the same angle, from every starting point, those on the half-axis included.
+ */
 static void test_turns_are_counted_from_any_start(void **state)
 {
     (void)state;
@@ -100,7 +101,7 @@ static void test_turns_are_counted_from_any_start(void **state)
         }
 }
 
-/* A line that passes the origin nearer than a quarter of its length is doubtful, one that stays away is not. */
+/* A step that passes the origin nearer than a quarter of its length is doubtful, one that stays away is not. */
 static void test_close_passages_are_doubtful(void **state)
 {
     (void)state;
@@ -142,7 +143,7 @@ static void test_sines_of_degrees(void **state)
 
 /* ------------------------------------------------------------------ texts */
 
-/* What is quoted in a message holds no control character and no half of a character, however long it was. */
+/* A text quoted in a message holds no control character and no half of a character, however long it was. */
 static void test_quoted_texts_are_harmless(void **state)
 {
     (void)state;
@@ -151,13 +152,13 @@ static void test_quoted_texts_are_harmless(void **state)
     for (size_t lead = 0; lead < 4; ++lead) {
         memset(text, 'x', sizeof text);
         for (size_t i = lead; i + 3 < sizeof text; i += 3)
-            memcpy(text + i, "\xE2\x84\x93", 3); /* three bytes each */
+            memcpy(text + i, "\xE2\x84\x93", 3); /* this character has three bytes */
         text[sizeof text - 1] = '\0';
         const char *shown = fst_quote(text, quoted);
         const size_t length = strlen(shown);
         assert_true(length < FST_QUOTE_SIZE);
         assert_string_equal(shown + length - 4, "...\"");
-        assert_null(strchr(shown, '?')); /* which halves of a character would have become */
+        assert_null(strchr(shown, '?')); /* a halved character would be shown as '?' */
         for (size_t i = 1; i + 4 < length; ++i)
             if (shown[i] == '\xE2')
                 assert_memory_equal(shown + i, "\xE2\x84\x93", 3);

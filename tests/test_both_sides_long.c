@@ -17,7 +17,7 @@ static fst_family family_over_omega(void)
     return family;
 }
 
-/* The state of a point once more, with its derivative. */
+/* The solution at a point of a branch, found again from its state, with its eigenvalues or multipliers. */
 static fst_solution solution_of(const fst_family *family, const fst_branch_point *p)
 {
     fst_solution s;
@@ -36,13 +36,14 @@ static fst_solution solution_of(const fst_family *family, const fst_branch_point
     return s;
 }
 
-/* How far an eigenvalue is from the border that this type of special point crosses; of pairs the upper ones. */
+/* Distance of an eigenvalue from the border that this type of special point crosses; of a pair only the upper
+ * one counts. */
 static double from_border(const fst_solution *s, int i, fst_special_type type)
 {
     const double re = s->re[i], im = s->im[i];
     const int orbit = s->segments > 0;
     switch (type) {
-    case FST_SPECIAL_HOPF: /* of two pairs on the axis one never leaves it */
+    case FST_SPECIAL_HOPF: /* two pairs lie on the axis here, and one of them never leaves it */
         return im > 1e-6 && fabs(re) > 1e-12 ? fabs(re) : INFINITY;
     case FST_SPECIAL_NEIMARK_SACKER:
         return im > 1e-6 ? fabs(hypot(re, im) - 1.0) : INFINITY;
@@ -116,8 +117,8 @@ static void simulated(double omega, const double *from, double time, int image, 
     fst_model_free(model);
 }
 
-/* Half the difference of two states displaced along the critical direction, seen by the left eigenvector,
- * before and after: the logarithm of what it was multiplied with. */
+/* Two states are displaced along the critical direction, to either side, and followed. Half of their difference
+ * is measured with the left eigenvector before and after: the result is the logarithm of its growth. */
 static double simulated_growth(const fst_family *family, const fst_solution *s, int which, double time)
 {
     const double small = 3e-6;
@@ -141,8 +142,9 @@ static double simulated_growth(const fst_family *family, const fst_solution *s, 
     return log(hypot(after[0], after[1]) / hypot(before[0], before[1]));
 }
 
-/* The two points of a branch between which a special point lies; at a fold those beside its turning point.  A
- * Hopf point may have been met on the branch of the orbits: the equilibria's is meant. */
+/* The two points of a branch between which a special point lies; at a fold, its neighbours on either side of
+ * the turning point. A Hopf point may have been found on the branch of the orbits: then the branch of the
+ * equilibria is taken. */
 static int neighbours(const fst_branch *b, const fst_special *at, const fst_branch_point *found[2])
 {
     double least = INFINITY;
@@ -198,7 +200,7 @@ static void disturbances_grow_on_one_side(void **state)
                      growth[0], growth[1]);
         seen += 1;
     }
-    assert_int_equal(seen, 17); /* all but the origin crossing, of which the runs below tell */
+    assert_int_equal(seen, 17); /* all but the origin crossing, which the runs below cover */
     fst_branch_free(&b);
 }
 
@@ -275,7 +277,8 @@ static double speed_at(double omega, const double *state)
     return sqrt(sum);
 }
 
-/* The second locked state exists above its fold alone: a bead set on it stays above and leaves below. */
+/* The second locked state exists only above its fold: a bead set on it stays there above the fold, and leaves
+ * below. */
 static void the_second_locked_state_appears_at_its_fold(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
-/* Branches over short ranges: special points, what is born there, other parameters, and a caller that stops.
- * Whole branches: test_branch_long.c. */
+/* Branches over short ranges: special points, the branches born there, other parameters, and a caller that
+ * stops the work. Whole branches are in test_branch_long.c. */
 #include "branches.h"
 
-/* The period halving with the branch that is born there, whose neighbours are near each other: no curve jumps.
- */
+/* The period halving and the branch born there. Neighbouring points are close together, so no curve jumps to
+ * another. */
 static void the_period_halving(void **state)
 {
     (void)state;
@@ -30,7 +30,8 @@ static void the_period_halving(void **state)
     fst_branch_free(&b);
 }
 
-/* Any parameter will do: the pitchfork over kappa, at the omega where it lies at kappa = 1.5. */
+/* A branch may be followed over any parameter: here the pitchfork over kappa, at the omega where it lies at
+ * kappa = 1.5. */
 static void another_parameter(void **state)
 {
     (void)state;
@@ -44,7 +45,8 @@ static void another_parameter(void **state)
     fst_branch_free(&b);
 }
 
-/* The scene's own orbit begins a branch wherever the range lies, with symmetric orbits in it or without. */
+/* A branch begins with the scene's own orbit wherever the range lies, whether or not it holds symmetric orbits.
+ */
 static void a_range_without_symmetric_orbits(void **state)
 {
     (void)state;
@@ -58,7 +60,7 @@ static void a_range_without_symmetric_orbits(void **state)
     fst_branch_free(&b);
 }
 
-/* How two states related by S2 differ from each other along the plate. */
+/* The greatest difference of two states in any component. */
 static double gap(const double *a, const double *b)
 {
     double greatest = 0.0;
@@ -67,9 +69,9 @@ static double gap(const double *a, const double *b)
     return greatest;
 }
 
-/* Where the images under S2 are: a symmetric branch is its own; of librations and S1 orbits one of two is
- * followed; of equilibria both are, and each names the other, which says so too; those on the axis are their
- * own images. */
+/* Which branch holds the images under S2. A symmetric branch is its own image. Of librations and S1 orbits only
+ * one of the two branches is followed. Of equilibria both are followed, and each names the other; states on the
+ * axis are their own images. */
 static void images_under_s2(void **state)
 {
     (void)state;
@@ -90,7 +92,8 @@ static void images_under_s2(void **state)
         for (size_t f = 0; f < b.end_count; ++f)
             if (b.ends[f].branch == end->image)
                 assert_int_equal(b.ends[f].image, end->branch);
-        /* at the border of the range, which all points reach exactly, the states are each other's images */
+        /* all branches reach the border of the range exactly, so states there can be compared with each other's
+         * images */
         const fst_branch_point *here = NULL;
         double image[FST_STATE_SIZE], nearest = INFINITY;
         for (size_t i = 0; i < b.point_count; ++i)

@@ -1,4 +1,5 @@
-"""The commands branch, orbit and lyapunov under way and in trouble: progress, interruption, and what it says about bad input."""
+"""The commands branch, orbit and lyapunov at work and in trouble: progress, interruption, and messages about bad
+input."""
 
 import json
 import os
@@ -19,9 +20,9 @@ def branch(*words):
 
 
 def interrupted(words, beyond=-1.0, used=None):
-    """Interrupt a command once its progress line says more than `beyond` per cent: status, output, what the terminal
-    showed.  Where the command was over before, words(factor) has more for it to do.  The processor time that it took
-    from the signal on goes into the list `used`."""
+    """Interrupts a command once its progress line says more than `beyond` per cent; returns status, output and the
+    text of the terminal. If the command was over before, words(factor) makes one with more work. The processor
+    time from the signal on goes into the list `used`."""
     found = None
 
     def far_enough(text):
@@ -66,7 +67,7 @@ class Interruption(unittest.TestCase):
         self.assertIn("-o FILE.json would have kept", said)
 
     def test_hard_scenes(self):
-        """Where a bead all but touches the magnet's lines, a single integration takes minutes: it is stopped within
+        """With a bead that nearly touches the magnet's lines a single integration takes minutes: it must stop within
         the processor time of some 10^5 evaluations of the equations, 0.1 s on an idle processor."""
         before = events.children_time()
         done = subprocess.run([FESTOON, "run", "--json", "--set", "run.periods=2000"], capture_output=True, check=True)
@@ -84,7 +85,7 @@ class Interruption(unittest.TestCase):
                 self.assertLess(used[-1] / unit, 2e5, (words, beyond))
 
     def test_what_keeps_nothing(self):
-        """They end at the first signal, within the long computation and not after it."""
+        """The commands end at the first signal, within the long computation and not after it."""
         for words in (lambda factor: ("lyapunov", "--set", f"run.periods={100000 * factor}"),
                       lambda factor: ("lyapunov", "--set", f"run.periods={10**6 * factor}", "--set",
                                       f"run.discard={9 * 10**5 * factor}"),
@@ -152,7 +153,7 @@ class BadInput(unittest.TestCase):
             self.assertEqual(os.listdir(directory), ["b.json"])
 
     def test_where_no_such_orbit_is(self):
-        """What happened to the bead instead, and a whole sentence."""
+        """The message says what happened to the bead instead, in a whole sentence."""
         locks = self.refused(1, "--kind", "counter", "--over", "drive.omega=0.04:0.06")
         self.assertRegex(locks, r"the bead locks to the magnet at omega = [0-9.]+ \(after .* r = .*\. Try another range")
         ejected = self.refused(1, "--kind", "counter", "--over", "drive.omega=5:6", "--set", "drive.omega=5",
@@ -168,7 +169,7 @@ class BadInput(unittest.TestCase):
 
 class TwoParameters(unittest.TestCase):
     def test_curves_that_begin_on_the_border(self):
-        """The scene's own value may be an end of the second range: the curve's end there is the end of the range."""
+        """The scene's own value may be an end of the second range: the curve then ends at the end of that range."""
         for kappa in ("1.5:1.52", "1.48:1.5", "1.48:1.52"):
             done = subprocess.run([FESTOON, "branch", "--kind", "locked", "--set", "model.kappa=1.5", "--over",
                                    "drive.frequency=7.4Hz:7.8Hz", "--follow", "hopf", "--with", f"model.kappa={kappa}", "--json"],
@@ -178,7 +179,8 @@ class TwoParameters(unittest.TestCase):
 
 class Orbit(unittest.TestCase):
     def test_where_newton_does_not_converge(self):
-        """Beyond the fold the bead spirals outward: returns come close to each other, and no orbit is there."""
+        """Beyond the fold the bead spirals outward: its returns come close to each other, although no orbit exists
+        there."""
         done = subprocess.run([FESTOON, "orbit", "--set", "drive.omega=4"], capture_output=True, text=True, timeout=events.HANG,
                               check=False)
         self.assertEqual((done.returncode, done.stdout), (1, ""))

@@ -1,5 +1,5 @@
-/* A branch is read back from its file whole, member by member; a file in which a member is not what it may be
- * is refused, and the sentence names the member. */
+/* A branch that is written to a file and read back is the same in every member. A file in which a member has a
+ * value that is not allowed is refused, and the sentence names the member. */
 #include "branches.h"
 
 #include <stdlib.h>
@@ -8,8 +8,7 @@
 
 static const char PATH[] = "test_branch_file.json";
 
-/* A member added to one of these must be written, read and filled in below.  (Holes are counted as integers.)
- */
+/* If a struct grows, this fails: write, read and fill in the new member below. (Padding counts as integers.) */
 _Static_assert(sizeof(fst_branch_point) == (13 + 2 * 9 + 10) * sizeof(double) + 6 * sizeof(int),
                "a new member");
 _Static_assert(sizeof(fst_special) == 2 * sizeof(double) + 6 * sizeof(int) + sizeof(fst_branch_point),
@@ -18,7 +17,7 @@ _Static_assert(sizeof(fst_branch_end) == 4 * sizeof(int) + sizeof(double) + 192,
 _Static_assert(sizeof(fst_branch) == 2 * 64 + 4 * sizeof(double) + 6 * sizeof(int) + 6 * sizeof(void *),
                "a new member");
 
-/* No two numbers are the same, and none is zero. */
+/* All numbers differ from each other and none is zero, so that no member can stand for another. */
 static fst_branch_point point_of(int i, int eigenvalues)
 {
     fst_branch_point p;
@@ -44,7 +43,7 @@ static fst_branch_point point_of(int i, int eigenvalues)
     return p;
 }
 
-/* Every type, kind and symmetry, and every value that a member can have besides numbers. */
+/* Every type, kind and symmetry occurs, and every value that is not a number. */
 static fst_branch made_up(int over_two)
 {
     enum { POINTS = 7, TYPES = FST_SPECIAL_TRANSCRITICAL + 1, ENDS = FST_END_LOST + 1 };
@@ -104,7 +103,7 @@ static void put_crossings_last(fst_branch *b)
     b->specials = sorted;
 }
 
-/* The lists byte by byte, and what stands beside them. */
+/* Compares the lists byte by byte, and the members beside them. */
 static void check_same(const fst_branch *a, const fst_branch *b)
 {
     fst_branch head[2] = {*a, *b};
@@ -159,7 +158,7 @@ static fst_status refuse(void *user, double fraction, const char *what, fst_erro
     return FST_INTERRUPTED;
 }
 
-/* What the program itself makes: finished, stopped on the way, over two parameters. */
+/* Branches that the program makes: a finished one, one stopped on the way, one over two parameters. */
 static void real_branches_come_back(void **state)
 {
     (void)state;

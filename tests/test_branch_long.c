@@ -1,5 +1,5 @@
-/* Whole branches: the special points stay where they are however the work is done, and agree between families
- * that meet there. */
+/* Whole branches: special points do not depend on tolerances or steps, and families that meet agree where they
+ * meet. */
 #include "branches.h"
 
 static fst_branch follow(const char *dynamics, double from, double to, double tolerance, double step)
@@ -29,8 +29,8 @@ static const struct special_point {
 };
 enum { SPECIAL_COUNT = sizeof SPECIALS / sizeof *SPECIALS };
 
-/* Every tolerance tightened, those of the integration and of the location a hundredfold and that of Newton's
- * residual tenfold, and the steps more than halved, move no special point by 1e-9. */
+/* Tightening every tolerance (integration and location a hundredfold, Newton's residual tenfold) and more than
+ * halving the steps moves no special point by 1e-9. */
 static void specials_do_not_depend_on_tolerances(void **state)
 {
     (void)state;
@@ -71,7 +71,7 @@ static void branches_do_not_jump(void **state)
     fst_branch_free(&b);
 }
 
-/* The equilibria know nothing of the orbits, and yet lose their stability where these are born. */
+/* The branch of equilibria is computed without the orbits, and yet loses its stability where these are born. */
 static void hopf_points_agree_between_orbits_and_equilibria(void **state)
 {
     (void)state;
@@ -83,7 +83,7 @@ static void hopf_points_agree_between_orbits_and_equilibria(void **state)
     for (int i = 0; i < 2; ++i)
         CHECK_CLOSE(special_near(&orbits, FST_SPECIAL_HOPF, at[i])->value,
                     special_near(&equilibria, FST_SPECIAL_HOPF, at[i])->value, 1e-9);
-    /* On the axis the rotation of n alone decides: these need no solution. */
+    /* A pitchfork of equilibria on the axis, where only the rotation of n decides: it must lie on the axis. */
     CHECK_CLOSE(special_near(&equilibria, FST_SPECIAL_PITCHFORK, 0.1975839610)->at.mean_r, 0.0, 1e-6);
     fst_branch_free(&orbits);
     fst_branch_free(&equilibria);

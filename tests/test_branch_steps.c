@@ -1,5 +1,5 @@
-/* However long the steps along a branch may become, it stays on its curve: the special points are the same, of
- * the same types and criticalities, and no curve is left for another one beside it. */
+/* A branch stays on its curve however long its steps may become: the special points keep their places, types
+ * and criticalities, and no step lands on another curve nearby. */
 #include "branches.h"
 
 typedef struct expected {
@@ -25,8 +25,8 @@ static void check_specials(const fst_branch *b, const expected *wanted, size_t c
         fail_msg("steps up to %g: %zu special points, expected %zu", step, b->special_count, count);
 }
 
-/* No two neighbours of a branch are further apart than a curve goes: the states change by no more than some
- * times what the parameter and the period do. */
+/* Neighbouring points of a branch are close together: the states differ by no more than some multiple of the
+ * differences of parameter and period. */
 static void check_branch(fst_branch_kind kind, double from, double to, const expected *wanted, size_t count)
 {
     static const double steps[] = {0.5, 20.0};
@@ -65,7 +65,8 @@ static void locked_families(void **state)
     check_branch(FST_BRANCH_LOCKED, 0.1, 0.35, wanted, sizeof wanted / sizeof *wanted);
 }
 
-/* The way from a point of equilibria to the next, in the space of states and parameter; its length. */
+/* The vector from one point of equilibria to the next, in the space of states and parameter; returns its
+ * length. */
 static double way_between(const fst_branch_point *a, const fst_branch_point *b, double way[FST_STATE_SIZE + 1])
 {
     double sum = 0.0;
@@ -77,8 +78,9 @@ static double way_between(const fst_branch_point *a, const fst_branch_point *b, 
     return sqrt(sum);
 }
 
-/* Between families that pass close by each other, at low drives, no step turns sharply from the one before: the
- * tangent may turn by 18 degrees in a step.  (Without that guard turns of 36 to 50 degrees are met here.) */
+/* At low drives families of equilibria pass close by each other. A step that turns sharply from the one before
+ * has landed on another family, so the tangent may turn by at most 18 degrees in a step. (Without that limit
+ * turns of 36 to 50 degrees occur here.) */
 static void steps_do_not_turn_sharply(void **state)
 {
     (void)state;
@@ -109,9 +111,10 @@ static void steps_do_not_turn_sharply(void **state)
     }
 }
 
-/* Where families lie close together, over the height of the bead, a long step is corrected onto one that runs
- * the same way: how far it lands from where it aimed tells.  (Without that guard one lands beyond the border
- * where there is no equilibrium to end at, and with it the whole branch fails.) */
+/* Over the height of the bead families lie close together and run the same way, so that Newton's method may
+ * correct a long step onto the wrong one. The distance between prediction and correction shows this. (Without
+ * that limit one step lands beyond the border of the range, where no equilibrium exists, and the whole branch
+ * fails.) */
 static void steps_do_not_land_far_away(void **state)
 {
     static const double folds[] = {0.333263, 0.394009, 0.405458, 0.467670, 0.519281, 0.552479, 0.617588};

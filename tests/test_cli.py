@@ -1,4 +1,5 @@
-"""The program from outside: exit statuses, what reaches which stream, the contract's JSON keys, files.
+"""The program as a user meets it: exit statuses, output on the right stream, the JSON keys that scripts rely on,
+files.
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
@@ -55,7 +56,8 @@ class Case(unittest.TestCase):
         return out
 
     def bad(self, words, *parts, status=2, **options):
-        """Refused with the status, nothing on standard output, and every part in the message."""
+        """The command is refused with this status, prints nothing on standard output, and its message contains every
+        part."""
         got, out, messages = festoon(*words, **options)
         self.assertEqual((got, out), (status, ""), f"{words}: {messages}")
         for part in parts:
@@ -78,8 +80,20 @@ class Usage(Case):
             self.assertEqual(text, self.good("help", command))
             self.assertIn(command, self.good("--help"))
 
+    def test_the_manual_page_names_what_the_help_names(self):
+        """Every option in the manual page is in a command's help, and every command is in the manual page."""
+        with open(os.path.join(SOURCE_DIR, "docs", "festoon.1.in"), encoding="utf-8") as file:
+            page = file.read().replace("\\-", "-")
+        commands = re.findall(r"^  ([a-z]+) +[A-Z]", self.good("--help"), re.M)
+        self.assertEqual(len(commands), 14)
+        helps = self.good("--help") + "".join(self.good(command, "--help") for command in commands)
+        known = set(re.findall(r"--[a-z-]*[a-z]", helps))
+        self.assertEqual(set(re.findall(r"--[a-z-]*[a-z]", page)) - known - {"--mpi"}, set())
+        for command in commands:
+            self.assertRegex(page, rf"(?m)^\.BR? {command}\b")
+
     def test_version_is_quick(self):
-        """Under 10 ms says the design; the test allows for a busy machine by taking the best of many."""
+        """A start takes less than 10 ms. The test takes the best of many, because the machine may be busy."""
         best = math.inf
         for _ in range(20):
             started = time.perf_counter()
@@ -341,7 +355,7 @@ class Run(Case):
         self.assertEqual(json.loads(inside[11:])["mean_r"], result["mean_r"])
         with open(h5, "rb") as file:
             self.assertEqual(file.read(8), b"\x89HDF\r\n\x1a\n")
-        # The files do not change what is computed, and replace what was there.
+        # Writing files changes no result, and replaces older files of the same names.
         self.assertEqual(self.json("run", *SHORT, "--csv", csv)["final_state"], result["final_state"])
 
     def test_output_over_a_device_or_directory(self):
@@ -354,7 +368,7 @@ class Run(Case):
     FOR_DAYS = [FESTOON, "run", "--set", "run.periods=1e9", "--set", "run.samples=16"]
 
     def written(self, name):
-        """Bytes of a file that is being written, under whatever name beside its own."""
+        """Size of a file that is being written, under whatever temporary name beside its own."""
         return sum(os.path.getsize(self.path(found)) for found in os.listdir(self.directory) if name in found)
 
     def test_interrupted(self):
@@ -376,7 +390,7 @@ class Run(Case):
                 self.assertEqual(status, 0, messages)
 
     def test_nohup(self):
-        """SIGHUP stays ignored where it was; SIGTERM still ends the command."""
+        """SIGHUP stays ignored if the caller ignores it (nohup); SIGTERM still ends the command."""
         def ignored():
             with open(f"/proc/{process.pid}/status", encoding="ascii") as file:
                 return int(re.search(r"^SigIgn:\s*(\w+)", file.read(), re.M).group(1), 16)

@@ -1,6 +1,6 @@
-/* Whether bifurcations are super- or subcritical, by the motion itself: oscillations beside Hopf and
- * Neimark-Sacker points grow or decay as the cubic coefficients say, and the states beside pitchforks are as
- * many as they must be. */
+/* Whether bifurcations are super- or subcritical, seen from the motion itself: oscillations beside Hopf and
+ * Neimark-Sacker points grow or decay as the cubic coefficients say, and the right number of states exists on
+ * either side of a pitchfork. */
 #include "branches.h"
 
 #include "ode/flow.h"
@@ -78,7 +78,7 @@ static double amplitude2(fst_flow *flow, const double *rest, double t, double pe
     return 0.5 * sum;
 }
 
-/* At the Hopf point |z|' = c |z|^3: 1/|z|^2 falls by 2 c a time. */
+/* At the Hopf point |z|' = c |z|^3, so 1/|z|^2 falls by 2 c in each unit of time. */
 static double measured_hopf(const fst_solution *hopf, const double *along, double amplitude)
 {
     double start[FST_STATE_SIZE];
@@ -94,8 +94,8 @@ static double measured_hopf(const fst_solution *hopf, const double *along, doubl
     return -0.5 * (1.0 / last - 1.0 / first) / (later - settled);
 }
 
-/* Those whose other modes all decay: else the motion does not stay beside them.  Both are supercritical; growth
- * beside a subcritical point is seen at the libration's Neimark-Sacker point. */
+/* Hopf points at which all other modes decay; at others the motion does not stay close. Both are supercritical;
+ * growth beside a subcritical point is tested at the libration's Neimark-Sacker point. */
 static const struct {
     double from, to, omega;
 } HOPF[] = {{0.091, 0.093, 0.0921063451694}, {0.152, 0.153, 0.152636630556}};
@@ -119,7 +119,8 @@ static void oscillations_beside_hopf_points(void **state)
         assert_int_equal(fst_pair_coefficient(&family, &hopf, frequency, &coefficient, &spread, NULL), FST_OK);
         assert_int_equal(fst_solution_eigenvector(&family, &hopf, 0.0, frequency, real, imaginary, NULL),
                          FST_OK);
-        /* 1/|z|^2 stays far from zero over the time of the measurement; two amplitudes, extrapolated */
+        /* 1/|z|^2 stays far from zero during the measurement; two amplitudes are extrapolated to zero amplitude
+         */
         const double rate = fabs(coefficient * frequency), periods = 600.0 * TWO_PI / frequency;
         const double amplitude = fmin(2e-3, sqrt(0.05 / (rate * periods)));
         const double wide = measured_hopf(&hopf, real, amplitude);
@@ -128,7 +129,8 @@ static void oscillations_beside_hopf_points(void **state)
     }
 }
 
-/* Beyond a supercritical Hopf point the libration is as large as growth and the cubic term together make it. */
+/* Beyond a supercritical Hopf point the libration has the amplitude at which linear growth and the cubic term
+ * balance. */
 static void librations_grow_from_a_hopf_point(void **state)
 {
     (void)state;
@@ -160,7 +162,7 @@ static void librations_grow_from_a_hopf_point(void **state)
         ratio[k] = found / (-rest.re[pair] / (coefficient * hopf.im[critical(&hopf)]));
     }
     CHECK_CLOSE(ratio[1], 1.0, 0.02);
-    CHECK_CLOSE(2.0 * ratio[1] - ratio[0], 1.0, 0.002); /* what is left falls with the distance */
+    CHECK_CLOSE(2.0 * ratio[1] - ratio[0], 1.0, 0.002); /* the error falls with the distance */
 }
 
 /* ------------------------------------------------------------------ the first libration's Neimark-Sacker point
@@ -203,8 +205,8 @@ static void next_return(fst_flow *flow, const section *p, double y[FST_STATE_SIZ
     fail_msg("%s", "the orbit did not return");
 }
 
-/* What takes z out of a state on the section: a left eigenvector of the return's derivative, with <p, q> = 1
- * and |q| = 1. */
+/* The functional that gives z of a state on the section: a left eigenvector of the return's derivative, with
+ * <p, q> = 1 and |q| = 1. */
 typedef struct critical_part {
     double re[FST_STATE_SIZE], im[FST_STATE_SIZE];
 } critical_part;
@@ -244,8 +246,8 @@ static critical_part critical_part_of(const fst_family *family, const fst_soluti
     return p;
 }
 
-/* |z|^2 at the returns, its mean over `window` of them after `skip`, and once more after `skip` further ones;
- * weighted by Hann's window, so that what oscillates is averaged away. */
+/* |z|^2 at the returns: its mean over `window` returns after `skip`, and again after `skip` further ones.
+ * Hann's window is the weight, which averages oscillations away. */
 static void returns(const section *plane, const critical_part *p, double omega, const double *from, int skip,
                     int window, double mean[2])
 {
@@ -306,7 +308,7 @@ static section section_of(const fst_solution *s)
     return p;
 }
 
-/* Where |z| is after some returns, from where it was, with |z| -> |z| (modulus + c |z|^2) at each. */
+/* |z| after some returns, where each return takes |z| to |z| (modulus + c |z|^2). */
 static double iterated(double size2, double modulus, double coefficient, double count)
 {
     for (int i = 0; i < (int)count; ++i)
@@ -333,8 +335,8 @@ static void iterates_beside_a_neimark_sacker_point(void **state)
                                           &spread, NULL),
                      FST_OK);
     assert_true(coefficient > 0);
-    /* At the point and on both sides of it, inside the unstable torus and outside of it: the returns' distance
-     * from the orbit grows or shrinks as multiplier and coefficient say. */
+    /* At the Neimark-Sacker point and on both sides of it, inside and outside the unstable torus: the distance
+     * of the returns from the orbit grows or shrinks as multiplier and coefficient say. */
     for (int side = -1; side <= 1; ++side) {
         const fst_solution s = libration(&family, at.value + side * 1e-7, &at.at);
         const int k = nearest_pair(&s);
@@ -375,7 +377,7 @@ static int states_at(double omega, const char *dynamics, int *index_sum)
     return count;
 }
 
-/* Unstable directions of a branch at both ends of a range. */
+/* Number of unstable directions of a branch at both ends of a range. */
 static void count_unstable(const fst_branch *b, int branch, int unstable[2])
 {
     for (size_t i = 0; i < b->point_count; ++i) {
@@ -389,9 +391,9 @@ static void count_unstable(const fst_branch *b, int branch, int unstable[2])
     }
 }
 
-/* On the axis, where S2 can break, there are two states more on one side: that on which the old one has more
- * unstable directions, if supercritical.  Off the axis two families pass through each other: as many on either
- * side. */
+/* On the axis the symmetry S2 can break: one side has two states more, and if the pitchfork is supercritical it
+ * is the side on which the old state has more unstable directions. Off the axis two families pass through each
+ * other, and both sides have the same number of states. */
 static void states_beside_branch_points(void **state)
 {
     (void)state;

@@ -5,8 +5,8 @@
 
 #include "orbit/curve.h"
 
-/* LAPACK with a fault: systems that hold the parameter fixed, as those on the border of the range do, are
- * singular so many times.  Their last row has nothing but its last element. */
+/* LAPACK with a fault: the given number of times, it calls a system singular that holds the parameter fixed, as
+ * at the border of the range. Such systems are known by a last row of zeros but for its last element. */
 static const fst_lapack *lapack;
 static int faults;
 
@@ -43,7 +43,7 @@ static fst_status take_special(void *user, fst_special_type type, const fst_node
     return FST_OK;
 }
 
-/* The equilibrium on the axis with n along the magnet's lines, upwards in model.h. */
+/* A curve that begins at the equilibrium on the axis with n along the magnet's lines, and rises in model.h. */
 static void follow_axis(int faults_wanted, path *p, fst_curve *curve)
 {
     const fst_params params = fst_default_params();
@@ -76,7 +76,7 @@ static void follow_axis(int faults_wanted, path *p, fst_curve *curve)
     assert_int_equal(fst_curve_follow(curve, &start, start.s.tangent.value > 0 ? 1 : -1, &error), FST_OK);
 }
 
-/* Where the border cannot be reached from the last node in one step, it is in smaller ones. */
+/* If the border cannot be reached from the last node in one step, smaller steps reach it. */
 static void the_border_is_reached_in_smaller_steps(void **state)
 {
     (void)state;
@@ -93,7 +93,7 @@ static void the_border_is_reached_in_smaller_steps(void **state)
     }
 }
 
-/* Where it cannot be reached at all, the curve ends before it and says so; it does not fail. */
+/* If the border cannot be reached at all, the curve ends before it and says so; this is no failure. */
 static void a_border_out_of_reach(void **state)
 {
     (void)state;

@@ -89,7 +89,7 @@ static char *contents(const char *name, size_t *size)
     return bytes;
 }
 
-/* Everything in the directory is removed; a leftover of a half-made file is an error. */
+/* Removes everything in the directory; a leftover of a half-made file is an error. */
 static int clear_directory(void **state)
 {
     (void)state;
@@ -107,7 +107,7 @@ static int clear_directory(void **state)
     return 0;
 }
 
-/* A program called gnuplot that does something else, first along PATH. */
+/* Puts a program called gnuplot first on PATH that does something else. */
 static void pretend_gnuplot(const char *body)
 {
     FILE *file = fopen(inside("gnuplot"), "w");
@@ -155,7 +155,7 @@ static void the_script_draws_the_figure_again(void **state)
     fst_figure_options options = fst_default_figure_options();
     options.title = "100 % 'quoted' {text}_^@ \\n";
     options.colour = "slip";
-    /* A name with all that a shell or gnuplot might take for something else. */
+    /* A file name with every character that a shell or gnuplot might interpret. */
     assert_int_equal(fst_figure_trajectory(&table, inside("-it's a $(figure).svg"), &options, NULL), FST_OK);
     FILE *other = fopen(inside("it's again.svg"), "w");
     assert_non_null(other);
@@ -230,7 +230,7 @@ static void a_failing_gnuplot_leaves_the_old_figure(void **state)
     assert_non_null(strstr(error.sentence, "no such thing"));
     pretend_gnuplot("kill -9 $$");
     assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), NULL, &error), FST_IO);
-    /* It says that all is well, and has written nothing: a full disk looks like this. */
+    /* This gnuplot reports success and has written nothing, which is what a full disk looks like. */
     pretend_gnuplot("exit 0");
     assert_int_equal(fst_figure_trajectory(&table, inside("a.svg"), NULL, &error), FST_IO);
 
@@ -242,7 +242,7 @@ static void a_failing_gnuplot_leaves_the_old_figure(void **state)
     free_table(&table);
 }
 
-/* Its outputs stay open in a process that goes on: nothing may wait for that. */
+/* A background process keeps gnuplot's outputs open: festoon must not wait for it. */
 static void much_output_does_not_block(void **state)
 {
     (void)state;
@@ -317,7 +317,7 @@ static void units_have_their_symbols(void **unused)
         fst_unit_symbols(pairs[i][0], text, sizeof text);
         assert_string_equal(text, pairs[i][1]);
     }
-    char tight[4]; /* never beyond its end */
+    char tight[4]; /* the text must not overrun it */
     fst_unit_symbols("1/gamma", tight, sizeof tight);
     assert_true(strlen(tight) < sizeof tight);
 }

@@ -6,7 +6,7 @@
 
 static const double TABLE_1[] = {0.21, 0.25, 0.2845, 0.352, 0.405};
 
-/* Greatest defect of the balance since the start, at the ends of the steps and inside them. */
+/* Greatest defect of the energy balance since the start, at the ends of steps and inside them. */
 static double worst_defect(const fst_model *model, const double *start, double tolerance, double t_end)
 {
     fst_flow *flow = flow_of(model, tolerance, start);
@@ -92,7 +92,7 @@ static void test_closed_orbits(void **unused)
             CHECK_WITHIN(r.energy_residual, 0, 1e-10);
             const int relaxing = dynamics == FST_DYNAMICS_FARAGO2020 && i == 2;
             CHECK_CLOSE(r.mean_drive_power / r.mean_friction_power, 1, relaxing ? 1e-8 : 1e-10);
-            /* Averaged momentum balances: Eqs. (12) and (13), exact forms. */
+            /* Averaged momentum balances: Eqs. (12) and (13) in their exact forms. */
             CHECK_CLOSE(r.eq21_centrifugal + r.eq21_magnetic + r.eq21_friction, 0, relaxing ? 1e-9 : 1e-12);
             CHECK_CLOSE(r.eq22_magnetic + r.eq22_friction, 0, relaxing ? 1e-9 : 1e-12);
         }
@@ -124,7 +124,7 @@ static void test_other_materials(void **unused)
     CHECK_CLOSE(para.mean_drive_power, 0.405 * para.eq22_magnetic, 1e-12);
 }
 
-/* A locked bead turns no energy over: the residual is undefined, or small, but never a large number. */
+/* A locked bead neither takes up nor loses energy: the residual is undefined or small, never a large number. */
 static void test_locked_bead(void **unused)
 {
     (void)unused;

@@ -27,7 +27,7 @@ def commands(build_type, flags, *options):
 
 
 def last_level(words):
-    """The optimisation that counts."""
+    """The -O option that takes effect: the last one."""
     return [word for word in words if re.fullmatch(r"-O\w*", word)][-1]
 
 

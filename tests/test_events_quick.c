@@ -1,10 +1,10 @@
-/* Events that begin and end within one step: a dip below zero is found wherever in the step it lies, however
- * narrow it is, and a dip that stays above zero is none. */
+/* Events that begin and end within one step: a dip below zero is found wherever it lies in the step and however
+ * narrow it is, and a dip that stays above zero is not reported. */
 #include "physics.h"
 
 #include "ode/flow.h"
 
-/* What the state function below is made of: a parabola over the way along X, from 0 to 1 in the step. */
+/* The state function below is a parabola over X, which goes from 0 to 1 in the step. */
 static struct {
     double from, to, centre, floor;
 } dip;
@@ -35,7 +35,7 @@ static void dips_of_any_place_and_width(void **state)
         assert_int_equal(fst_flow_step(flow, 100.0, &error), FST_OK);
     dip.from = flow->step.y[FST_X];
     dip.to = flow->step.end[FST_X];
-    for (int i = 1; i <= 64; ++i) /* X has no turn in this step */
+    for (int i = 1; i <= 64; ++i) /* X moves one way all along this step */
         assert_true(way_at(flow, i / 64.0) > way_at(flow, (i - 1) / 64.0));
     int found = 0;
     for (int k = 1; k < 320; ++k)
@@ -46,7 +46,7 @@ static void dips_of_any_place_and_width(void **state)
                 dip.centre = k / 320.0;
                 dip.floor = sign * half_width * half_width;
                 const int met = fst_flow_first_negative(flow, parabola, 0.0, &x);
-                if (dip.centre < half_width) /* it begins before the step */
+                if (dip.centre < half_width) /* the dip begins before the step */
                     continue;
                 if (met != (sign < 0))
                     fail_msg("centre %g, half width %g: %s", dip.centre, half_width,

@@ -36,7 +36,7 @@ class Examples(Case):
         return done.stdout
 
     def by_the_program(self, name):
-        """What the command that stands in the opening comment of an example prints."""
+        """The output of the command in the opening comment of an example."""
         text = (SOURCES / "examples" / "c" / (name + ".c")).read_text(encoding="utf-8")
         words = shlex.split(re.search(r"^ \*     festoon (.*)$", text, re.M).group(1))
         return self.good(*words, *([] if "-o" in words else ["--json"]), cwd=self.directory)
@@ -84,7 +84,8 @@ class Examples(Case):
             self.assertIn(f"branch {end['branch']} ends at {end['value']:.17g}: {end['reason']}\n", said)
 
     def test_field(self):
-        """The field of two charges by its definition, and the same bead over a line of the paper's magnet."""
+        """The field agrees with its definition for two charges, and the bead moves as over a line of the paper's
+        magnet."""
         said = self.printed("field")
         places = re.findall(r"^x = (\S+): B = (\S+) (\S+) (\S+), dB_x/dx = (\S+)$", said, re.M)
         self.assertEqual(len(places), 5)

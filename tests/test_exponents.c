@@ -1,12 +1,13 @@
-/* Lyapunov exponents: a few motions whose exponents are known exactly, chaotic ones against themselves, and
- * that long ones can be watched and stopped.  test_exponents_long.c has 200 known motions. */
+/* Lyapunov exponents: a few motions whose exponents are known exactly; two samples of one chaotic motion, which
+ * must agree; and long computations, which must show progress and be stoppable. test_exponents_long.c has 200
+ * known motions. */
 #include "exponent_states.h"
 
 #include "study/growth.h"
 
 enum { STATES = 15 };
 
-/* Shorter runs than the default: the error has to cover all the same. */
+/* Runs shorter than by default: their error bars must cover the exact values all the same. */
 static fst_params short_scene(int index)
 {
     fst_params params = exponent_scene(index);
@@ -29,7 +30,7 @@ static void errors_cover(void **state)
         ++states;
         assert_int_equal(fst_lyapunov_find(&params, NULL, &l, NULL), FST_OK);
         for (int c = 1; c < FST_EIGENVALUE_COUNT; ++c)
-            assert_true(l.exponents[c] <= l.exponents[c - 1]); /* they fall */
+            assert_true(l.exponents[c] <= l.exponents[c - 1]); /* sorted from the greatest down */
         for (int c = 0; c < known.count; ++c) {
             cover(&spectrum, l.exponents[c], l.errors[c], known.exponents[c]);
             CHECK_CLOSE(l.exponents[c], known.exponents[c], 0.01 * fabs(known.exponents[c]) + 1e-4);
@@ -49,7 +50,7 @@ static void errors_cover(void **state)
     assert_int_equal(across.within_three, across.all);
 }
 
-/* The paper's orbit at 10.7 Hz: 1 % is not near enough. */
+/* The exponent of the paper's orbit at 10.7 Hz, more closely than the 1 % above. */
 static void the_paper_s_orbit(void **state)
 {
     (void)state;
@@ -59,8 +60,7 @@ static void the_paper_s_orbit(void **state)
     const fst_exponent asked = exponent_across_flow(&params, known.state);
     CHECK_CLOSE(asked.value, known.across_flow, 1e-4 * fabs(known.across_flow));
     CHECK_CLOSE(known.across_flow, -0.0277292221454, 1e-9);
-    /* Over the time T a length that is known to a factor of e gives a rate to 1/T, however little it scatters.
-     */
+    /* A length known to a factor of e gives, over a time T, a rate known to 1/T, however little it scatters. */
     assert_true(asked.standard_error >= 1.0 / asked.duration);
     assert_true(asked.standard_error < 0.01 * fabs(known.across_flow));
 }
@@ -97,12 +97,12 @@ static double swinging(double t)
     return -0.02 * t + 3.0 * sin(0.7 * t) + sin(0.31 * t);
 }
 
-static double arriving(double t) /* a direction that takes its time to turn into place */
+static double arriving(double t) /* a direction that turns into place slowly */
 {
     return -0.02 * t + log(1.0 + 10.0 * exp(-0.01 * t));
 }
 
-static double drifting(double t) /* its rate goes from 0 to 0.01 */
+static double drifting(double t) /* the rate goes from 0 to 0.01 */
 {
     return 0.5e-5 * t * t;
 }
@@ -122,7 +122,7 @@ static void growth_and_its_error(void **state)
         rate = rate_of(arriving, duration, 1000, 0.0);
         assert_true(fabs(rate.value + 0.02) < 3.0 * fmax(rate.error, 1.0 / duration));
     }
-    /* What goes one way has not arrived: all that the halves differ by counts. */
+    /* A rate that drifts one way has not settled: the error is the whole difference between its halves. */
     rate = rate_of(drifting, 1000.0, 1000, 0.0);
     CHECK_CLOSE(rate.value, 0.005, 1e-8);
     CHECK_CLOSE(rate.error, 0.005, 1e-6);
@@ -136,7 +136,7 @@ static void growth_and_its_error(void **state)
         mean_error += rate.error / SAMPLES;
     }
     assert_true(within >= 0.68 * SAMPLES && within_three >= 0.99 * SAMPLES);
-    /* The true one is sqrt(3/2) that of the plain mean, sqrt(320/12) 3/1000. */
+    /* The true error is sqrt(3/2) times that of the plain mean, sqrt(320/12) 3/1000. */
     const double true_error = sqrt(1.5 * 320.0 / 12.0) * 3e-3;
     print_message("of %d noisy means %d within one error, %d within three; mean error %.2f of the true one\n",
                   SAMPLES, within, within_three, mean_error / true_error);
@@ -145,7 +145,8 @@ static void growth_and_its_error(void **state)
 
 /* ------------------------------------------------------------------ chaos */
 
-/* Without friction this start lies in the chaos (test_regimes.c): two stretches of it are two samples. */
+/* Without friction this start leads to chaos (test_regimes.c), and two stretches of the motion are two samples
+ * of it. */
 static void chaos_agrees_with_itself(void **state)
 {
     (void)state;
@@ -194,7 +195,7 @@ static void lyapunov_obeys(void **state)
     for (int i = 0; i < 2; ++i) {
         fst_params params = fst_default_params();
         params.drive_frequency = drives[i];
-        params.run_periods = 1e9; /* more pieces than an int or an int64_t can count */
+        params.run_periods = 1e9; /* more steps than an int or an int64_t can count */
         for (int discarded = 0; discarded < 2; ++discarded) {
             watcher w = {0, 100, 0.0};
             const fst_progress progress = {&w, watch};
@@ -221,12 +222,12 @@ static void exponents_obey(void **state)
     watcher w = {0, 10, 0.0};
     const fst_progress progress = {&w, watch};
     assert_int_equal(fst_largest_exponents(&fst_tangents_scalar, list, 1, &progress, NULL), FST_INTERRUPTED);
-    /* Twelve evaluations a step; a try that fails counts too. */
+    /* A step takes twelve evaluations, also if it is rejected. */
     assert_true(asked.rhs_calls <= 12 * 64 * 10);
     fst_model_free(model);
 }
 
-/* A run that needs an exponent tells of it, and can be stopped meanwhile. */
+/* A run that needs an exponent reports progress while it computes it, and can be stopped meanwhile. */
 static void a_run_tells_of_its_exponent(void **state)
 {
     (void)state;

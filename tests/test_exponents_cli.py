@@ -1,4 +1,4 @@
-"""`festoon lyapunov` and the exponents of long runs: they tell of their progress, and the first signal ends them."""
+"""`festoon lyapunov` and the exponents of long runs report their progress and end at the first signal."""
 
 import os
 import pty
@@ -12,7 +12,8 @@ FESTOON = os.environ["FESTOON"]
 
 class Long(unittest.TestCase):
     def interrupt(self, words, beyond=0.0):
-        """Start on a terminal, wait until the progress shows more than `beyond` percent, send one signal."""
+        """Starts a command on a terminal, waits until the progress shows more than `beyond` per cent, and sends one
+        signal."""
         leader, follower = pty.openpty()
         program = subprocess.Popen([FESTOON, *words], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=follower)
         os.close(follower)
@@ -21,7 +22,7 @@ class Long(unittest.TestCase):
             while not any(float(number) >= beyond for number in re.findall(r"([\d.]+) %", shown)):
                 shown += os.read(leader, 4096).decode()
             program.send_signal(signal.SIGINT)
-            while True:  # to the end of the terminal: the program has ended
+            while True:  # reads until the terminal closes: the program has ended
                 try:
                     piece = os.read(leader, 4096)
                 except OSError:

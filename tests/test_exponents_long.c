@@ -1,4 +1,4 @@
-/* The errors of Lyapunov exponents cover: 200 regular motions whose exponents are known exactly. */
+/* Error bars of Lyapunov exponents cover the exact values: 200 regular motions whose exponents are known. */
 #include "exponent_states.h"
 
 enum { STATES = 200, MOST_SCENES = 400 };
@@ -8,7 +8,7 @@ typedef struct found {
     int orbits, locked, converged;
 } found;
 
-/* A bar that does not cover is named. */
+/* Prints each exact value that its error bar does not cover. */
 static void take(coverage *c, const fst_params *params, double value, double error, double truth)
 {
     cover(c, value, error, truth);

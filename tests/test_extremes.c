@@ -1,4 +1,4 @@
-/* Which steps are looked at for extremes: none that holds a new one is left out. */
+/* Which steps are searched for extremes: no step that holds a new extreme may be passed over. */
 #include "physics.h"
 
 #include "observe/extremes.h"
@@ -25,8 +25,8 @@ static void test_nodes(void **state)
     }
 }
 
-/* Of a parabola the rise is exact: between the nodes, and where it has its top just within an end.  Where the
- * top lies outside of the step there is none. */
+/* For a parabola the estimated rise is exact, between the nodes and just within either end. If its top lies
+ * outside the step the rise is zero. */
 static void test_parabolas(void **state)
 {
     (void)state;
@@ -41,7 +41,7 @@ static void test_parabolas(void **state)
         if (top > 0.0 && top < 1.0)
             assert_true(s.before < top && top < s.after);
         assert_true(fst_may_exceed_double(&s, peak - 1e-12) > 0.0);
-        /* As much as the margins are: no more steps than these are looked at. */
+        /* The margins are no wider than stated, so that no needless steps are searched. */
         const double bound = s.best + PEAK_RISES * (s.rise_over / s.per) + PEAK_FALL * s.fall;
         assert_true(fst_may_exceed_double(&s, bound + 1e-12) <= 0.0);
     }
@@ -118,14 +118,14 @@ static fst_params bead_of(int i)
     return p;
 }
 
-/* As far as the trajectory is accurate; the parabolas through the samples are to 1e-10. */
+/* The tolerance is the accuracy of the trajectory; the parabolas through the samples are accurate to 1e-10. */
 static void check_extreme(double met, double sampled, double tolerance)
 {
     const double scale = fabs(sampled) > 1.0 ? fabs(sampled) : 1.0;
     CHECK_WITHIN(met, sampled - (2.0 * tolerance + 1e-10) * scale, INFINITY);
 }
 
-/* Whether the bead stayed on the plate so long that there was a window. */
+/* Returns whether the bead stayed on the plate long enough for a window. */
 static int check_bead(int which, double tolerance)
 {
     const fst_params p = bead_of(which);
@@ -161,8 +161,8 @@ static int check_bead(int which, double tolerance)
     return w.greatest[FST_TRACK_R] > 0.0;
 }
 
-/* With a third of both margins nothing is left out either; without the rise, or with three times the greater
- * fall at either end of a step, some are, by 1e-6 of the extreme and more. */
+/* How much room the margins leave: with a third of both, still no extreme is missed. Without the rise, or with
+ * only three times the greater fall at an end of a step, some are missed, by 1e-6 of the extreme and more. */
 static void test_none_is_left_out(void **state)
 {
     (void)state;
@@ -174,7 +174,7 @@ static void test_none_is_left_out(void **state)
     assert_int_equal(stayed, 5 * 41); /* one bead leaves the plate at once */
 }
 
-/* The end of a step lies on the trajectory, whatever is found between: no extreme falls short of it, not by a
+/* The end of a step lies on the trajectory, so that no extreme may fall short of the value there, not even by a
  * bit. */
 static void test_the_end_of_a_step_counts(void **state)
 {

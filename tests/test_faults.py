@@ -1,4 +1,4 @@
-"""A small sample of tests/reliability/faults.py: commands that write files, on disks that fail."""
+"""A small sample of tests/reliability/faults.py: commands that write files to disks that fail."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-/* The magnet's field: what Maxwell, superposition and symmetry demand of it. */
+/* The magnet's field against Maxwell's equations, superposition and symmetry. */
 #include "physics.h"
 
 typedef struct field_at {
@@ -100,8 +100,8 @@ static void test_lines_superpose(void **unused)
     fst_model_free(one);
 }
 
-/* Far away every magnet is a dipole of moment 2 x 5 along X, whatever its number of lines; what is left falls
- * as 1/r^2 of the field. */
+/* Far away every magnet is a dipole of moment 2 x 5 along X, whatever its number of lines; the rest falls as
+ * 1/r^2 of the field. */
 static double defect_of_dipole(const fst_model *model, double r, double angle)
 {
     const double h = fst_model_groups(model).h;
@@ -159,7 +159,7 @@ static void test_symmetries_of_the_bar(void **unused)
     }
 }
 
-/* curl B = 0 and div B = 0: the gradient that is handed out is symmetric and traceless. */
+/* curl B = 0 and div B = 0: the gradient that fst_field() returns is symmetric and traceless. */
 static void test_gradient_symmetric_traceless(void **unused)
 {
     (void)unused;

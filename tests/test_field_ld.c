@@ -1,8 +1,8 @@
-/* The field in long double: its gradient against differences, and Maxwell's equations from differences of B
- * alone. */
+/* The field in long double: its gradient against finite differences, and Maxwell's equations by differences of
+ * B alone. */
 #include "physics_ld.h"
 
-/* dB_i/dx_j by differences; the third direction is the height of the bead over the lines. */
+/* dB_i/dx_j by finite differences; the third direction is the height of the bead over the lines. */
 static void differences_of_b(const coefficients_ld *c, const long double at[2], long double g[3][3])
 {
     const long double d = 4e-3L;

@@ -1,5 +1,5 @@
-"""Figures of trajectories show the numbers of their file, in the units of their axes: looked up in the data and the
-script beside the figure.
+"""Figures of trajectories show the numbers of their file in the units of their axes, which the data and the script
+beside the figure tell.
 
 Environment: FESTOON is the program.
 """
@@ -62,7 +62,8 @@ def figure(folder, *options):
 
 
 def test_a_path_begins_after_the_discard():
-    """Its first point is the first sample after the discard, in mm; the magnet stands as it did then."""
+    """The path begins with the first sample after the discard, in mm, and the magnet is drawn as it stood at that
+    moment."""
     with tempfile.TemporaryDirectory() as folder:
         script, blocks, columns = figure(folder)
     first = next(i for i, turns in enumerate(columns["drive_turns"]) if turns > SETTINGS["run.discard"] - 1e-9)
@@ -97,7 +98,7 @@ def test_between_samples_the_path_goes_on():
 
 
 def test_colours_cover_the_range_shown():
-    """The range of colours holds every value; from zero where they come near it."""
+    """The range of colours covers every value, and begins at zero if the values come near it."""
     for column in ("slip", "angle", "B", "n_alpha"):
         with tempfile.TemporaryDirectory() as folder:
             script, blocks, _ = figure(folder, "--colour", column)
@@ -114,7 +115,7 @@ def test_colours_cover_the_range_shown():
 
 
 def test_dots_of_runs_over_a_branch():
-    """A run's dot stands at its own drive, in the branch's parameter, and on the branch."""
+    """A run's dot is drawn at its own drive, in the branch's parameter, and on the branch."""
     for key, of_run in (("drive.omega", "omega"), ("drive.frequency", "frequency_hz")):
         with tempfile.TemporaryDirectory() as folder:
             low, high = (0.345, 0.355) if key == "drive.omega" else (17.2, 17.6)

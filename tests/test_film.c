@@ -1,5 +1,5 @@
-/* The motion that a film shows, from samples whose motion is known exactly: a body that turns evenly about an
- * axis at rest, and a bead that goes straight on.  And what tells a whole film from one that was cut short. */
+/* The motion that a film shows, from samples of motions that are known exactly: a body that turns evenly about
+ * a fixed axis, and a bead that goes straight on. And how a whole film is told from one that was cut short. */
 #include "numeric.h"
 
 #include <stdlib.h>
@@ -12,8 +12,8 @@
 
 enum { ROWS = 81 };
 
-static const double TURNS = 4.0;                  /* of the drive, over all rows */
-static const double AXIS[3] = {0.48, -0.6, 0.64}; /* of the body's turning, a unit vector */
+static const double TURNS = 4.0;                  /* turns of the drive over all rows */
+static const double AXIS[3] = {0.48, -0.6, 0.64}; /* the axis about which the body turns, a unit vector */
 static const double RATE = 3.1, TIME = 2.0, N0[3] = {0.36, 0.8, -0.48};
 
 /* v turned about AXIS by an angle. */
@@ -103,7 +103,7 @@ static void test_the_body_turns_with_the_bead(void **state)
     fst_table_free(&table);
 }
 
-/* The bead and the magnet are where they are at that moment, not at the sample before. */
+/* Bead and magnet are shown where they are at that moment, not where the sample before had them. */
 static void test_places_between_samples(void **state)
 {
     (void)state;
@@ -125,7 +125,8 @@ static void test_places_between_samples(void **state)
     fst_table_free(&table);
 }
 
-/* Colours: both signs alike about zero, from zero where the least is close to it, n_z from -1 to 1. */
+/* Ranges of colours: symmetric about zero for both signs, from zero where the least value is close to it, from
+ * -1 to 1 for n_z. */
 static void test_ranges_of_colours(void **state)
 {
     (void)state;
@@ -159,14 +160,16 @@ static void put_number(unsigned char *at, size_t value)
         at[i] = (unsigned char)(value >> (24 - 8 * i));
 }
 
-/* Make a box of what has been written from `start` on, which begins with the room for its head. */
+/* Make everything from `start` on a box of the mp4 format: its first bytes were left free for the box's head.
+ */
 static void close_box(unsigned char *bytes, size_t start, size_t end, const char *type)
 {
     put_number(bytes + start, end - start);
     memcpy(bytes + start + 4, type, 4);
 }
 
-/* An mp4 whose table has so many pictures of ten bytes, with so many bytes of contents; its size. */
+/* An mp4 whose table lists `pictures` pictures of ten bytes each, with `contents` bytes of contents; returns
+ * its size. */
 static size_t make_mp4(unsigned char *bytes, size_t pictures, size_t contents)
 {
     static const char *const holders[] = {"moov", "trak", "mdia", "minf", "stbl"};

@@ -1,5 +1,5 @@
-"""Frames of a film in colour: the magnet's north half and the bead's north pole are orange and lie where the trajectory
-has them, the south ones blue.
+"""Colours in frames of a film: the magnet's north half and the bead's north pole are orange and lie where the
+trajectory has them; the south ones are blue.
 
 Environment: FESTOON is the program.
 """
@@ -52,13 +52,13 @@ def read_png(path):
 
 
 def distance(a, b):
-    """Between two colours."""
+    """The distance between two colours."""
     return math.dist(a, b)
 
 
 class Pictures(unittest.TestCase):
     def test_north_is_orange(self):
-        """In three frames a turn."""
+        """Checked in three frames of each turn."""
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             festoon("run", "--set", "run.periods=3", "--set", "run.discard=1", "--csv", folder / "t.csv")

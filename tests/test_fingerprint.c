@@ -1,10 +1,10 @@
-/* The fingerprint by which a resumed sweep knows its arithmetic: that of the portable form whatever the number
- * of lanes, and another one for each form whose results differ in their last bits. */
+/* A resumed sweep recognises its arithmetic by a fingerprint: the portable form has one for any number of
+ * lanes, and each form whose results differ in the last bits has another. */
 #include "physics.h"
 
 #include "sweep/sweep.h"
 
-/* 0 where this processor has no such lanes. */
+/* 0 if this processor has no such lanes */
 static uint64_t fingerprint(fst_arithmetic arithmetic, int lanes)
 {
     uint64_t hash = 0;

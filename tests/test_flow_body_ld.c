@@ -1,6 +1,6 @@
-/* The body of flows takes any dimension and kind of number: one bead and two beads side by side in long double
- * are the flow that the library has in double, and a flow whose equations have two modes changes between them
- * where its state says so. */
+/* flow.inl takes any dimension and kind of number. One bead, and two beads side by side, in long double follow
+ * the library's flow in double; and where the equations have two modes, the flow changes from one to the other
+ * at the place that the state decides. */
 #include "physics_ld.h"
 
 #include "base/twofold.inl"
@@ -117,7 +117,7 @@ static void test_two_beads_are_one_and_one(void **state)
 
 /* ------------------------------------------------------------------ a spring that is stiffer on one side */
 
-/* y'' = -k y, where k is 1 in one mode and 4 in the other: the modes meet at y = 0. */
+/* y'' = -k y, where k is 1 in one mode and 4 in the other; the mode changes at y = 0. */
 typedef struct spring_context {
     int mode;
 } spring_context;
@@ -161,8 +161,8 @@ static long double zero_of(spring_type *flow)
     return hi;
 }
 
-/* Half an oscillation takes pi under one mode and pi/2 under the other, and the speed at the passage is kept.
- */
+/* Half an oscillation takes pi in one mode and pi/2 in the other, and the speed at the passage through zero is
+ * kept. */
 static void test_modes(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Time and the drive's phase along a trajectory: exact where they were asked for, and without drift at any
- * time; and how much of a run is discarded. */
+/* Time and the drive's phase along a trajectory: exact at a time that was asked for, and without drift after
+ * any length of time; and how much of a run is discarded. */
 #include "physics.h"
 
 #include "model/params.h"
@@ -18,7 +18,7 @@ static fst_flow *begun(const fst_params *p, fst_model **model)
     return flow;
 }
 
-/* The flow lands on the very time, and to be asked for it again is no work. */
+/* The flow lands exactly on the time asked for, and asking for it again takes no step. */
 static void test_landing_leaves_nothing(void **unused)
 {
     (void)unused;
@@ -26,7 +26,7 @@ static void test_landing_leaves_nothing(void **unused)
     fst_model *model;
     fst_flow *flow = begun(&p, &model);
     for (int i = 1; i <= 40; ++i) {
-        const double t = 7.1 * i + (i > 20 ? 100.0 / 3.0 : 0.0); /* several steps on */
+        const double t = 7.1 * i + (i > 20 ? 100.0 / 3.0 : 0.0); /* several steps further */
         fst_stop stop;
         while (flow->t.high < t)
             assert_int_equal(fst_flow_step(flow, t, NULL), FST_OK);
@@ -71,7 +71,7 @@ static void test_the_phase_does_not_drift(void **unused)
     fst_model_free(model);
 }
 
-/* A bead that nothing acts on, going straight outwards; the plate ends at `edge`. */
+/* A bead on which nothing acts goes straight outwards; the plate ends at `edge`. */
 static fst_flow *going_outwards(double edge, fst_model **model)
 {
     fst_params p = bead_at(0.3, FST_DYNAMICS_RIGID);
@@ -83,7 +83,7 @@ static fst_flow *going_outwards(double edge, fst_model **model)
     return flow_of(*model, 1e-10, state);
 }
 
-/* Of two events in one step the earlier one is told first, and then the other. */
+/* Two events in one step are reported one after the other, the earlier one first. */
 static void test_two_events_in_a_step(void **unused)
 {
     (void)unused;
@@ -125,7 +125,7 @@ static void test_two_events_in_a_step(void **unused)
     fst_model_free(model);
 }
 
-/* Half of a run no longer than the discard that a scene has unless told; what was told stays. */
+/* A run no longer than the default discard discards half of itself; a discard that was set is kept. */
 static void test_the_discard_of_short_runs(void **unused)
 {
     (void)unused;

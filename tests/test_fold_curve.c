@@ -1,4 +1,4 @@
-/* Folds over two parameters: all along the curve an eigenvalue is zero, and its ends are folds over one
+/* Folds over two parameters: an eigenvalue is zero all along the curve, and the curve's ends are folds over one
  * parameter. */
 #include "special_curves.h"
 

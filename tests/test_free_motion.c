@@ -12,7 +12,7 @@ static fst_model *free_model(fst_dynamics dynamics, fst_friction_law law)
     return model_of(&p);
 }
 
-/* The state after the time t in the laboratory's components, where it began with the same ones. */
+/* The state after the time t, in the laboratory's components; at t = 0 these agree with the turning frame's. */
 static void lab_state_after(const fst_model *model, const double *start, double t, double *lab)
 {
     double state[FST_STATE_SIZE];
@@ -22,7 +22,7 @@ static void lab_state_after(const fst_model *model, const double *start, double 
 
 static const double SPINNING[FST_STATE_SIZE] = {0.7, -0.3, 0.02, 0.05, 0.6, 0.0, 0.8, 0.9, -0.4, 1.3};
 
-/* No torque: W stays, and n circles it on a cone at the rate |W|.  x moves straight on. */
+/* No torque: W stays, n circles it on a cone at the rate |W|, and x moves straight on. */
 static void test_torque_free_rigid(void **unused)
 {
     (void)unused;

@@ -48,9 +48,12 @@ static void test_random_axes_are_drawn_together(void **state)
     }
     assert_true(fabs(sum - 1.0) < 0.1);
     assert_true(changed > 190);
-    assert_true(fabs(product) <
-                0.25 * 90.0 * 0.5); /* of equal draws it were 1/3 of that product of half widths */
-    assert_true(fst_grid_value(grid, 2, 5) == fst_grid_value(grid, 2, 105)); /* the same draw for both kappas */
+    assert_true(
+        fabs(product) <
+        0.25 * 90.0 *
+            0.5); /* if both axes drew the same numbers this would be 1/3 of that product of half widths */
+    assert_true(fst_grid_value(grid, 2, 5) ==
+                fst_grid_value(grid, 2, 105)); /* both values of kappa have the same draw */
     fst_grid_free(grid);
     fst_grid_free(other);
 }

@@ -78,7 +78,7 @@ static void columns_of_unequal_length(void **state)
     assert_int_equal(rmdir(folder), 0);
 }
 
-/* A file with a hole, which takes no room on the disk. */
+/* A file with a hole, which takes no space on the disk. */
 static void a_file_larger_than_memory(void **state)
 {
     (void)state;

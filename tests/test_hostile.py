@@ -29,7 +29,7 @@ POISONS = ["x\n!touch CANARY\n", "`touch CANARY`", "x\n`touch CANARY`", "\"; sys
            "'; system('touch CANARY'); '", "'\nsystem('touch CANARY')\n'", "$(touch CANARY)", "; touch CANARY #",
            "| touch CANARY", "< touch CANARY", "<script>alert(1)</script><img src=x onerror=alert(1)>",
            "\x1b[2J\x1b]0;owned\x07", "a\u009b2Jb", "a\u202eb", "%s%n%x\\n", "{/=99999999 x}", "\r\n\t\x00"]
-# What a terminal obeys, or what hides the rest of a line.
+# Sequences that a terminal obeys, and characters that hide the rest of a line.
 CONTROL = re.compile("[\x00-\x09\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069]")
 
 
@@ -59,7 +59,7 @@ class Hostile(unittest.TestCase):
         return done.stdout
 
     def harmless(self, *words, statuses=(2,), note=None):
-        """The command ends with one of these statuses, and nothing that it says or makes does any harm."""
+        """The command ends with one of these statuses, and neither its messages nor its files do any harm."""
         done = self.run_festoon(*words)
         note = (note, words, done.stderr)
         self.assertIn(done.returncode, statuses, note)
@@ -72,7 +72,7 @@ class Hostile(unittest.TestCase):
         return done
 
     def check_figure(self, stem, poison):
-        """Figure, script and data, if they are there, hold our own words only."""
+        """Figure, script and data, if they exist, hold only words of festoon's own."""
         for ending in ("svg", "gp", "dat"):
             path = self.path(stem + "." + ending)
             if not path.exists():
@@ -90,7 +90,7 @@ class Hostile(unittest.TestCase):
     # ------------------------------------------------------------------ files
 
     def test_scenes(self):
-        """Every key, every value and every group of a scene."""
+        """A hostile text in place of every key, every value and every group of a scene."""
         lines = [line for line in self.good("init", "-").decode().splitlines() if line and not line.lstrip().startswith("#")]
         places = [(i, part) for i, line in enumerate(lines) for part in (0, 1) if line.partition(":")[2 * part].strip()]
         scene, count = self.path("scene.yaml"), 0
@@ -105,7 +105,7 @@ class Hostile(unittest.TestCase):
         self.assertGreater(count, 100)
         self.harmless("run", scene)
         self.harmless("sweep", scene, "--over", "model.kappa=1:2:2", "-o", self.path("none.db"))
-        for poison in self.poisons:  # as it is, without quotes
+        for poison in self.poisons:  # as it is, without quotation marks
             scene.write_text("bead:\n  radius: " + poison)
             self.harmless("run", scene)
 
@@ -117,7 +117,7 @@ class Hostile(unittest.TestCase):
 
     @unittest.skipUnless(HAVE_GNUPLOT, "no gnuplot")
     def test_trajectories_as_text(self):
-        """Every line of the head and of the end, names of columns, and a cell."""
+        """A hostile text in every line of the head and of the end, in names of columns, and in a cell."""
         lines, bad, out = self.trajectory(), self.path("bad.csv"), "csv-figure"
         names = next(i for i, line in enumerate(lines) if not line.startswith("#"))
         for turn, i in enumerate([*range(names + 2), len(lines) - 2, len(lines) - 1]):
@@ -131,7 +131,7 @@ class Hostile(unittest.TestCase):
         self.assertFalse(self.path("no.mp4").exists())
 
     def set_attribute(self, path, place, name, text):
-        """Another text for an attribute of a file of HDF5, by HDF5 itself: its checksums are right."""
+        """Puts another text into an attribute of an HDF5 file, by HDF5 itself, so that its checksums are right."""
         reader = Hdf5(str(path))
         h5, number = reader.library, ctypes.c_int64
         reader.close()
@@ -151,7 +151,7 @@ class Hostile(unittest.TestCase):
 
     @unittest.skipUnless(HAVE_GNUPLOT, "no gnuplot")
     def test_trajectories_in_hdf5(self):
-        """Every attribute of the file and of a column, and hostile scenes in it."""
+        """A hostile text in every attribute of the file and of a column, and hostile scenes in the file."""
         source, bad, out = self.path("track.h5"), self.path("bad.h5"), "h5-figure"
         if "hdf5 yes" not in self.good("--version").decode():
             self.skipTest("no HDF5")
@@ -171,7 +171,7 @@ class Hostile(unittest.TestCase):
         self.harmless("movie", bad, "-o", self.path("no.mp4"))
 
     def texts_of(self, document, way=()):
-        """The ways to every text of a document."""
+        """The paths to every text of a document."""
         for key, value in document.items() if isinstance(document, dict) else enumerate(document):
             if isinstance(value, str):
                 yield (*way, key)
@@ -189,7 +189,7 @@ class Hostile(unittest.TestCase):
 
     @unittest.skipUnless(HAVE_GNUPLOT, "no gnuplot")
     def test_branches(self):
-        """Every text of a branch; a parameter that is none is refused."""
+        """A hostile text in place of every text of a branch; an unknown parameter is refused."""
         source, bad, out = self.path("branch.json"), self.path("bad.json"), "branch-figure"
         self.good("branch", "--kind", "locked", "--over", "drive.omega=0.2:0.201", "-o", source)
         document = json.loads(source.read_text())
@@ -215,7 +215,8 @@ class Hostile(unittest.TestCase):
 
     @unittest.skipUnless(HAVE_GNUPLOT, "no gnuplot")
     def test_databases(self):
-        """Every text of a sweep's database: what it says of itself, the texts of rows, and names of columns."""
+        """A hostile text in place of every text of a sweep's database: its identity, the texts of rows, and names of
+        columns."""
         source, bad, out = self.path("sweep.db"), self.path("bad.db"), "sweep-figure"
         self.good("sweep", *SHORT, "--over", "model.kappa=1:2:2", "-o", source)
         with sqlite3.connect(source) as file:
@@ -237,7 +238,7 @@ class Hostile(unittest.TestCase):
                     else:
                         file.execute(change, (poison, *more))
                 except sqlite3.Error:
-                    continue  # a key that is a number, a value that must be unlike others
+                    continue  # a number as a key, or a value that must be unique
             file.close()
             kinds = [("export", bad, "--json"), ("export", bad, "--csv"), ("plot", bad, "-o", self.path(out + ".svg"))]
             for words in kinds if more or more is None or turn % 9 == 0 else kinds[turn % 2:turn % 2 + 1]:
@@ -264,7 +265,7 @@ class Hostile(unittest.TestCase):
 
     @unittest.skipUnless(HAVE_GNUPLOT, "no gnuplot")
     def test_names(self):
-        """Files called by hostile names, in a folder called so too: written, drawn, and drawn again by the script."""
+        """Files and folders with hostile names: written, drawn, and drawn again by the script."""
         for turn, poison in enumerate(self.poisons_without_zero):
             name = poison.replace(str(self.canary), "canary").replace("/", "")[:80]
             home = self.path(f"place{turn}") / ("" if turn % 2 else name)

@@ -1,5 +1,6 @@
-/* Runs that are broken off and go on from their images have the bits of runs that never were, in every form of
- * arithmetic, however often and wherever that happens; images that are none are left out. */
+/* A run that is interrupted and goes on from its image ends with the bits of an undisturbed run, in every form
+ * of arithmetic, however often and wherever it is interrupted. Bytes that are no image of the run are ignored.
+ */
 #include <stdlib.h>
 
 #include "lanes/lanes.h"
@@ -9,8 +10,8 @@
 
 enum { JOBS = 20, TASKS_WITHOUT_DISCARD = 3 };
 
-/* Low and high drives, both dynamics, orbits that librate, do not close or are chaotic (exponents),
- * beads that are thrown off, a scene that is refused. */
+/* Low and high drives, both dynamics, orbits that librate, do not close or are chaotic (which need an
+ * exponent), beads that leave the plate, and a scene that is refused. */
 static fst_params job_params(int i)
 {
     fst_params p = bead_at(0.3 + 0.07 * i, FST_DYNAMICS_RIGID);
@@ -22,11 +23,11 @@ static fst_params job_params(int i)
     if (i % 6 == 3)
         p.model_dynamics = FST_DYNAMICS_FARAGO2020;
     if (i == 7)
-        p.magnet_lines = 3; /* does not share a batch with the others */
+        p.magnet_lines = 3; /* shares no batch with the others */
     if (i == 13)
-        p.start_r = p.model_eps = 0.2; /* no rolling start there */
+        p.start_r = p.model_eps = 0.2; /* a start in free rolling does not exist here */
     if (i >= 16) {
-        p = fst_default_params(); /* librating: exponents */
+        p = fst_default_params(); /* these librate, and need an exponent */
         p.drive_frequency = 6.57 + 0.02 * (i - 16);
         p.model_kappa = 0.93;
         p.run_periods = i % 2 ? 24 : 26;
@@ -42,15 +43,15 @@ typedef struct image {
 
 typedef struct store {
     int next;
-    int patience; /* looks whether to stop until it is so; 0: never */
+    int patience; /* the engine is told to stop after it has asked so many times; 0: never */
     int looks, broken_off, found, spoilt;
     fst_run_result results[JOBS];
     fst_status statuses[JOBS];
     int done[JOBS];
-    int stages[FST_STAGE_COUNT]; /* what images of each were found */
-    int parked;                  /* images that were saved of runs that wait for their exponents */
+    int stages[FST_STAGE_COUNT]; /* how many images of each stage were found */
+    int parked;                  /* images saved of runs that wait for their exponents */
     image images[JOBS];
-    void (*spoil)(struct store *s, image *i); /* what happens to an image before it is found; NULL: nothing */
+    void (*spoil)(struct store *s, image *i); /* changes an image before it is found again; NULL: leaves it */
 } store;
 
 static int next_job(void *user, fst_row_job *job)
@@ -107,7 +108,7 @@ static void *find(void *user, const fst_row_job *job, size_t *size)
     if (!bytes)
         return NULL;
     s->found += 1;
-    fst_run_place place; /* it follows the number of the layout */
+    fst_run_place place; /* it stands behind the number of the layout */
     memcpy(&place, (const unsigned char *)bytes + sizeof(uint64_t), sizeof place);
     s->stages[place.stage] += 1;
     if (s->spoil)
@@ -124,7 +125,8 @@ static void clear(store *s)
     memset(s, 0, sizeof *s);
 }
 
-/* All jobs, broken off after every `patience` looks; more patience each time, so that it ends. */
+/* Does all jobs, interrupted again and again, each time after some more questions than before, so that it ends.
+ */
 static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int other_lanes, int patience)
 {
     const fst_row_images images = {.user = s, .seconds = 0.0, .save = save, .find = find};
@@ -143,7 +145,7 @@ static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int other_lan
         if (status != FST_OK && status != FST_INTERRUPTED)
             fail_msg("fst_rows_with_images: %s", error.sentence);
         if (status == FST_INTERRUPTED) {
-            assert_int_equal(s->looks, s->patience + 1); /* obeyed when it was first said */
+            assert_int_equal(s->looks, s->patience + 1); /* it stopped when it was first told to */
             s->broken_off += 1;
         }
         s->patience += patience > 0;
@@ -209,13 +211,13 @@ static void of_another_build(store *s, image *i)
 {
     unsigned char *bytes = i->bytes;
     bytes[s->spoilt++ % 8] ^= 1;
-    for (size_t k = i->size / 2; k < i->size; k += 8) /* its numbers mean something else */
+    for (size_t k = i->size / 2; k < i->size; k += 8) /* the numbers in it are wrong */
         bytes[k] ^= 1;
 }
 
 static void with_wild_numbers(store *s, image *i)
 {
-    /* Every byte after the layout: where counts, strides and stages lie, that is found out. */
+    /* Spoils every byte behind the layout in turn: a wrong count, stride or stage must be noticed. */
     (void)s;
     memset((unsigned char *)i->bytes + 8, 0xff, i->size - 8);
     s->spoilt += 1;
@@ -244,8 +246,8 @@ static void test_what_is_no_image(void **state)
     clear(&whole);
 }
 
-/* Lanes that measure exponents ask as often as others whether they are to stop: each time the images of all
- * that are parked for theirs are saved, and nothing else is at work. */
+/* Lanes that compute exponents ask as often as others whether to stop. Each time they save the images of all
+ * runs that wait for an exponent, and no other run is in work. */
 static void test_exponents_hear(void **state)
 {
     (void)state;
@@ -254,7 +256,7 @@ static void test_exponents_hear(void **state)
         if (!fst_lane_engine_of(FST_ARITHMETIC_PORTABLE, lanes))
             continue;
         for (int i = 0; i < 16; ++i)
-            s.done[i] = 1; /* those that librate are left */
+            s.done[i] = 1; /* only the librating ones remain */
         do_all(&s, FST_ARITHMETIC_PORTABLE, lanes, lanes, 1000000);
         for (int i = 16; i < JOBS; ++i)
             assert_true(!isnan(s.results[i].largest_exponent));
@@ -264,8 +266,8 @@ static void test_exponents_hear(void **state)
     }
 }
 
-/* A run takes up what its image knows, and keeps its own parameters, model and flow; a run that was begun from
- * other parameters keeps those too.  Where the image is refused, nothing of the run changes. */
+/* A run takes the motion from its image but keeps its own parameters, model and flow, also if the image was
+ * made with other parameters. An image that is refused changes nothing in the run. */
 static void test_what_a_run_takes_up(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* The integrator: what its tolerance promises, reversibility, exact landing, events, the unwrapped angle. */
+/* The integrator: errors follow the tolerance, motion without friction can be reversed, landing is exact,
+ * events are located, the angle is unwrapped. */
 #include "physics.h"
 
 #include "base/winding.h"
@@ -36,7 +37,7 @@ static void test_errors_scale_with_the_tolerance(void **unused)
     }
 }
 
-/* The tolerance counts per component: a loose one for W alone makes larger steps. */
+/* Each component has its own tolerance: a loose one for W alone gives longer steps. */
 static void test_tolerance_of_a_component(void **unused)
 {
     (void)unused;
@@ -60,7 +61,7 @@ static void test_tolerance_of_a_component(void **unused)
     fst_model_free(model);
 }
 
-/* Without friction the motion can be run back: forward, and backward to where it began, Phi and all. */
+/* Without friction the motion can be reversed: forward, and then backward to its beginning, Phi included. */
 static void test_reversible_without_friction(void **unused)
 {
     (void)unused;
@@ -84,8 +85,8 @@ static void test_reversible_without_friction(void **unused)
     }
 }
 
-/* A bead on the axis in no field, at rest in both frames: steps cost nothing, and as many can be made as time
- * needs to lose its digits. */
+/* A bead at rest on the axis without a field: steps cost nothing, so the test can make enough of them for a
+ * plain sum of times to lose its digits. */
 static fst_flow *idle_flow(double step)
 {
     fst_params p = bead_at(0.3, FST_DYNAMICS_RIGID);
@@ -160,7 +161,7 @@ static void test_dense_output_is_continuous(void **unused)
     fst_model_free(model);
 }
 
-/* X = 0 is met to rounding, every half return, and stopping there changes nothing of the trajectory. */
+/* X = 0 is found to rounding at every half return, and stopping there leaves the trajectory as it is. */
 static void test_section(void **unused)
 {
     (void)unused;
@@ -182,7 +183,8 @@ static void test_section(void **unused)
             CHECK_CLOSE(info.bead_angle - phi_before, -TWO_PI / 2, 1e-12);
         phi_before = info.bead_angle;
     }
-    /* Phi turns by omega (1 + 2/13.655...) a period: the published pattern, here only counted. */
+    /* Phi turns by omega (1 + 2/13.655...) in each period, as in the published pattern; here the turns are only
+     * counted. */
     CHECK_WITHIN(crossings, 90, 95);
     const fst_flow_info info = fst_flow_get(flow);
     assert_true(info.t == t_end && info.t_low == 0);
@@ -191,7 +193,7 @@ static void test_section(void **unused)
     fst_model_free(model);
 }
 
-/* A time asked for right behind an event is landed on as exactly as any other. */
+/* A time right behind an event is landed on as exactly as any other. */
 static void test_time_after_an_event(void **unused)
 {
     (void)unused;
@@ -211,7 +213,8 @@ static void test_time_after_an_event(void **unused)
     fst_model_free(model);
 }
 
-/* A bead that rolls straight over the edge at r = 10 in no field: when, where, and on from there. */
+/* A bead without a field rolls straight over the edge at r = 10: the time and place of the crossing, and the
+ * motion after it. */
 static void test_edge(void **unused)
 {
     (void)unused;
@@ -226,15 +229,15 @@ static void test_edge(void **unused)
     const fst_flow_info info = fst_flow_get(flow);
     CHECK_CLOSE(info.t, 4 * (sqrt(99) - 9.5), 1e-11);
     CHECK_CLOSE(hypot(info.state[FST_X], info.state[FST_Y]), 10, 2e-15);
-    /* The next call goes on from there; the bead is over the edge and crosses it no more. */
+    /* The next call continues the motion; the bead is beyond the edge and does not cross it again. */
     assert_int_equal(advance_to(flow, 40, 1u << FST_STOP_EDGE), FST_STOP_TIME);
     assert_true(fst_flow_get(flow).t == 40);
     fst_flow_free(flow);
     fst_model_free(model);
 }
 
-/* An orbit that reaches r = 0.9389535264 once a turn: an edge inside of that is met, by however little and
- * however short the bead would be over it within a step, and one outside is not. */
+/* This orbit reaches r = 0.9389535264 once in each turn. An edge just inside it is met, however little and
+ * briefly the bead would be over it within a step; an edge just outside is not. */
 static void test_grazing_the_edge(void **unused)
 {
     (void)unused;
@@ -257,8 +260,7 @@ static void test_grazing_the_edge(void **unused)
         }
 }
 
-/* A magnetic bead whose moment points against the field is pushed off the plate where kappa eps^2 n.dB/dz = g.
- */
+/* A bead whose moment points against the field leaves the plate where kappa eps^2 n.dB/dz = g. */
 static void test_lift_off(void **unused)
 {
     (void)unused;
@@ -266,7 +268,7 @@ static void test_lift_off(void **unused)
     fst_model *model = model_of(&p);
     double start[FST_STATE_SIZE];
     start_of(&p, model, start);
-    start[FST_WX] += 30; /* spun fast enough for n to run away from the field */
+    start[FST_WX] += 30; /* spins so fast that n cannot settle in the field */
     fst_flow *flow = flow_of(model, 1e-11, start);
     assert_int_equal(advance_to(flow, 1000, 1u << FST_STOP_LIFT_OFF), FST_STOP_LIFT_OFF);
     const fst_flow_info info = fst_flow_get(flow);
@@ -276,7 +278,7 @@ static void test_lift_off(void **unused)
     CHECK_CLOSE(g.kappa * g.eps * g.eps * dot(info.state + FST_NX, grad[2]), g.gravity, 1e-14);
     CHECK_CLOSE(fst_observe(model, info.state).load, 0, 1e-14);
     double before[FST_STATE_SIZE];
-    for (double fraction = 0.02; fraction < 0.999; fraction += 0.01) { /* pressed on the plate all the way */
+    for (double fraction = 0.02; fraction < 0.999; fraction += 0.01) { /* the load is positive all the way */
         state_after(model, 1e-11, start, fraction * info.t, before);
         assert_true(fst_observe(model, before).load > 0);
     }
@@ -284,7 +286,7 @@ static void test_lift_off(void **unused)
     fst_model_free(model);
 }
 
-/* Unwrapped Phi against brute force: a fine polygon followed by atan2 differences. */
+/* Unwrapped Phi against atan2 differences along a fine polygon. */
 static void test_unwrapped_phi(void **unused)
 {
     (void)unused;
@@ -313,8 +315,8 @@ static void test_unwrapped_phi(void **unused)
     }
 }
 
-/* Straight past the axis in no field, as close as 1e-9 on either side: Phi gains half a turn one way or the
- * other, and the drive turns the rest. */
+/* Without a field the bead passes the axis in a straight line, as close as 1e-9 on either side: Phi changes by
+ * half a turn, with a sign that depends on the side, and by the turning of the drive. */
 static void test_passage_by_the_axis(void **unused)
 {
     (void)unused;
@@ -329,7 +331,7 @@ static void test_passage_by_the_axis(void **unused)
             fst_flow *flow = flow_of(model, 1e-12, start);
             advance_to(flow, 8, 0);
             const fst_flow_info info = fst_flow_get(flow);
-            const double turned = atan2(miss, 2) - atan2(miss, -2); /* alpha in the laboratory, at one go */
+            const double turned = atan2(miss, 2) - atan2(miss, -2); /* the change of alpha in the laboratory */
             CHECK_CLOSE(info.alpha - atan2(miss, -2), turned, 1e-9);
             CHECK_CLOSE(info.bead_angle, info.alpha - 0.3 * 8, 1e-14);
             fst_flow_free(flow);
@@ -356,7 +358,7 @@ static void test_phi_is_continuous_from_the_start(void **unused)
     }
 }
 
-/* What cannot be integrated ends with a status that says when and where. */
+/* A motion that cannot be integrated ends with a status and a sentence that says when and where. */
 static void test_failures_say_where(void **unused)
 {
     (void)unused;
@@ -368,14 +370,14 @@ static void test_failures_say_where(void **unused)
     fst_stop stop;
     fst_error error = {FST_OK, "", ""};
     fst_flow_options options = fst_default_flow_options();
-    start[FST_WX] = 1e200; /* overflows within a step */
+    start[FST_WX] = 1e200; /* this overflows within one step */
     assert_int_equal(fst_flow_new(model, &options, start, &flow, &error), FST_OK);
     assert_int_equal(fst_flow_advance(flow, 100, 0, &stop, &error), FST_NOT_FINITE);
     assert_int_equal(error.code, FST_NOT_FINITE);
     assert_non_null(strstr(error.where, "t = 0"));
     assert_non_null(strstr(error.where, "r = 0.95"));
     fst_flow_free(flow);
-    start[FST_WX] = 1e15; /* turns of n that no step size above rounding resolves */
+    start[FST_WX] = 1e15; /* n turns so fast that the step size would fall below rounding */
     assert_int_equal(fst_flow_new(model, &options, start, &flow, &error), FST_OK);
     assert_int_equal(fst_flow_advance(flow, 100, 0, &stop, &error), FST_STEP_UNDERFLOW);
     assert_non_null(strstr(error.sentence, "t = "));

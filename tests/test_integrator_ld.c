@@ -23,7 +23,7 @@ static void begin(step_ld *s, const coefficients_ld *c, const double *state, lon
     fst_begin_steps_long_double(s);
 }
 
-/* `count` steps of the size h; the state at their end. */
+/* Makes `count` steps of size h; the state at their end. */
 static void steps(const coefficients_ld *c, const double *state, int count, long double h, long double ramp,
                   long double *end)
 {
@@ -61,7 +61,8 @@ static double slope(const double *x, const double *y, int count)
 
 enum { SIZES = 6 };
 
-/* Mean logarithm of the error over several starts: a single one may happen to lack its leading term. */
+/* Mean logarithm of the error over several starts, since a single start may happen to have no leading error
+ * term. */
 enum { STARTS = 12 };
 
 static void random_starts(int which, double states[STARTS][FST_STATE_SIZE])
@@ -79,7 +80,8 @@ static void test_order_of_the_method(void **unused)
         const coefficients_ld c = coefficients_of(&p);
         double states[STARTS][FST_STATE_SIZE], log_h[SIZES], log_error[SIZES] = {0};
         random_starts(which, states);
-        /* Without torque and friction the motion is smooth, and only long steps err by more than rounding. */
+        /* Without torque and friction the motion is so smooth that only long steps err by more than rounding.
+         */
         const int fewest = which / 2 == 3 ? 24 : 100;
         const long double stretch = 4, ramp = which % 3 == 0 ? 0.01L : 0;
         for (int k = 0; k < STARTS; ++k) {

@@ -1,5 +1,5 @@
-/* Every number of a result stands under its own key, and comes back with the same bits: results are filled with
- * numbers that are all different, and read back by jansson. */
+/* Every number of a result is under its own key and is read back with the same bits: the results hold numbers
+ * that all differ, and jansson reads them. */
 #include "numeric.h"
 
 #include <jansson.h>
@@ -26,7 +26,7 @@ static json_t *parsed(char *text)
     return object;
 }
 
-/* 1/3, 2/3, ...: none is written exactly in fifteen digits. */
+/* 1/3, 2/3, ...: fifteen digits would not be enough for any of them. */
 static double next_number(int *count)
 {
     *count += 1;
@@ -93,7 +93,7 @@ static void results_of_a_run(void **state)
     json_decref(object);
 }
 
-/* What is undefined is null, not zero and no text. */
+/* An undefined number is null, neither zero nor a text. */
 static void what_is_undefined(void **state)
 {
     (void)state;

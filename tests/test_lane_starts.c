@@ -1,12 +1,12 @@
-/* Rows that go on from given states: in every engine of lanes, and from state to state along a chain, they are
- * the runs that fst_run() makes of the same starts. */
+/* Rows that start from given states have the numbers of fst_run() from the same starts, in every engine of
+ * lanes, and also along a chain, where each run starts from the end state of the one before. */
 #include "physics.h"
 
 enum { CHAINS = 11, LENGTH = 3 };
 
 typedef struct chains {
     int begun;
-    double tolerance; /* 0: the same bits */
+    double tolerance; /* 0: the bits must agree */
     double end[CHAINS][FST_STATE_SIZE];
 } chains;
 
@@ -18,7 +18,7 @@ static fst_params params_of(int chain, int place)
     return p;
 }
 
-/* A start of its own for each chain, unlike that of its scene. */
+/* Each chain has a start of its own, different from its scene's. */
 static void first_state(int chain, double *state)
 {
     fst_params p = params_of(chain, 0);
@@ -88,7 +88,7 @@ static void test_rows_begin_where_they_are_told(void **unused)
                                    .stopped = never};
         fst_error error = {FST_OK, "", ""};
         const fst_status status = fst_rows(&work, &error);
-        if (status == FST_UNAVAILABLE) /* not on this processor */
+        if (status == FST_UNAVAILABLE) /* this processor lacks the instructions */
             continue;
         assert_int_equal(status, FST_OK);
         assert_int_equal(c.begun, CHAINS);

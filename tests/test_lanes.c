@@ -9,8 +9,8 @@
 
 enum { JOBS = 24 };
 
-/* Beads of all sorts: both dynamics, materials, friction laws, short and odd windows, some that leave the
- * plate, one that cannot start. */
+/* Beads of all sorts: both dynamics, all materials and friction laws, short and odd windows, some beads that
+ * leave the plate, one that cannot start. */
 static fst_params job_params(int i)
 {
     fst_params p = bead_at(0.15 + 0.04 * i, i % 5 == 1 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID);
@@ -30,7 +30,7 @@ static fst_params job_params(int i)
     if (i == 11)
         p.magnet_lines = 3;
     if (i == 13)
-        p.start_r = p.model_eps = 0.2; /* no rolling start there */
+        p.start_r = p.model_eps = 0.2; /* a start in free rolling does not exist here */
     if (i == 17)
         p.start_spin = FST_SPIN_REST;
     return p;
@@ -38,7 +38,7 @@ static fst_params job_params(int i)
 
 typedef struct store {
     int next, count, order[JOBS];
-    double discard; /* of all jobs, in one test */
+    double discard; /* the discard of all jobs; used by one test */
     fst_run_result results[JOBS];
     fst_status statuses[JOBS];
 } store;
@@ -70,7 +70,7 @@ static int never(void *user)
     return 0;
 }
 
-/* All jobs in the order of multiples of `stride`, which shares no factor with their number. */
+/* Does all jobs in the order of multiples of `stride`, which has no common factor with their number. */
 static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int stride)
 {
     memset(s, 0, sizeof *s);
@@ -131,7 +131,7 @@ static void test_fast_rows_depend_on_nothing_else(void **state)
         for (int i = 0; i < JOBS; ++i) {
             const fst_run_result *a = &first.results[i], *b = &portable.results[i];
             assert_int_equal(a->regime, b->regime);
-            /* Close as two runs of one tolerance are; some of these motions are chaotic while they last. */
+            /* Two runs of one tolerance agree so far; some of these motions are chaotic for a while. */
             if (b->regime == FST_REGIME_COUNTER_ROTATING) {
                 assert_true(fabs(a->mean_r - b->mean_r) < 1e-6);
                 assert_true(fabs(a->max_b - b->max_b) < 1e-5);
@@ -176,8 +176,9 @@ static int one_job(void *user, fst_row_job *job)
     return 1;
 }
 
-/* Samples lie inside the true range by up to (a dt)^2/8 of it, a being the greatest rate: some 50 rad a period
- * over 20000 samples a period give 1e-6.  The trajectories differ by much less than 1e-7. */
+/* The range of the samples is narrower than the true one by up to (a dt)^2/8 of it, where a is the greatest
+ * rate: 50 rad a period and 20000 samples a period give 1e-6. The trajectories differ by much less than 1e-7.
+ */
 static void check_range(const double sampled[2], double unit, double least, double greatest)
 {
     const double low = sampled[0] / unit, high = sampled[1] / unit;
@@ -195,7 +196,7 @@ static void test_extremes_are_those_of_the_path(void **state)
         fst_row_job job;
         memset(&s, 0, sizeof s);
         s.order[0] = millionths_of_omega[i];
-        s.discard = i < 4 ? 10.0 : 0.5; /* the last one's extremes lie where its window begins */
+        s.discard = i < 4 ? 10.0 : 0.5; /* the extremes of the last job lie at the beginning of its window */
         assert_int_equal(one_job(&s, &job), 1);
         range seen = {{INFINITY, -INFINITY},
                       {INFINITY, -INFINITY},
@@ -228,8 +229,8 @@ static void test_extremes_are_those_of_the_path(void **state)
     }
 }
 
-/* Weak beads at low drives, which librate: their regime takes an exponent.  More than lanes, of two windows and
- * both dynamics, which share no batch. */
+/* Weak beads at low drives librate, and their regime needs an exponent. There are more of them than lanes, with
+ * two lengths of window and both dynamics, which share no batch. */
 enum { LIBRATING = 11 };
 
 static int librating_job(void *user, fst_row_job *job)
@@ -248,8 +249,8 @@ static int librating_job(void *user, fst_row_job *job)
     return 1;
 }
 
-/* Exponents are computed in lanes too: the portable form's have the bits of the run, the others agree as far as
- * the trajectories do. */
+/* Exponents computed in lanes: in the portable form they have the bits of fst_run(), in other forms they agree
+ * as far as the trajectories do. */
 static void test_exponents(void **state)
 {
     (void)state;
@@ -276,12 +277,14 @@ static void test_exponents(void **state)
                 assert_int_equal(row->rhs_calls, run->rhs_calls);
             }
             assert_true(fabs(row->largest_exponent - run->largest_exponent) < 1e-9);
-            assert_true(run->largest_exponent_error > 1e-6); /* far above that */
+            assert_true(run->largest_exponent_error >
+                        1e-6); /* the error bar is far wider than this difference */
         }
     }
 }
 
-/* Beads with a vector each, as many as an engine has lanes or two; their derivatives go into slope[]. */
+/* Two beads with a tangent vector each, in turn in all lanes; slope[] gets the derivatives of the first two
+ * lanes, or of the only one. */
 static void evaluate_tangents(const fst_tangent_engine *engine, fst_model *const *models,
                               double (*y)[FST_TANGENT_DIM], double (*slope)[FST_TANGENT_DIM])
 {
@@ -303,8 +306,9 @@ static void evaluate_tangents(const fst_tangent_engine *engine, fst_model *const
     free(memory);
 }
 
-/* A tangent vector changes by the Jacobian times it, in every form, material, friction law and dynamics, and
- * for the paper's lines as for other numbers; portable lanes have the scalar engine's bits. */
+/* The derivative of a tangent vector is the Jacobian times the vector, in every form, material, friction law
+ * and dynamics, for the paper's number of lines and for others; portable lanes have the bits of the scalar
+ * engine. */
 static void test_tangents(void **state)
 {
     (void)state;
@@ -425,7 +429,7 @@ static int grazing_done(void *user, fst_row_job *job, fst_status status, const f
     return 0;
 }
 
-/* A weak bead, seen from its start on, under so great a weight that it stays on the plate. */
+/* A weak bead, observed from its start on, so heavy that it stays on the plate. */
 static fst_params weak_bead(int i, int fast)
 {
     const double omega = fast ? 0.6 + 0.3 * (i % 6) : 0.2 + 0.05 * (i % 6);
@@ -441,8 +445,8 @@ static fst_params weak_bead(int i, int fast)
     return p;
 }
 
-/* The same motion over a plate whose edge, or with a weight whose load, the bead passes by `by`, or just does
- * not (by < 0): on a stretch of time shorter than the distance of the stages of a step. */
+/* The same motion with an edge or a weight such that the bead passes the edge, or loses its load, by `by`, or
+ * just does not (by < 0). It does so for less time than lies between two stages of a step. */
 static fst_params grazing_bead(int i)
 {
     fst_params p = weak_bead(i / 4, i & 2);

@@ -1,5 +1,5 @@
-/* The parameters' defaults and bounds, written here once more from the paper, and from what a
- * number must be for the model to exist; and the greatest grid. */
+/* The defaults and bounds of the parameters, written here again from the paper and from what the model needs to
+ * exist; and the greatest grid. */
 #include "physics.h"
 
 #include <stdio.h>
@@ -31,8 +31,7 @@ static void test_defaults(void **unused)
     }
 }
 
-/* Nothing that would be divided by may be zero, and nothing that is a length, a time or a number of things
- * negative. */
+/* No divisor may be zero, and no length, time or count of things negative. */
 static void test_bounds(void **unused)
 {
     (void)unused;
@@ -65,8 +64,8 @@ static void test_bounds(void **unused)
     }
 }
 
-/* Axes that make too many points together are refused, also where each alone is short, and where their product
- * would not even fit a number of 64 bits. */
+/* Axes with too many points together are refused, also if each alone is short, and if the product does not even
+ * fit into 64 bits. */
 static void test_the_greatest_grid(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* Numbers in files look the same whatever the caller's locale: with one whose decimal point is a comma, which
- * is made here where none is installed, parameters, scenes, trajectories and grids keep every bit. */
+/* Numbers in files do not depend on the caller's locale: with a decimal comma, parameters, scenes, trajectories
+ * and grids keep every bit. The test makes such a locale where none is installed. */
 #include "numeric.h"
 
 #include <locale.h>
@@ -13,7 +13,7 @@
 
 static char folder[] = "/tmp/festoon-locale-XXXXXX";
 
-/* Enter a locale with a decimal comma; 0 where this machine cannot make one. */
+/* Sets a locale with a decimal comma; 0 if this machine cannot make one. */
 static int enter_comma(void)
 {
     static const char source[] =
@@ -65,7 +65,7 @@ static void test_numbers(void **state)
     fst_error error = {FST_OK, "", ""};
     assert_int_equal(fst_params_set(&p, "bead.radius", "1.25 mm", &error), FST_OK);
     assert_true(p.bead_radius == 1.25e-3);
-    assert_string_equal(localeconv()->decimal_point, ","); /* the caller's locale stays as it was */
+    assert_string_equal(localeconv()->decimal_point, ","); /* the caller's locale is unchanged */
 }
 
 static void test_scenes(void **state)

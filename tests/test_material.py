@@ -1,4 +1,4 @@
-"""A bead whose mass and radius contradict any material is named, in words and in the JSON of `check`."""
+"""A warning names a bead whose mass and radius contradict any material, in words and in the JSON of `check`."""
 
 import json
 import os

@@ -1,5 +1,5 @@
-/* Means, their errors and their extremes, from marks whose numbers are known: what the window's marks say is
- * computed here by hand.  And the powers on a ramp, and the window's extremes, against the path itself. */
+/* Means and their errors, from marks made by hand whose means are known; and the powers on a ramp and the
+ * extremes of a window, against the path itself. */
 #include "physics.h"
 
 #include "observe/means.h"
@@ -8,7 +8,7 @@
 /* ------------------------------------------------------------------ marks made by hand */
 
 enum { BLOCKS = 12 };
-static const double SPAN = 7.5; /* of a block */
+static const double SPAN = 7.5; /* duration of a block */
 
 typedef struct by_hand {
     fst_watched_run run;
@@ -16,7 +16,7 @@ typedef struct by_hand {
     fst_mark_series marks;
 } by_hand;
 
-/* A run that has not begun, and marks at which every integral is zero. */
+/* A run that has not begun, with marks at which every integral is zero. */
 static by_hand *begin(void)
 {
     by_hand *b = test_calloc(1, sizeof *b);
@@ -53,7 +53,7 @@ static void fill(by_hand *b, int which, double value)
         b->marks.kept[i].integrals[which] = value * SPAN * i;
 }
 
-/* Blocks that scatter without a drift: the error is their deviation over the root of their number. */
+/* Blocks that scatter without a drift: the error is their standard deviation over the root of their number. */
 static void test_errors_from_the_scatter_of_blocks(void **unused)
 {
     (void)unused;
@@ -180,8 +180,8 @@ static fst_status look(void *user, const fst_sample *sample, fst_error *error)
     return FST_OK;
 }
 
-/* The extremes are those of the window, wherever within a step it begins: on a transient whose swings shrink,
- * the larger ones before the window do not count. */
+/* Extremes are those of the window alone, wherever in a step it begins: on a decaying transient the larger
+ * swings before the window do not count. */
 static void test_extremes_begin_with_the_window(void **unused)
 {
     (void)unused;

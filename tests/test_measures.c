@@ -1,5 +1,5 @@
-/* Measures of the paper's statements, on trajectories whose answer is known, and on the field written here once
- * more. */
+/* Measures behind the verdicts on the paper's statements, on trajectories with known answers and on the field,
+ * written here again. */
 #include "physics.h"
 
 #include <stdlib.h>
@@ -59,7 +59,8 @@ static void take_down(stage *s)
     test_free(s);
 }
 
-/* The share of one circular motion in what a path adds to the bead's circling: by squares of amplitudes. */
+/* The share of one circular motion in what remains of a path beside the bead's circling; shares are by squares
+ * of amplitudes. */
 static void test_share_of_a_trochoid(void **unused)
 {
     (void)unused;

@@ -6,7 +6,7 @@
 
 static const double UP[3] = {0, 0, 1};
 
-/* What acts on a bead at a state, from the public field alone: force, torque per mass, slip. */
+/* Force, torque per mass and slip of a bead at a state, from the public field alone. */
 typedef struct forces {
     double b[3], g[3][3], force[3], torque[3], slip[3], energy;
 } forces;
@@ -117,7 +117,7 @@ static void test_equations_and_observations(void **unused)
     }
 }
 
-/* A paramagnetic bead feels no torque of the field: on a frictionless plate W stays. */
+/* The field exerts no torque on a paramagnetic bead: on a frictionless plate W stays. */
 static void test_paramagnet_feels_no_torque(void **unused)
 {
     (void)unused;
@@ -125,7 +125,7 @@ static void test_paramagnet_feels_no_torque(void **unused)
     fst_params p = bead_at(0.31, FST_DYNAMICS_RIGID);
     p.bead_material = FST_MATERIAL_PARAMAGNETIC;
     p.bead_a = 5e-3;
-    p.bead_b = 7e-3; /* plays no part */
+    p.bead_b = 7e-3; /* ignored for this material */
     p.friction_law = FST_FRICTION_NONE;
     fst_model *model = model_of(&p);
     const fst_groups g = fst_model_groups(model);
@@ -139,7 +139,7 @@ static void test_paramagnet_feels_no_torque(void **unused)
     fst_model_free(model);
 }
 
-/* On the axis the local directions do not exist, but nothing may stop being a number. */
+/* On the axis e_r and e_alpha do not exist, but every result must still be a number. */
 static void test_axis_is_finite(void **unused)
 {
     (void)unused;

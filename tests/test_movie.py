@@ -75,7 +75,7 @@ class Movie(unittest.TestCase):
         self.assertEqual(read_png(frames[0])[:2], (200, 180))
 
     def test_an_earlier_film_leaves_no_frames(self):
-        """A shorter film in the same folder is all that is there; other files stay."""
+        """A shorter film in the same folder replaces all frames of the longer one; other files stay."""
         self.frames("again", "--to", "2", "--fps", "3", "--size", "200x200")
         (self.folder / "again" / "notes.txt").write_text("kept")
         self.frames("again", "--to", "1", "--fps", "3", "--size", "200x200")
@@ -83,7 +83,7 @@ class Movie(unittest.TestCase):
                          [*(f"frame-{i:05}.png" for i in range(1, 5)), "notes.txt"])
 
     def test_the_bead_is_where_the_trajectory_has_it(self):
-        """The centre of the ball's outline, looked for around the place that the file tells."""
+        """The centre of the ball's outline, searched around the place that the file gives."""
         lines = [line for line in self.track.read_text().splitlines() if not line.startswith("#")]
         names = [name.split()[0].split("(")[0] for name in lines[0].split(",")]
         rows = [dict(zip(names, map(float, line.split(",")))) for line in lines[1:]]
@@ -92,7 +92,7 @@ class Movie(unittest.TestCase):
         frames = self.frames("place", "--to", "4", "--fps", "1", "--size", "480x480")
         for turn in (2, 3):
             row = min(rows, key=lambda r: abs(r["drive_turns"] - turn))
-            scale = 0.84 * 240 / reach  # pixels a millimetre: the plate leaves room for what stands around it
+            scale = 0.84 * 240 / reach  # pixels a millimetre: the plate leaves a margin for the text around it
             x, y = (240 + s * row[k] * 23.0 * scale for s, k in ((1, "x"), (-1, "y")))
             pixels, radius = read_png(frames[turn])[2], 2.5 * scale
             dark = 0

@@ -43,7 +43,7 @@ def test_the_tests_are_there():
 
 
 def test_what_no_longer_fits_is_reported():
-    """A text that is gone, one that stands twice, a fault that changes nothing, and blocks that are no blocks."""
+    """Complaints about an old text that is gone or stands twice, a fault that changes nothing, and malformed blocks."""
     block = "[one] file.c\n# a comment\n- a  <\n- b\n+ a > b\ntests: test_x\nwhy: no reason\n"
     (entry,) = listed.parse("base", block)
     assert entry.apply("if (a <\n        b)\n") == "if (a > b)\n"

@@ -24,7 +24,7 @@ static const fst_lapack *lapack(void)
  * seen in coordinates x = T u, none of which are at right angles. */
 typedef struct hopf_case {
     double w, l, c, d;
-    double f[7], g[7]; /* of x^2, x y, y^2, x^3, x^2 y, x y^2, y^3 */
+    double f[7], g[7]; /* coefficients of x^2, x y, y^2, x^3, x^2 y, x y^2, y^3 */
 } hopf_case;
 
 static const double T[3][3] = {{1.0, 0.3, -0.2}, {-0.4, 0.8, 0.5}, {0.25, -0.6, 1.3}};
@@ -33,7 +33,7 @@ static const double T[3][3] = {{1.0, 0.3, -0.2}, {-0.4, 0.8, 0.5}, {0.25, -0.6, 
 static void solve3(const double m[3][3], const double *b, double *x)
 {
     double det[4];
-    for (int k = 0; k < 4; ++k) { /* k = 0: of m itself; else column k - 1 replaced */
+    for (int k = 0; k < 4; ++k) { /* k = 0: the determinant of m itself; else with column k - 1 replaced */
         double a[3][3];
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
@@ -129,8 +129,8 @@ static fst_status planar_map(void *user, const double *x, double *out, fst_error
     return FST_OK;
 }
 
-/* |z| changes by a |z|^3 per iterate: 1/|z|^2 falls by 2 a.  z = <p, x> plus quadratic terms, which a mean over
- * many iterates takes away; two amplitudes, extrapolated to nothing. */
+/* |z| changes by a |z|^3 in an iteration, so 1/|z|^2 falls by 2 a. Here z = <p, x> plus quadratic terms, which
+ * a mean over many iterations removes; two amplitudes are extrapolated to zero. */
 static double measured(const map_case *c, double amplitude)
 {
     enum { ITERATES = 40000, MEAN = 4000 };
@@ -167,7 +167,7 @@ static void neimark_sacker_points(void **state)
     }
 }
 
-/* At a strong resonance there is another normal form, and no answer. */
+/* At a strong resonance the normal form is another one, and the function gives no answer. */
 static void resonances_are_refused(void **state)
 {
     (void)state;

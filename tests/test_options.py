@@ -1,5 +1,5 @@
-"""Values on the command line: what stands behind the first "=" is the value, all of it, lists have as many numbers as
-they are asked for, and what fails leaves nothing.
+"""Values on the command line: everything behind the first "=" is the value, a list must have the expected number of
+values, and a command that fails leaves no file.
 
 Environment: FESTOON is the program.
 """
@@ -12,7 +12,7 @@ from sweep_tools import Case
 
 class Options(Case):
     def test_all_behind_the_first_equals_sign_is_the_value(self):
-        """Nothing of it is dropped: then the rest could be a good value by accident."""
+        """No part of a value is dropped, because the rest could be valid by accident."""
         for setting in ("run.periods=abc=50", "run.periods=50=60", "bead.material==hard", "start.r=0.9=0.8"):
             with self.subTest(setting=setting):
                 key, value = setting.split("=", 1)
@@ -21,7 +21,7 @@ class Options(Case):
                 self.assertIn(value, err)
 
     def test_lists_have_their_length(self):
-        """Neither fewer numbers nor more, and nothing behind them."""
+        """A list with too few numbers, too many, or text behind them is refused."""
         self.good("run", "--set", "run.periods=2", "--set", "run.discard=1", "-o", self.path("t.csv"))
         for zoom in ("1,2,3", "1,2,3,4,5", "1,2,3,4,", "1,2,3,4 mm", "1;2;3;4", ""):
             with self.subTest(zoom=zoom):
@@ -33,7 +33,7 @@ class Options(Case):
                 self.assertIn(f'--from: "{number}" must be a number, without a unit', err)
 
     def test_seconds_between_checkpoints(self):
-        """Seconds without a unit, more than none; nothing is begun with others."""
+        """Seconds are a positive number without a unit; the command does not begin with any other value."""
         for seconds, word in (("0", "positive seconds"), ("-1", "positive seconds"), ("1e10", "positive seconds"),
                               ("nan", "a number"), ("inf", "a number"), ("3s", "without a unit"), ("", "a number")):
             with self.subTest(seconds=seconds):
@@ -43,7 +43,7 @@ class Options(Case):
                 self.assertFalse(os.path.exists(self.path("a.db")))
 
     def test_a_failed_run_leaves_no_file(self):
-        """A start that does not exist: no trajectory, and the one of an earlier run stays as it was."""
+        """A start that does not exist makes no trajectory, and leaves the file of an earlier run as it was."""
         impossible = ["--set", "model.eps=0.2", "--set", "start.r=0.2", "--set", "start.spin=rolling"]
         self.refused("run", *impossible, "-o", self.path("new.csv"))
         self.assertEqual(os.listdir(self.directory), [])

@@ -1,5 +1,5 @@
-/* Periodic orbits and equilibria: against independent numbers, against the flow itself, and against what the
- * variational equations must obey. */
+/* Periodic orbits and equilibria against independent numbers, against the flow itself, and against the laws of
+ * the variational equations. */
 #include "numeric.h"
 
 #include <stdio.h>
@@ -26,7 +26,7 @@ static fst_orbit orbit_at(const char *omega, const char *dynamics)
     return orbit;
 }
 
-/* N by long simulations with another program, of another writing of the equations. */
+/* N from long simulations by another program, with equations written independently. */
 static void festoons_of_known_patterns(void **state)
 {
     (void)state;
@@ -56,7 +56,7 @@ static void festoons_of_known_patterns(void **state)
     }
 }
 
-/* Means and extremes of the same orbits, by the same other program. */
+/* Means and extremes of these orbits, by that other program. */
 static void means_of_a_known_pattern(void **state)
 {
     (void)state;
@@ -98,8 +98,8 @@ static double distance(const double *a, const double *b)
     return sqrt(sum);
 }
 
-/* The state lies on Phi = pi/2, goes downward, and comes back; a symmetric one after half a turn as its image.
- */
+/* The state lies on Phi = pi/2 with Phi falling, and comes back after its period; a symmetric one comes back as
+ * its image after half a turn. */
 static void orbits_close(void **state)
 {
     (void)state;
@@ -131,7 +131,7 @@ static void leading_multiplier_is_the_rate_of_return(void **state)
     for (int turn = 0; turn < 12; ++turn) {
         const double from[FST_STATE_SIZE] = {y[0], y[1], y[2], y[3], y[4], y[5], y[6], y[7], y[8], y[9]};
         flow_on(&params, orbit.means.period, from, y);
-        /* across the flow: what lies along it does not shrink */
+        /* only the part across the flow: the part along it does not shrink */
         fst_model *model;
         double rate[FST_STATE_SIZE], along = 0.0, speed2 = 0.0, across = 0.0;
         assert_int_equal(fst_model_new(&params, &model, NULL), FST_OK);
@@ -162,11 +162,12 @@ static void festoon_numbers_are_exact(void **state)
     CHECK_CLOSE(list.orbits[0].means.festoons, 12.0, 1e-10);
     char omega[32];
     (void)snprintf(omega, sizeof omega, "%.17g", list.omegas[0]);
-    CHECK_CLOSE(orbit_at(omega, "rigid").means.festoons, 12.0, 1e-9); /* from the start, by another way */
+    CHECK_CLOSE(orbit_at(omega, "rigid").means.festoons, 12.0,
+                1e-9); /* found from the scene's start, without the search for N */
     fst_festoons_free(&list);
 }
 
-/* Beside the origin, the period halving and the fold, beyond the last orbit that was followed. */
+/* Patterns beside the origin crossing, the period halving and the fold, beyond the last point of the branch. */
 static void festoons_up_to_the_ends_of_the_branch(void **state)
 {
     (void)state;
@@ -222,8 +223,8 @@ static void numbers_without_meaning_cost_no_work(void **state)
     }
 }
 
-/* Shooting alone is content with an equilibrium, and takes any time for its period.  The stable locked state
- * loses its stability at omega = 0.15264: swings about it decay slowly below. */
+/* Shooting alone would accept an equilibrium, with any time as its period. The stable locked state loses its
+ * stability at omega = 0.15264, and below that swings about it decay slowly. */
 static void a_locked_bead_has_no_orbit(void **state)
 {
     (void)state;
@@ -250,7 +251,7 @@ static void a_locked_bead_has_no_orbit(void **state)
     }
 }
 
-/* Where a start leads is told by a number too: to an orbit, away, or to neither in the time given. */
+/* The outcome says where a start leads: to an orbit, off the plate, or to neither in the time given. */
 static void a_start_that_leads_elsewhere(void **state)
 {
     (void)state;
@@ -281,7 +282,7 @@ static void a_libration_is_an_orbit_without_turns(void **state)
     CHECK_CLOSE(orbit.means.mean_alpha_dot, 0.16, 1e-15);
 }
 
-/* Before it is caught the bead turns for a while; a long run ends on the same libration. */
+/* The bead turns for a while before the magnet catches it; a long run ends on the same libration. */
 static void a_libration_that_catches_a_turning_bead(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-"""The commands orbit, locked, branch and lyapunov from outside: keys, statuses, files and figures."""
+"""The commands orbit, locked, branch and lyapunov as a user meets them: keys, statuses, files and figures."""
 
 import json
 import os
@@ -66,11 +66,12 @@ class Orbits(unittest.TestCase):
     def test_growth_like_a_power_of_time_is_no_exponent(self):
         spectrum = document("lyapunov", "--set", "bead.material=paramagnetic", "--set", "bead.a=0.01", "--set",
                             "run.periods=150", "--set", "run.discard=50")
-        self.assertGreater(spectrum["exponents"][0], 0)  # of a locked bead with a neutral direction
+        self.assertGreater(spectrum["exponents"][0], 0)  # a locked bead with a neutral direction
         self.assertFalse(spectrum["converged"])
 
     def test_a_bead_that_passes_a_weakly_unstable_state_goes_on(self):
-        """Just above the Hopf point at 0.0921063 it comes to rest within 1e-7, and departs with 6e-4 gamma."""
+        """Just above the Hopf point at 0.0921063 the bead comes within 1e-7 of rest, and departs from it at the rate
+        6e-4 gamma."""
         orbit = document("orbit", "--set", "drive.omega=0.0922")
         self.assertEqual((orbit["regime"], orbit["stable"]), ("librating", True))
         self.assertGreater(orbit["std_r"], 1e-3)
@@ -84,7 +85,7 @@ class Orbits(unittest.TestCase):
         branch = document("branch", "--kind", "locked", "--over", "drive.omega=0.08:0.1")
         self.assertEqual([special["type"] for special in branch["specials"]], ["hopf"])
         self.assertEqual({crossing["type"] for crossing in branch["crossings"]}, {"transcritical"})
-        (crossing,) = branch["crossings"]  # the branch met there is one, on both sides
+        (crossing,) = branch["crossings"]  # both sides belong to the branch that is met there
         values = [point["value"] for point in branch["points"] if point["branch"] == crossing["born"]]
         self.assertLess(min(values), crossing["value"] - 0.005)
         self.assertGreater(max(values), crossing["value"] + 0.005)

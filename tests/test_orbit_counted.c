@@ -1,6 +1,6 @@
-/* Right beside a bifurcation the bead settles slowly, and Newton's method converges slowly: the orbit of a
- * start is found all the same with little work, counted in evaluations of the equations of motion.  A try of
- * Newton's method costs some 10^4 of them, and the way of a bead in 400 drive periods some 10^5. */
+/* Beside a bifurcation the bead settles slowly and Newton's method converges slowly: the orbit of a start must
+ * still be found with little work, counted in evaluations of the equations of motion. One attempt by Newton's
+ * method costs some 10^4 of them, following the bead for 400 drive periods some 10^5. */
 #include "branches.h"
 
 #include "count/count_evaluations.h"
@@ -45,7 +45,7 @@ static void beside_hopf_points(void **state)
     }
 }
 
-/* On either side of the period halving; |<n_z>| falls as the root of the distance. */
+/* Both sides of the period halving; below it |<n_z>| falls as the root of the distance. */
 static void beside_the_period_halving(void **state)
 {
     static const double away[] = {-5.3e-5, -3.4e-6, -3.4e-8, 6.6e-8, 6e-6, 5e-5};

@@ -1,4 +1,5 @@
-"""examples/period-halving.py: the critical exponents, and relaxation times from multipliers and from transients."""
+"""examples/period-halving.py: the critical exponents, and relaxation times from multipliers and from transients,
+which agree."""
 
 import os
 import re

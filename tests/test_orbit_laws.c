@@ -1,5 +1,5 @@
-/* What orbits and branches must obey however they were found: derivatives by parameters, the ends of a range,
- * the shape of an orbit against a trajectory along it, and the passage of the axis. */
+/* Laws that hold for orbits and branches however they were found: derivatives by parameters, the ends of a
+ * range, the shape of an orbit against a trajectory along it, and the passage of the axis. */
 #include "branches.h"
 
 #include <stdlib.h>
@@ -22,7 +22,7 @@ static void rhs_at(const fst_params *base, const char *key, double value, const 
     fst_model_free(model);
 }
 
-/* d(rhs)/d(parameter) of every scaled group, against differences of models made from outside. */
+/* d(rhs)/d(parameter) for every scaled group, against differences of whole models. */
 static void derivatives_by_parameters(void **unused)
 {
     (void)unused;
@@ -142,8 +142,8 @@ static void branches_end_at_their_borders(void **unused)
     fst_branch_free(&branch);
 }
 
-/* Where the orbit passes the axis, its closest approach changes sides: the branch stops turning round the axis.
- */
+/* Where the orbit passes through the axis, the sign of its closest approach changes and the orbit ceases to
+ * turn round the axis. */
 static void the_axis_is_passed(void **unused)
 {
     (void)unused;
@@ -156,7 +156,7 @@ static void the_axis_is_passed(void **unused)
     fst_branch_free(&branch);
 }
 
-/* A libration loses its stability where a pair of its multipliers leaves the unit circle, and not before. */
+/* A libration loses its stability exactly where a pair of its multipliers leaves the unit circle. */
 static void a_pair_leaves_the_circle(void **unused)
 {
     (void)unused;
@@ -174,8 +174,8 @@ static void a_pair_leaves_the_circle(void **unused)
     fst_branch_free(&branch);
 }
 
-/* Determinant of the Jacobian at the equilibrium on the axis, where n lies along X and turns with the magnet,
- * without the direction of n itself, along which nothing moves. */
+/* Determinant of the Jacobian at the equilibrium on the axis, where n lies along X and turns with the magnet.
+ * The direction along n is left out, because nothing changes along it. */
 static double determinant_on_the_axis(double omega, double nx)
 {
     enum { N = FST_STATE_SIZE - 1 };
@@ -209,7 +209,7 @@ static double determinant_on_the_axis(double omega, double nx)
     return product;
 }
 
-/* The pitchfork on the axis lies where the determinant is zero, to the last digits. */
+/* The pitchfork on the axis is where that determinant is zero, to the last digits. */
 static void the_pitchfork_on_the_axis(void **unused)
 {
     (void)unused;
@@ -232,9 +232,9 @@ static void the_pitchfork_on_the_axis(void **unused)
     fst_branch_free(&branch);
 }
 
-/* Over the height of the bead both states on the axis have a pitchfork.  Newton's matrix is singular there, and
- * its method fails close by: the place is found all the same, at any step, and what comes from off the axis
- * ends on the axis and does not turn at a fold. */
+/* Over the height of the bead both states on the axis have a pitchfork. Newton's matrix is singular there, and
+ * the method fails nearby. The pitchfork must still be found, with steps of any length, and a branch that comes
+ * from off the axis must end there and not be taken for one that turns in a fold. */
 static void pitchforks_on_the_axis_over_the_height(void **unused)
 {
     (void)unused;
@@ -260,8 +260,8 @@ static void pitchforks_on_the_axis_over_the_height(void **unused)
         }
 }
 
-/* Two crossings in one long step do not hide each other: with steps ten times as long as usual the same Hopf
- * point is found, beside which its pair meets on the real axis. */
+/* Two crossings within one long step do not hide each other: with steps ten times as long as usual the same
+ * Hopf point is found. Beside it, its pair of eigenvalues meets on the real axis. */
 static void crossings_in_a_long_step(void **unused)
 {
     (void)unused;
@@ -279,7 +279,7 @@ static void crossings_in_a_long_step(void **unused)
     fst_branch_free(&branch);
 }
 
-/* Progress that has patience for so many points. */
+/* Ends the work after a given number of points. */
 static fst_status lose_patience(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)what;
@@ -289,7 +289,7 @@ static fst_status lose_patience(void *user, double fraction, const char *what, f
     return *left > 0 ? FST_OK : FST_INTERRUPTED;
 }
 
-/* A branch that comes back to where it began is followed once round. */
+/* A branch that closes on itself is followed once round, and no further. */
 static void a_closed_branch_is_followed_once(void **unused)
 {
     (void)unused;
@@ -299,7 +299,7 @@ static void a_closed_branch_is_followed_once(void **unused)
     options.key = "model.h";
     options.from = 0.51;
     options.to = 0.56;
-    int left = 20000, closed = 0; /* questions, one every 4000 evaluations */
+    int left = 20000, closed = 0; /* the number of questions, one every 4000 evaluations */
     const fst_progress progress = {&left, lose_patience};
     options.progress = &progress;
     fst_branch branch = followed(&params, &options);

@@ -1,5 +1,5 @@
-/* One orbit, a short branch over one parameter and over two, and exponents: as little of each as leads through
- * the code, for valgrind. */
+/* One orbit, short branches over one parameter and two, and exponents: just enough of each to run all the code,
+ * for valgrind. */
 #include "special_curves.h"
 
 static void one_orbit(void **state)
@@ -16,7 +16,7 @@ static void one_orbit(void **state)
     CHECK_CLOSE(orbit.means.festoons, 2.0 * (1.0 + 1.0 / fabs(orbit.means.mean_alpha_dot)), 1e-12);
 }
 
-/* At a rough tolerance the pitchfork is where it belongs to as many digits. */
+/* With a rough tolerance the pitchfork is as accurate as that tolerance. */
 static void a_short_branch_and_curve(void **state)
 {
     (void)state;

@@ -23,7 +23,7 @@ static fst_params start_number(int i)
     return params;
 }
 
-/* What the simulation shows; 0 where it ends on nothing that an orbit could be. */
+/* Simulates a start; returns whether it ends on an orbit. */
 static int simulate(fst_params params, fst_run_result *run)
 {
     fst_error error;
@@ -47,7 +47,7 @@ static void a_simulation_ends_on_the_orbit(void **state)
         if (fst_orbit_find(&params, NULL, &orbit, &error) != FST_OK || !simulate(params, &run))
             continue;
         compared += 1;
-        /* A window of a run holds no whole number of librations, and the last of the way in is in it. */
+        /* A run's window holds no whole number of librations, and may still hold the end of the transient. */
         const double off = 2e-3, split = orbit.relaxation_time < 2000.0 ? 5e-3 : 0.05;
         if (run.regime != orbit.means.regime || !(fabs(run.mean_r - orbit.means.mean_r) < off) ||
             !(fabs(run.mean_nz - orbit.means.mean_nz) < split))

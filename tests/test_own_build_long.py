@@ -1,5 +1,5 @@
-"""The commands that stand in examples/c/field.c and law.c, as a user types them: festoon built with a magnet and a friction
-law of one's own.  The examples print what test_examples_c.py compares, and the program knows magnet and law.
+"""The commands in examples/c/field.c and law.c, as a user types them: festoon built with a magnet and a friction law
+of one's own. The examples print what test_examples_c.py compares, and the program knows magnet and law.
 
 Environment: SOURCE_DIR is the source tree, BUILD_DIR the build tree.
 """

@@ -1,11 +1,10 @@
-/* A source and a contact law of one's own (own/), in long double: the field is that of two charges, the
- * tangents are derivatives of the equations of motion, and the energy balance closes; nothing in src knows of
- * them. */
+/* A source and a contact law from examples/c/own, in long double: the field is that of two charges, tangents
+ * are derivatives of the equations of motion, and the energy balance closes. No file of src/ knows of them. */
 #include "physics_ld.h"
 
 #include "model/tangent.inl"
 
-/* Own source and own law in turn, alone and together, with every material and both dynamics. */
+/* The own source and the own law, each alone and both together, with every material and both dynamics. */
 enum { OWN_CASES = 3 * 6 };
 static fst_params own_params(int which)
 {
@@ -19,7 +18,7 @@ static fst_params own_params(int which)
     p.own_shift = 0.1;
     p.own_charge = 4.5;
     p.own_grip = 11.0;
-    p.plate_gravity = 1000.0; /* the load is mostly positive in random states */
+    p.plate_gravity = 1000.0; /* so heavy that the load is mostly positive in random states */
     return p;
 }
 
@@ -144,7 +143,7 @@ static long double energy_at(const coefficients_ld *c, const long double *y)
     return fst_energy_long_double(c, y, &pull);
 }
 
-/* Along the motion the energy changes by the drive's power less what the law says that it takes. */
+/* Along the motion the energy changes by the drive's power less the loss that the law states. */
 static void test_energy_balance(void **unused)
 {
     (void)unused;

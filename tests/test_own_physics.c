@@ -1,6 +1,6 @@
-/* A source and a contact law of one's own (own/) by the public ways: chosen by name, run, in lanes with the
- * bits of the scalar form, and as orbits whose derivatives are those of the motion; nothing in src knows of
- * them. */
+/* A source and a contact law from examples/c/own through the public functions: chosen by name, run, computed in
+ * lanes with the bits of the scalar form, and on orbits whose derivatives are those of the motion. No file of
+ * src/ knows of them. */
 #include "physics.h"
 
 #include "lanes/lanes.h"
@@ -35,7 +35,7 @@ static void test_names(void **unused)
     CHECK_CONTAINS(error.sentence, "viscous|none|");
     const fst_param_info *law = fst_param_at(fst_param_find("friction.law"));
     CHECK_CONTAINS(law->names, "viscous|none|");
-    CHECK_CONTAINS(law->names, "|quadratic"); /* after festoon's own, however many there are */
+    CHECK_CONTAINS(law->names, "|quadratic"); /* after festoon's own laws, whatever their number */
     CHECK_CONTAINS(law->doc, "viscous: friction force -m gamma V");
     CHECK_CONTAINS(law->doc, "; quadratic: friction force own.grip N |V| V, with the normal load N.");
     CHECK_CONTAINS(fst_param_at(fst_param_find("magnet.shape"))->names, "lines|");
@@ -44,8 +44,8 @@ static void test_names(void **unused)
 
 /* ------------------------------------------------------------------ a run */
 
-/* Two charges of strength 5 at X = 1 and -1 are a single line of festoon's: the same motion by another source.
- */
+/* Two charges of strength 5 at X = 1 and -1 make a single line of festoon's: the same motion from another
+ * source. */
 static void test_same_magnet_same_motion(void **unused)
 {
     (void)unused;
@@ -62,7 +62,7 @@ static void test_same_magnet_same_motion(void **unused)
     CHECK_CLOSE(greatest_difference(a.final_state, b.final_state, FST_STATE_SIZE), 0.0, 1e-6);
 }
 
-/* What the drive puts in, the law takes out; and the motion does not depend on the tolerance. */
+/* The law takes out what the drive puts in, and the result does not depend on the tolerance. */
 static void test_run(void **unused)
 {
     (void)unused;
@@ -87,7 +87,7 @@ typedef struct store {
     fst_run_result results[JOBS];
 } store;
 
-/* Sources and laws of both kinds among each other, and some whose regime takes an exponent. */
+/* Festoon's own sources and laws mixed with these, including runs whose regime needs an exponent. */
 static fst_params job_params(int i)
 {
     fst_params p = own_bead(0.44 + 0.02 * i);
@@ -190,7 +190,7 @@ static fst_orbit orbit_of(const fst_params *p)
     return orbit;
 }
 
-/* The map of which the multipliers are: over a half turn and S2, or over a whole turn. */
+/* The map whose multipliers the library reports: over half a turn and S2, or over a whole turn. */
 static void return_map(const fst_model *model, const fst_orbit *orbit, const double *start, double *end)
 {
     const int half = orbit->symmetry == FST_SYMMETRY_S2;
@@ -253,7 +253,7 @@ static void check_multipliers(const fst_model *model, const fst_orbit *orbit)
     }
 }
 
-/* What one of Newton's iterations leaves of a guess that is `off` away from the orbit. */
+/* The residual after one of Newton's iterations from a guess at the distance `off`. */
 static double left_by_newton(const fst_params *p, const fst_orbit *orbit, double off)
 {
     static fst_newton_system system;
@@ -294,8 +294,8 @@ static void check_half_turns(const fst_params *p, const fst_orbit *orbit, int ow
                      own_image ? FST_OK : FST_NO_CONVERGENCE);
 }
 
-/* A magnet that is its own image under half a turn, and one that lies off the middle: no orbit over the latter
- * is sought or found by half turns. */
+/* One magnet is its own image under half a turn, the other lies off the middle: over that one no orbit is
+ * sought or found by half turns. */
 static void check_orbit(double shift)
 {
     fst_params p = own_bead(0.5);
@@ -312,7 +312,7 @@ static void check_orbit(double shift)
     CHECK_CLOSE(greatest_difference(end, orbit.state, FST_STATE_SIZE), 0.0, 1e-11);
     check_multipliers(model, &orbit);
     fst_model_free(model);
-    /* Quadratic convergence: a tenth of the distance leaves a hundredth. */
+    /* Quadratic convergence: a guess ten times closer leaves a residual a hundred times smaller. */
     const double far = left_by_newton(&p, &orbit, 1e-2), near = left_by_newton(&p, &orbit, 1e-3);
     assert_true(far < 1e-2 && near > 1e-8);
     CHECK_WITHIN(far / near, 50.0, 200.0);

@@ -1,4 +1,4 @@
-"""`festoon paper`: the comparison with the paper holds, and what it writes is complete and repeatable."""
+"""`festoon paper`: its comparison with the paper holds, and its files are complete and repeatable."""
 
 import html
 import json
@@ -37,7 +37,7 @@ def repeat(command):
 
 
 def read_off(expression, printed):
-    """A number as paper.json tells to read it: an expression in the keys of what the command printed."""
+    """Reads a number as paper.json says: by an expression in the keys of the command's output."""
     return eval(expression, {"__builtins__": {}, "abs": abs, "max": max}, printed)
 
 
@@ -50,7 +50,7 @@ def curve(path, block):
 
 
 class Tags(HTMLParser):
-    """Every tag is closed, in order; what the page loads from elsewhere."""
+    """Checks that every tag is closed, in order, and collects what the page loads from other places."""
     EMPTY = {"meta", "br", "img", "link", "hr", "input"}
 
     def __init__(self):
@@ -113,7 +113,7 @@ class Paper(unittest.TestCase):
 
     # ------------------------------------------------------------ numbers computed otherwise
     def by_hand(self, command, steps=500):
-        """One return of the motion that the command ends with, integrated by tests/bead_by_hand.py."""
+        """One return of the motion at whose end the command arrives, integrated by tests/bead_by_hand.py."""
         result = repeat(command)
         motion = hand.one_return(result["final_state"], result["omega"], result["dynamics"] == "farago2020", steps)
         self.assertLess(motion.open, 1e-6, command)
@@ -123,11 +123,11 @@ class Paper(unittest.TestCase):
         self.assertLess(abs(value - expected), tolerance * max(abs(expected), 1e-2), where)
 
     def test_table1_by_hand(self):
-        """Each row of Table 1: another frame, another method, another way to the means."""
+        """Each row of Table 1 in another frame, by another method, with means taken in another way."""
         for row in self.paper["table1"]:
             for dynamics in ("farago2020", "rigid"):
                 motion = self.by_hand(row[f"{dynamics}_command"])
-                near = (row["omega"], dynamics) == (0.2845, "farago2020")  # settles slowly: close to the halving
+                near = (row["omega"], dynamics) == (0.2845, "farago2020")  # close to the halving: settles slowly
                 self.close_to(row[dynamics], motion.festoons, 2e-4 if near else 1e-6, (row, dynamics))
                 self.assertEqual(row[f"{dynamics}_symmetry"], "S2" if motion.s2 else "S1")
 
@@ -153,7 +153,7 @@ class Paper(unittest.TestCase):
                 self.close_to(self.statement(name)[dynamics], value, tolerance, (name, dynamics))
 
     def test_curves_by_hand(self):
-        """Points of the figures' curves, read from their data."""
+        """Points on the curves of the figures, read from their data, against tests/bead_by_hand.py."""
         command = self.statement("fold15-angle")["command"]
         for omega in (0.25, 0.35, 1.0):
             motion = self.by_hand(command.replace("0.4", str(omega)))
@@ -171,7 +171,7 @@ class Paper(unittest.TestCase):
                 self.close_to(curve(data, "inset1-curve1")[omega], motion.std_r, 1e-5, omega)
 
     def test_the_field_by_hand(self):
-        """Statements about the field and the averages of section 6, from the ten charges."""
+        """Statements about the field and the averages of section VI, from the ten charges."""
         def strongest(length_mm):
             heights = 18.7 / length_mm, 40 / (4 * length_mm)
             charges = [(s, k * heights[1], s) for k in range(-2, 3) for s in (1, -1)]
@@ -204,7 +204,7 @@ class Paper(unittest.TestCase):
         self.assertEqual(self.statement("counter-force")["rigid"], outwards)
 
     def test_against_independent_computations(self):
-        """Numbers of another program, in another language (numpy and a separate integrator), and by hand."""
+        """Numbers from another program, in another language (numpy and a separate integrator), and by hand."""
         expected = {"fold4-festoons": (4.132030109571, None), "fold4-angle": (4.207983150514, None),
                     "fold4-nz": (0.2649200831467, None), "fold15-angle": (3.157395760617, None),
                     "fold15-tilt": (22.19120612678, None), "magint-least": (0.8932067698746, None),
@@ -230,7 +230,8 @@ class Paper(unittest.TestCase):
         self.assertIsNone(self.paper["table1"][2]["rigid_closes_at"])
 
     def test_the_period_halving_is_supercritical(self):
-        """The pitchfork of the orbits is where settled runs lose their asymmetry, as its square root."""
+        """The pitchfork of the orbits lies where settled runs lose their asymmetry, which falls as the root of the
+        distance."""
         self.assertLess(abs(self.statement("halving-root")["rigid"] - 0.5), 0.1)
         self.assertLess(abs(self.statement("halving-time")["farago2020"] + 1), 0.1)
         for dynamics in ("farago2020", "rigid"):
@@ -239,14 +240,16 @@ class Paper(unittest.TestCase):
             self.assertLess(abs(line - self.statement("halving")[dynamics]), 2e-3)
 
     def test_what_the_printed_equations_get_wrong(self):
-        """The dropped n_r turns the sign of the magnetic term; the field varies by more than 13 %; the weight alone is too light by an order."""
+        """The n_r that the paper drops reverses the sign of the magnetic term; the field varies by more than 13 %;
+        the bead's weight alone is too small by an order of magnitude."""
         for name in ("magnetic-term", "corotation-force", "fold4-field"):
             self.assertEqual(self.statement(name)["verdict"], "not reproduced", self.statement(name))
         self.assertLess(self.statement("dry-weight")["rigid"], 0.1 * self.statement("dry-pull")["rigid"])
         self.assertEqual(self.statement("dry-pull")["verdict"], "reproduced")
 
     def test_paramagnetic_beads_by_both_dynamics(self):
-        """Each column has its own motions; the identity carried on needs the term that the printed equations lack."""
+        """Each dynamics has motions of its own; the identity beyond the paper needs the term that the printed
+        equations lack."""
         for name in ("rolling-identity", "tondu", "splitting"):
             self.assertNotEqual(self.statement(name)["farago2020"], self.statement(name)["rigid"])
         identity = self.statement("rolling-identity")
@@ -258,8 +261,8 @@ class Paper(unittest.TestCase):
         self.assertLess(self.statement("energy")["farago2020"], 1e-6)
 
     def test_corotation_ends_where_the_locked_state_does(self):
-        """By the eigenvalues: a state stable a thousandth of a hertz below, none above.  And the swings about it end
-        where the orbit passes the axis."""
+        """By eigenvalues: a state is stable a thousandth of a hertz below, and none above. The swings about it end
+        where their orbit passes the axis."""
         gamma = 312.5
         for dynamics, known, crossing in (("farago2020", 7.6389, "8.9152"), ("rigid", 7.5915, "8.8973")):
             statement = self.statement("corotation")
@@ -295,7 +298,7 @@ class Paper(unittest.TestCase):
     # ------------------------------------------------------------ what is written
 
     def test_the_list_in_the_documentation(self):
-        """docs/paper.md has the list that the program makes, line by line and nothing else."""
+        """docs/paper.md has the list of `festoon paper --statements`, line by line and nothing else."""
         done = run("paper", "--statements")
         self.assertEqual(done.returncode, 0, done.stderr)
         page = (Path(os.environ["SOURCE_DIR"]) / "docs" / "paper.md").read_text()
@@ -306,7 +309,7 @@ class Paper(unittest.TestCase):
         self.assertEqual([row.split(" | ")[1] for row in rows], [s["statement"] for s in self.paper["statements"]])
 
     def test_verdicts_follow_their_rules(self):
-        """Each verdict, made again by the rules of docs/paper.md from value, published value and scale alone."""
+        """Each verdict, decided again by the rules of docs/paper.md from value, published value and scale alone."""
         def rule(name, value, published, scale):
             if name in ("never", "symmetry"):
                 return "reproduced" if value == published else "not reproduced"
@@ -332,14 +335,14 @@ class Paper(unittest.TestCase):
                 self.assertEqual(statement[key], expected, statement)
                 met.add((name, expected))
         self.assertGreater(len(met), 15)
-        # The natural scale is no matter of choice: one unit of the last digit, or what the unit says.
+        # The natural scale is no free choice: it is one unit of the last digit, or follows from the unit.
         for statement in self.paper["statements"]:
             if re.match("small|notable|mostly", statement["criterion"]):
                 usual = {"%": 100, "deg": 90}.get(statement["unit"], max(abs(statement["published"] or 0), 0.5) or 1)
                 self.assertIn(statement["scale"], (usual, 1), statement)
 
     def test_without_lapack(self):
-        """A sentence stands for what needs the orbits, and the rest of the paper is there."""
+        """Without LAPACK a sentence stands for every number that needs orbits, and the rest of the paper is there."""
         program = Path(FESTOON)
         alone = Path(self.scratch.name) / "alone"
         alone.mkdir()
@@ -394,7 +397,7 @@ class Paper(unittest.TestCase):
             self.assertIn(figure["verdict"], VERDICTS | {None})
 
     def test_a_figure_has_the_worst_verdict_of_what_it_shows(self):
-        """Among it what fails: it is not left out of the list."""
+        """A figure has the worst verdict of its statements, failed ones included."""
         order = ["reproduced", "close", "not reproduced"]
         shows = {"evolution": ("friction", "spin-term", "magnetic-term", "asymptotic-hz"),
                  "magint": ("magint-least", "magint-field", "magint-aligned", "magint-across", "force-ends", "pull-weakens"),
@@ -411,7 +414,7 @@ class Paper(unittest.TestCase):
         self.assertEqual(endings - {".mp4"}, {".svg", ".gp", ".dat", ".json", ".html"})
 
     def test_films(self):
-        """The supplement's two, named where they are and nowhere else."""
+        """The supplement's two films are named in their places and nowhere else."""
         self.assertEqual(self.paper["films"], ["film_0215.mp4", "film_04.mp4"] if self.films else [])
         self.assertEqual(sorted(path.name for path in self.directory.glob("*.mp4")), self.paper["films"])
         for name in self.paper["films"]:
@@ -419,7 +422,7 @@ class Paper(unittest.TestCase):
             self.assertIn(name, self.report)
 
     def test_the_report_needs_nothing_else(self):
-        """Well-formed, every name there once, nothing loaded from elsewhere."""
+        """The page is well-formed, every name occurs once, and nothing is loaded from other places."""
         page = Tags()
         page.feed(self.report)
         self.assertEqual((page.open, page.faults), ([], []))

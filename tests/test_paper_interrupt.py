@@ -1,4 +1,4 @@
-"""`festoon paper` cut short, watched on a terminal, and pointed at places where it cannot write."""
+"""`festoon paper` interrupted, watched on a terminal, and sent to places where it cannot write."""
 
 import json
 import os
@@ -41,7 +41,8 @@ class Interrupted(unittest.TestCase):
         cls.scratch.cleanup()
 
     def check_what_is_there(self, directory, fewest):
-        """Valid JSON that says so, a whole page, every figure named is there, and every number is the whole's."""
+        """What remains is valid JSON that says that it is incomplete, a whole page, every figure that is named, and
+        numbers equal to those of the whole paper."""
         paper = json.loads((directory / "paper.json").read_text())
         self.assertFalse(paper["complete"])
         page = (directory / "report.html").read_text()
@@ -58,7 +59,7 @@ class Interrupted(unittest.TestCase):
         return paper
 
     def cut_short(self, name, moment, signals=1):
-        """Interrupt it when the folder satisfies `moment`; where it was over before that was seen, once more."""
+        """Interrupts it when `moment` holds for the folder; if it was over before, it is tried once more."""
         directory = self.folder / name
 
         def blow(_):
@@ -83,12 +84,12 @@ class Interrupted(unittest.TestCase):
         self.check_what_is_there(directory, 0)
 
     def test_two_signals_at_once_are_one_interruption(self):
-        """As `timeout -s INT` sends them, to the process and to its group."""
+        """Two signals as `timeout -s INT` sends them: to the process and to its group."""
         directory = self.cut_short("twice", lambda d: (d / "sketch.svg").exists(), signals=2)
         self.check_what_is_there(directory, 20)
 
     def test_within_a_long_piece(self):
-        """One number, whose pieces last long: the work ends with the signal, not with the piece."""
+        """A single number whose pieces of work last long: the work ends with the signal, not at the end of a piece."""
         words = [FESTOON, "paper", "--only", "remanence"]
         before = os.times()
         subprocess.run(words, stdout=subprocess.DEVNULL, check=True)
@@ -115,7 +116,7 @@ class Interrupted(unittest.TestCase):
         directory = self.cut_short("after", lambda d: (d / "om04-rigid.svg").exists() and (d / "test.svg").exists())
         paper = self.check_what_is_there(directory, 40)
         self.assertTrue(any(figure["name"] == "om04-rigid" for figure in paper["figures"]))
-        # The same command makes the whole of it, over what is there.
+        # The same command makes the whole paper, over what is there.
         again = start(directory)
         _, messages = again.communicate()
         self.assertEqual(again.returncode, 0, messages)
@@ -130,7 +131,8 @@ class Interrupted(unittest.TestCase):
         self.assertEqual(sorted(p.name for p in directory.iterdir()), sorted(p.name for p in self.directory.iterdir()))
 
     def test_progress_and_ctrl_c_on_a_terminal(self):
-        """A line with the share done and the time left; Ctrl-C reaches gnuplot as well, and is an interruption."""
+        """The progress line shows the share done and the time left. Ctrl-C reaches gnuplot as well, and counts as an
+        interruption."""
         for name, until in (("runs", r"s left +runs"), ("drawing", r"s left +figures")):
             directory = self.folder / f"terminal-{name}"
             found = None
@@ -163,7 +165,7 @@ class Directories(unittest.TestCase):
         self.assertIn(words, messages)
 
     def test_a_file(self):
-        """A file is no directory, nor has it one; it stays as it is."""
+        """A file is no directory, and neither is a place inside it; the file stays as it was."""
         path = self.folder / "a file"
         path.write_text("kept")
         self.fails(path, 2, "a file")
@@ -174,7 +176,7 @@ class Directories(unittest.TestCase):
         self.fails(self.folder / "no" / "such", 1, "such")
 
     def test_not_writable(self):
-        """Told in a sentence before anything is computed, and nothing is left there."""
+        """A sentence says so before anything is computed, and nothing is left there."""
         path = Path("/proc/self") if os.geteuid() == 0 else self.folder / "closed"
         if os.geteuid() != 0:
             path.mkdir(mode=0o555)

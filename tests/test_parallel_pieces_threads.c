@@ -1,5 +1,5 @@
-/* Pieces of work side by side: they are at work at the same time, of two that fail the first one in their order
- * is told, and a process that was given one processor has one thread at work. */
+/* Pieces of work side by side: they are at work at the same time, the first error in their order is the one
+ * reported, and a process with one processor has one thread at work. */
 #define _GNU_SOURCE /* sched_setaffinity() */
 #include "numeric.h"
 
@@ -17,13 +17,13 @@ typedef struct meeting {
     int here, met, first_is_over;
 } meeting;
 
-/* Wait until both pieces are at work; 0 if the other one does not come. */
+/* Waits until both pieces are at work; 0 if the other one does not come. */
 static int meet(meeting *m)
 {
     struct timespec until;
     int patient = 1;
     (void)clock_gettime(CLOCK_REALTIME, &until);
-    until.tv_sec += 60; /* only where they never meet */
+    until.tv_sec += 60; /* ends the test only if they never meet */
     pthread_mutex_lock(&m->lock);
     m->here += 1;
     m->met = m->met || m->here == 2;
@@ -93,10 +93,10 @@ static void the_first_failure_is_told(void **state)
 
 typedef struct company {
     pthread_mutex_t lock;
-    int here, most; /* pieces at work now, and at any time */
+    int here, most; /* pieces at work now; the most at any time */
 } company;
 
-/* Long enough for another thread to come. */
+/* Time for another thread to come. */
 static fst_status piece_that_counts(void *user, int index, fst_error *error)
 {
     company *c = user;

@@ -13,9 +13,9 @@ enum { PIECES = 500 };
 
 typedef struct job {
     int results[PIECES];
-    int fails_from; /* pieces from this one on fail */
-    int told;       /* the greatest number of pieces that progress was told */
-    int patience;   /* progress ends the work after as many */
+    int fails_from; /* this piece and all later ones fail */
+    int told;       /* the greatest number of finished pieces that was reported */
+    int patience;   /* progress ends the work after so many pieces */
 } job;
 
 static fst_status square(void *user, int index, fst_error *error)

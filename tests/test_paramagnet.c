@@ -131,7 +131,7 @@ static void the_identities_hold_with_their_ends(void **unused)
         for (int i = 0; i < FST_BALANCE_COUNT; i++)
             assert_near(fst_balance_residual(&balances.of[i]), 0.0, 5e-12);
         assert_true(balances.of[FST_BALANCE_MOMENT].friction > 0.0); /* Eq. (17) */
-        /* The run's own quadrature of the same power, over a window of whole drive periods or returns. */
+        /* The same power as fst_run() integrates it, over whole drive periods or returns. */
         fst_run_result result;
         fst_run_options options = fst_default_run_options();
         params.run_periods = 50.0;
@@ -142,8 +142,8 @@ static void the_identities_hold_with_their_ends(void **unused)
     }
 }
 
-/* The centre's equations are the same in both dynamics, and the term psi' n x n' of dW/dt that the printed ones
- * lack does no work: three identities hold. The fourth needs all of dW/dt. */
+/* The equations of the centre are the same in both dynamics, and the term psi' n x n' that the printed dW/dt
+ * lacks does no work: so three identities hold in both. The fourth needs the whole of dW/dt. */
 static void with_the_printed_equations_three_identities_hold(void **unused)
 {
     (void)unused;
@@ -190,14 +190,16 @@ static void remanence_lets_a_bead_counter_rotate(void **unused)
     assert_int_not_equal(fate, FST_FATE_COUNTER);
 }
 
-/* Counter-rotation comes and goes with kappa: a bisection from 1.5 down ends at 0.0298, above values that do as
- * well.  What the scan finds is what docs/paper.md prints. */
+/* Counter-rotation comes and goes with kappa: a bisection from 1.5 down ends at 0.0298, although smaller values
+ * exist. docs/paper.md prints the least value that the scan finds. */
 static void the_least_kappa_is_below_what_a_bisection_finds(void **unused)
 {
     (void)unused;
     static const struct {
         double a, bisected;
-    } cases[] = {{1.4e-3, 0.0110}, {2.6e-3, 0.0175}, {3e-3, 0.039}}; /* the first: below, irregular motions */
+    } cases[] = {{1.4e-3, 0.0110},
+                 {2.6e-3, 0.0175},
+                 {3e-3, 0.039}}; /* in the first case the motions below are irregular */
     char *text = page("docs/paper.md");
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         fst_params params = bead(FST_MATERIAL_MIXED, 0.0, cases[i].a, 0.0);
@@ -207,7 +209,7 @@ static void the_least_kappa_is_below_what_a_bisection_finds(void **unused)
         fst_least_found least;
         assert_int_equal(fst_least_kappa(&params, &fst_remanence_scan, &least, NULL), FST_OK);
         assert_true(least.kappa <= cases[i].bisected * 1.03);
-        assert_true(least.kappa / least.below < 1.03); /* as finely as the scan promises */
+        assert_true(least.kappa / least.below < 1.03); /* the bracket is as narrow as the scan promises */
         char row[64];
         (void)snprintf(row, sizeof row, "| %.1fe-3 | %.4f |", 1e3 * cases[i].a, least.kappa);
         if (!strstr(text, row))

@@ -45,10 +45,11 @@ static void thousands_of_starts_do_not_counter_rotate(void **unused)
     print_message("with %d, standing %d, away %d; %d against the magnet at first, the last for %.0f periods\n",
                   fates[FST_FATE_WITH], fates[FST_FATE_STANDING], fates[FST_FATE_AWAY], at_first, longest);
     assert_int_equal(fates[FST_FATE_COUNTER], 0);
-    assert_true(at_first > 50); /* the search does meet beads that begin so */
+    assert_true(at_first > 50); /* the search must meet beads that circle against the magnet at first */
 }
 
-/* Drive periods until the bead of strength a, rolling against the magnet at the start, no longer does. */
+/* Drive periods after which a bead of strength a, rolling against the magnet at the start, has stopped doing
+ * so. */
 static double periods_until_turned(double a)
 {
     fst_params params = fst_default_params();
@@ -60,7 +61,8 @@ static double periods_until_turned(double a)
     params.start_phi = 10.0;
     params.run_rtol = 1e-8;
     double low = 0.0, high = 64000.0;
-    for (int i = 0; i < 7; i++) { /* the mean over the second half changes its sign after the bead has */
+    for (int i = 0; i < 7;
+         i++) { /* the mean over the second half of a run changes its sign later than the bead */
         double middle = low > 0.0 ? sqrt(low * high) : high / 64.0, speed;
         fst_fate fate;
         assert_int_equal(fst_fate_of(&params, middle, &fate, &speed, NULL), FST_OK);
@@ -76,7 +78,7 @@ static void weak_beads_turn_later_but_turn(void **unused)
     double strong = periods_until_turned(1e-4), middle = periods_until_turned(4e-5),
            weak = periods_until_turned(1.6e-5);
     print_message("turned after %.0f, %.0f, %.0f periods at a = 1e-4, 4e-5, 1.6e-5\n", strong, middle, weak);
-    /* Between a^-1 (a force on the rolling bead) and a^-2 (the work that friction can do). */
+    /* The exponent lies between a^-1 (a force on the rolling bead) and a^-2 (the work that friction can do). */
     assert_true(middle / strong > 2.5 && middle / strong < 6.25);
     assert_true(weak / middle > 2.5 && weak / middle < 6.25);
 }

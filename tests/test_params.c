@@ -33,7 +33,7 @@ static void table_is_consistent(void **state)
     assert_int_equal(fst_param_find("bead"), -1);
 }
 
-/* Units: the header says what each kind accepts. */
+/* Each kind of quantity accepts the units that the header lists for it. */
 static void units_are_read(void **state)
 {
     (void)state;
@@ -108,7 +108,7 @@ static void wrong_values_are_refused(void **state)
     assert_int_equal(fst_parse_value(digits, FST_UNIT_NUMBER, &value, NULL), FST_BAD_INPUT);
 }
 
-/* What is written reads back with the same bits, for awkward numbers too. */
+/* Values that are written read back with the same bits, awkward numbers included. */
 static void values_survive_writing(void **state)
 {
     (void)state;
@@ -170,7 +170,7 @@ static void set(fst_params *params, const char *key, const char *value)
         fail_msg("%s = %s: %s", key, value, error.sentence);
 }
 
-/* Setting one form of a quantity takes back the other. */
+/* Setting one form of a quantity removes the other. */
 static void forms_replace_each_other(void **state)
 {
     (void)state;
@@ -253,7 +253,7 @@ static void structs_are_validated(void **state)
     assert_int_equal(fst_params_set(&params, "bead.radius", "1 mm", &error), FST_BAD_INPUT);
 }
 
-/* Each status has a text of its own: a row of a sweep that failed must not read like one that is done. */
+/* Each status has a text of its own, so that a failed row of a sweep cannot be taken for a finished one. */
 static void statuses_have_texts(void **state)
 {
     (void)state;
@@ -283,7 +283,7 @@ static void nearest_names(void **state)
     assert_string_equal(nearest, "fi");
 }
 
-/* In a locale with decimal commas numbers look the same, and the locale stays as it was. */
+/* In a locale with decimal commas numbers are written the same way, and the locale is left as it was. */
 static void locale_does_not_matter(void **state)
 {
     (void)state;
@@ -320,7 +320,7 @@ static void dynamics_have_names(void **state)
     assert_string_equal(fst_dynamics_name((fst_dynamics)2), "unknown");
 }
 
-/* A strength that the bead's material does not use is refused by whoever asks the library. */
+/* The library itself refuses a strength that the bead's material does not use. */
 static void values_without_effect(void **state)
 {
     (void)state;
@@ -343,7 +343,7 @@ static void values_without_effect(void **state)
     }
 }
 
-/* Why a text is no value is a number too; the units are named once, whatever the fault. */
+/* A number says why a text is no value; the sentence lists the units once, whatever the fault. */
 static void faults_of_values(void **state)
 {
     (void)state;

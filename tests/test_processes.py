@@ -1,5 +1,4 @@
-"""The programs that festoon starts: with which signals, and what becomes of what they leave behind when they fail.
-gnuplot and ffmpeg are stood in for by scripts.
+"""The programs that festoon starts: the signals that they inherit, and their leftovers when they fail.
 
 Environment: FESTOON is the program.
 """
@@ -22,32 +21,32 @@ class Processes(Case):
         self.good("run", *RUN, "-o", self.path("t.csv"))
 
     def pretend(self, name, *lines):
-        """A program of this name that does what the lines of a shell script say."""
+        """Makes a program of this name that does what the lines of a shell script say."""
         path = os.path.join(self.tools, name)
         with open(path, "w", encoding="utf-8") as file:
             file.write("\n".join(("#!/bin/sh", *lines)) + "\n")
         os.chmod(path, 0o755)
 
     def festoon(self, *words):
-        """Status and complaints of the program, which finds the pretended ones first."""
+        """Status and messages of festoon, which finds the pretended programs first."""
         environment = {**os.environ, "PATH": self.tools + os.pathsep + os.environ["PATH"]}
         done = subprocess.run([FESTOON, *words], env=environment, stdin=subprocess.DEVNULL, capture_output=True,
                               text=True, timeout=300, check=False)
         return done.returncode, done.stderr
 
     def leftovers(self):
-        """Names of temporary files."""
+        """The names of temporary files in the folder."""
         return [name for name in os.listdir(self.directory) if ".part" in name]
 
     def test_no_signal_is_ignored_or_blocked(self):
-        """festoon itself ignores SIGPIPE: what it starts must not, or it would write on into nothing."""
+        """festoon ignores SIGPIPE, but a program that it starts must not: it would go on writing to nobody."""
         for name, words in (("gnuplot", ("plot", self.path("t.csv"), "-o", self.path("f.svg"))),
                             ("ffmpeg", ("movie", self.path("t.csv"), "-o", self.path("f.mp4")))):
             noted = self.path(name + ".signals")
             self.pretend(name, f"grep -E 'SigIgn|SigBlk' /proc/self/status > {noted}", "cat > /dev/null", "exit 1")
             status, words = self.festoon(*words)
             if not os.path.exists(noted):
-                self.assertIn("cannot paint films", words)  # built without Cairo
+                self.assertIn("cannot paint films", words)  # this build has no Cairo
                 continue
             self.assertEqual(status, 1, words)
             for line in content_of(noted, "r").splitlines():
@@ -70,7 +69,7 @@ class Processes(Case):
         self.assertEqual(self.leftovers(), [])
 
     def test_a_figure_that_failed(self):
-        """The same of gnuplot."""
+        """The same for gnuplot."""
         self.pretend("gnuplot", "echo 'line 3: undefined' >&2", "exit 1")
         with open(self.path("f.svg"), "w", encoding="utf-8") as file:
             file.write("old")
@@ -81,7 +80,8 @@ class Processes(Case):
         self.assertEqual(self.leftovers(), [])
 
     def test_a_caller_without_streams(self):
-        """The pipes to gnuplot take no place of a stream that the caller closed: the figure is drawn."""
+        """A pipe to gnuplot must not take the number of a standard stream that the caller closed: the figure is
+        drawn."""
         for closed in (">&-", "<&- >&- 2>&-"):
             with self.subTest(closed=closed):
                 figure = self.path("f.svg")

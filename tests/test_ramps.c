@@ -1,4 +1,4 @@
-/* Slow ramps of the drive: what their pieces show, and how they wait for the motion to settle. */
+/* Slow ramps of the drive: what each piece shows, and how a ramp waits for the motion to settle. */
 #include "physics.h"
 
 enum { PIECES = 12 };
@@ -40,15 +40,15 @@ static fst_run_result run_ramp(double from, double to, double periods, ramp *r)
     return run_ramp_waiting(from, to, periods, fst_default_run_options().ramp_wait, r);
 }
 
-/* A slow ramp through counter-rotation, where there is one attractor up to its conjugate: each piece shows what
- * a run at its drive shows, up and down alike. */
+/* A slow ramp through counter-rotation, where one attractor exists (besides its conjugate): each piece has the
+ * means of a run at its drive, upwards and downwards. */
 static void test_ramp_up_and_down(void **unused)
 {
     (void)unused;
     ramp up, down;
     const fst_run_result end = run_ramp(0.32, 0.44, 1000, &up);
     CHECK_CLOSE(end.omega, 0.44, 1e-12);
-    assert_true(end.periods > 1000); /* with what it waited */
+    assert_true(end.periods > 1000); /* including the periods spent waiting */
     CHECK_CLOSE(run_ramp(0.44, 0.32, 1000, &down).omega, 0.32, 1e-12);
     assert_int_equal(up.count, PIECES);
     assert_int_equal(down.count, PIECES);
@@ -70,7 +70,8 @@ static void test_ramp_up_and_down(void **unused)
     }
 }
 
-/* A ramp that goes nowhere is a run at its drive: the bits of the motion, and its means in the pieces. */
+/* A ramp from a drive to the same drive is a run at that drive: the bits of the motion, and the means of each
+ * piece. */
 static void test_ramp_at_constant_drive(void **unused)
 {
     (void)unused;
@@ -103,7 +104,7 @@ static void test_ramp_through_the_transition(void **unused)
     CHECK_WITHIN(down.points[0].mean_alpha_dot, -0.07, -0.05);
 }
 
-/* Two half returns in a piece: no whole return to take means over, and no division by no time. */
+/* A piece with two half returns holds no whole return to take means over, and must not divide by zero. */
 static void test_ramp_in_short_pieces(void **unused)
 {
     (void)unused;
@@ -133,8 +134,8 @@ static void test_ramp_in_short_pieces(void **unused)
     }
 }
 
-/* The ramp waits where the symmetric orbit loses its stability: <n_z> leaves zero, and comes back to it, within
- * a piece and a half of the period halving, and has the branch's value from there on. */
+/* The ramp waits where the symmetric orbit loses its stability: <n_z> departs from zero, and returns to it,
+ * within a piece and a half of the period halving, and beyond has the value of the branch. */
 static void test_ramp_through_the_period_halving(void **unused)
 {
     (void)unused;
@@ -174,8 +175,8 @@ static void test_ramp_through_the_period_halving(void **unused)
         }
 }
 
-/* On a steady ramp the settled orbits of a waiting one lag behind, and the angle of the drive is the integral
- * of its rate all the same. */
+/* A steady ramp lags behind the settled orbits of a waiting one; on both, the drive's angle is the integral of
+ * its rate. */
 static void test_steady_ramp(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* Every threshold by which a regime is decided, with a case just on either side of it.  The runs are made up:
- * their marks hold what a run would have left, so that one number at a time decides. */
+/* Every threshold by which a regime is decided, with a case just on either side. The runs are made up: their
+ * marks hold what a real run would have left, so that one number at a time decides. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -7,24 +7,24 @@
 #include "study/drift.h"
 #include "study/regime.h"
 
-enum { BLOCKS = FST_MARKS - 1 }; /* as many as are kept of a long run */
+enum { BLOCKS = FST_MARKS - 1 }; /* as many as a long run keeps */
 
 /* What a made-up run looks like.  The beginning is a librating or a turning bead with nothing special. */
 typedef struct made_up {
     int turns, crossings, blocks;
-    double rtol, speed_at_end, activity[2]; /* in the halves of the window */
+    double rtol, speed_at_end, activity[2]; /* activity in both halves of the window */
     double phi_range;
     double half[2], full[2]; /* distances of returns: in the middle of the window, at its end */
     double alpha_dot, alpha_dot_error;
     double growth;     /* exponent times duration */
     double chance;     /* the part of the exponent's error that is chance, times duration */
-    double r_rise;     /* of <r> over the blocks, as a line */
-    double r_scatter;  /* and back and forth from block to block */
-    double r_slow;     /* and as a slow swing of two cycles */
-    double alpha_rise; /* of <alpha'> of a turning bead over the blocks, as a line */
+    double r_rise;     /* steady rise of <r> over the blocks */
+    double r_scatter;  /* alternating part of <r> from block to block */
+    double r_slow;     /* slow swing of <r>, two cycles in the window */
+    double alpha_rise; /* steady rise of <alpha'> over the blocks, for a turning bead */
     double swing[2];   /* delta r in the first block and in the last */
     int without_friction;
-    int64_t periods;         /* whole drive periods offered, if not as many as there are blocks */
+    int64_t periods;         /* number of whole drive periods, if it differs from the number of blocks */
     double full_before_last; /* the full distance of the mark before the last, if not 0 */
     double kappa;
 } made_up;
@@ -127,7 +127,7 @@ static void expect(const made_up *m, fst_regime regime, const char *why)
                  why);
 }
 
-/* One member of a made-up run below and above a threshold. */
+/* Checks the regimes with one member of a made-up run just below and just above a threshold. */
 #define EITHER_SIDE(base, member, below, regime_below, why_below, above, regime_above, why_above)              \
     do {                                                                                                       \
         made_up either = (base);                                                                               \
@@ -161,8 +161,8 @@ static void set_activity(made_up *m, double early, double late)
     m->activity[1] = late;
 }
 
-/* Slower than 100 run.rtol is the integrator's noise; where a strong magnet keeps the place, slower than what
- * its torque makes of an error of n of 50 run.rtol. */
+/* Motion slower than 100 run.rtol is the integrator's noise. If a strong magnet holds the bead in place, so is
+ * motion slower than what its torque makes of an error in n of 50 run.rtol. */
 static void test_noise(void **unused)
 {
     (void)unused;
@@ -189,7 +189,7 @@ static void test_noise(void **unused)
     set_activity(&m, 0.95 * floor_of_torque, 0.95 * floor_of_torque);
     m.phi_range = 1.05e-9;
     expect(&m, FST_REGIME_LIBRATING, "die out");
-    /* at a looser tolerance the place itself is noisier */
+    /* at a looser tolerance the place of the bead is noisier too */
     m.rtol = 1e-6;
     set_activity(&m, 0.95e4 * floor_of_torque, 0.95e4 * floor_of_torque);
     EITHER_SIDE(m, phi_range, 0.95e-6, FST_REGIME_LOCKED, "noise", 1.05e-6, FST_REGIME_LIBRATING, "die out");
@@ -273,7 +273,7 @@ static void test_growth(void **unused)
                 "cannot be told");
 }
 
-/* However much neighbours part, it is chaos only if it stands out of chance by three of its errors. */
+/* However much neighbours part, it is chaos only if the exponent exceeds three of its chance errors. */
 static void test_significant(void **unused)
 {
     (void)unused;
@@ -285,8 +285,8 @@ static void test_significant(void **unused)
     EITHER_SIDE(m, growth, 29.5, FST_REGIME_UNDECIDED, "cannot be told", 30.5, FST_REGIME_CHAOTIC, "positive");
 }
 
-/* A rise of <r> of 1e-4 is none; a larger one is, if it stands out of the scatter by 5 standard errors: of a
- * line through 32 values that go up and down by s, the change over all of them has the error s sqrt(12/30)
+/* A rise of <r> below 1e-4 is no drift; a larger one is, if it exceeds 5 standard errors of the scatter. For a
+ * line through 32 values that alternate by s, the change over all of them has the error s sqrt(12/30)
  * 32/sqrt(32^2 - 1). */
 static void test_drift(void **unused)
 {
@@ -301,12 +301,13 @@ static void test_drift(void **unused)
     /* <alpha'> may change by 1e-4 of the drive */
     EITHER_SIDE(TURNING, alpha_rise, 0.9 * 0.3e-4, FST_REGIME_COUNTER_ROTATING, "does not close", 1.1 * 0.3e-4,
                 FST_REGIME_UNDECIDED, "still drifts: <alpha'>");
-    /* a closed orbit does not drift any less for being closed */
+    /* a closed orbit can drift as well */
     m = TURNING;
     m.half[0] = m.half[1] = 1e-9;
     EITHER_SIDE(m, r_rise, 0.9e-4, FST_REGIME_COUNTER_ROTATING, "S2", 1.1e-4, FST_REGIME_UNDECIDED,
                 "still drifts: <r>");
-    /* of a bounded motion whole drive periods cut the swing anywhere: a tenth of it counts for nothing */
+    /* in a bounded motion the means over whole drive periods contain a changing part of the swing: a tenth of
+     * the swing is no drift */
     EITHER_SIDE(LIBRATING, r_rise, 0.9e-2, FST_REGIME_LIBRATING, "die out", 1.1e-2, FST_REGIME_UNDECIDED,
                 "still drifts: <r>");
     m = LIBRATING;
@@ -314,13 +315,13 @@ static void test_drift(void **unused)
     m.swing[0] = 1e-4;
     EITHER_SIDE(m, swing[1], 0.915e-4, FST_REGIME_LIBRATING, "die out", 0.895e-4, FST_REGIME_UNDECIDED,
                 "delta r changed");
-    /* a swing of 1e-7 of <r> is rounding, which nothing can be said of */
+    /* a swing of 1e-7 of <r> is rounding, and allows no conclusion */
     m.swing[0] = 1.0e-7;
     EITHER_SIDE(m, swing[1], 0.82e-7, FST_REGIME_LIBRATING, "die out", 1.3e-7, FST_REGIME_UNDECIDED,
                 "delta r changed");
 }
 
-/* Without friction a wide libration must be seen for longer. */
+/* Without friction a wide libration must be observed for longer. */
 static void test_wide_without_friction(void **unused)
 {
     (void)unused;
@@ -337,7 +338,7 @@ static void test_wide_without_friction(void **unused)
     EITHER_SIDE(m, periods, 100, FST_REGIME_UNDECIDED, "nothing damps", 101, FST_REGIME_LIBRATING, "die out");
 }
 
-/* A single close return is no closing orbit. */
+/* A single close return does not make a closing orbit. */
 static void test_chance_return(void **unused)
 {
     (void)unused;
@@ -349,10 +350,10 @@ static void test_chance_return(void **unused)
     expect(&m, FST_REGIME_COUNTER_ROTATING, "does not close");
 }
 
-/* s sin over two cycles: the line through it changes by 3 s/pi, which takes 6/(4 pi^2) of its variance away;
- * what is left changes its sign 5 times, and hides a drift of 12 sqrt(2)/pi * 0.92 s/sqrt(2)/6.  Both
- * together, 1.54 s, are more than 2 % of <r> from s = 0.013 on.  A line that changes as much counts by itself
- * too, where the scatter explains it. */
+/* For s sin over two cycles, the line through it changes by 3 s/pi, which removes 6/(4 pi^2) of the variance.
+ * The rest changes its sign 5 times, and hides a drift of 12 sqrt(2)/pi * 0.92 s/sqrt(2)/6. Both together, 1.54
+ * s, exceed 2 % of <r> for s above 0.013. A line that changes as much counts by itself as well, even if the
+ * scatter could explain it. */
 static void test_hidden_drift(void **unused)
 {
     (void)unused;

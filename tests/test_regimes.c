@@ -1,5 +1,4 @@
-/* What kind of motion a run is said to have reached: right where the evidence is there, and never a guess where
- * it is not. */
+/* The regime of a run: right if the evidence is there, and never a guess. */
 #include "physics.h"
 
 static void expect_regime(const fst_run_result *r, fst_regime expected)
@@ -49,7 +48,7 @@ static void test_locked(void **unused)
     }
 }
 
-/* At low drive the field holds the bead from rest as well as from rolling. */
+/* At low drive the field holds the bead, whether it starts at rest or rolling. */
 static void test_locked_from_rest(void **unused)
 {
     (void)unused;
@@ -66,7 +65,8 @@ static void test_locked_from_rest(void **unused)
     }
 }
 
-/* A bead in a strong magnet: the model's kappa, or where that has no such number a moment and a field. */
+/* A bead over a strong magnet, given by the model's kappa, or by a moment and a field where kappa would be too
+ * large. */
 static fst_params strong_magnet(double kappa, fst_dynamics dynamics)
 {
     fst_params p = bead_at(4.0, dynamics);
@@ -92,8 +92,8 @@ static fst_run_result run_from(const fst_params *p, const double *start)
     return result;
 }
 
-/* What a strong magnet makes of the integrator's errors is no motion, whatever its strength and the tolerance:
- * each run from 1e4 on starts where a magnet a tenth as strong holds the bead. */
+/* A strong magnet amplifies the integrator's errors. They are no motion, whatever its strength and the
+ * tolerance: each run with kappa from 1e4 on starts where a magnet a tenth as strong holds the bead. */
 static void test_locked_by_any_strong_magnet(void **unused)
 {
     (void)unused;
@@ -113,8 +113,8 @@ static void test_locked_by_any_strong_magnet(void **unused)
         }
 }
 
-/* A small true libration is one all the same: nothing damps a bead that was turned a little out of its place,
- * or its moment out of the field, on a plate without friction. */
+/* A small true libration is called one. Nothing damps it here: the plate has no friction, and the bead is
+ * turned slightly out of its place, or its moment out of the field. */
 static void test_small_librations(void **unused)
 {
     (void)unused;
@@ -145,7 +145,7 @@ static void test_small_librations(void **unused)
         }
 }
 
-/* Phi bounded for good, but not at rest. */
+/* Phi stays bounded, but the bead is not at rest. */
 static void test_librating(void **unused)
 {
     (void)unused;
@@ -164,7 +164,7 @@ static void test_librating(void **unused)
         }
 }
 
-/* Frictionless motion is conservative, and this start lies in its chaos: neighbours part exponentially. */
+/* Frictionless motion is conservative, and this start leads to chaos: neighbours part exponentially. */
 static void test_chaotic(void **unused)
 {
     (void)unused;
@@ -175,9 +175,10 @@ static void test_chaotic(void **unused)
     p.run_discard = 100;
     const fst_run_result r = run_of(&p);
     expect_regime(&r, FST_REGIME_CHAOTIC);
-    /* The rate differs between the parts of the window, which widens the error; it is positive in all. */
+    /* The growth rate differs between parts of the window, which widens the error, but is positive in all of
+     * them. */
     assert_true(r.largest_exponent > 1.5 * r.largest_exponent_error);
-    /* two trajectories a billionth apart at the start */
+    /* two trajectories that start a billionth apart */
     fst_model *model = model_of(&p);
     double start[FST_STATE_SIZE], a[FST_STATE_SIZE], b[FST_STATE_SIZE];
     start_of(&p, model, start);
@@ -189,7 +190,7 @@ static void test_chaotic(void **unused)
     fst_model_free(model);
 }
 
-/* Over the edge: the status says when, and it is then that r = 10. */
+/* A bead that goes over the edge: the result says when, and r is 10 at that moment. */
 static void test_ejected(void **unused)
 {
     (void)unused;
@@ -215,7 +216,8 @@ static void test_ejected(void **unused)
     CHECK_CLOSE(r.end_time, sqrt(100 - 9.9 * 9.9) / v, 1e-7);
 }
 
-/* Off the plate: a diamagnetic bead at once; a frictionless one at r = 1.177, after 9.3 turns of the magnet. */
+/* Beads that are lifted off the plate: a diamagnetic one at once; a frictionless one at r = 1.177, after 9.3
+ * turns of the magnet. */
 static void test_lifted(void **unused)
 {
     (void)unused;
@@ -236,7 +238,7 @@ static void test_lifted(void **unused)
     fst_model_free(model);
 }
 
-/* Gravity presses the bead on the plate: without it no load in weights exists, but the run does. */
+/* Without gravity no load in units of the weight exists, but the run does. */
 static void test_no_gravity(void **unused)
 {
     (void)unused;
@@ -251,7 +253,7 @@ static void test_no_gravity(void **unused)
 
 /* ------------------------------------------------------------------ never guessed */
 
-/* Too short to tell: up to two drive periods say nothing, whatever the motion. */
+/* Two drive periods or fewer are too short to tell, whatever the motion. */
 static void test_too_short(void **unused)
 {
     (void)unused;
@@ -305,7 +307,7 @@ static void test_loose_tolerance(void **unused)
     }
 }
 
-/* A paramagnetic bead held still by the magnet is locked, however n, which nothing acts on, turns with W. */
+/* A paramagnetic bead that the magnet holds still is locked, however its n turns with W: nothing acts on n. */
 static void test_locked_paramagnet(void **unused)
 {
     (void)unused;
@@ -319,7 +321,7 @@ static void test_locked_paramagnet(void **unused)
     CHECK_CLOSE(r.std_r, 0, 1e-7);
 }
 
-/* No field, and the bead at rest in the laboratory: it rotates neither way. */
+/* Without a field the bead stays at rest in the laboratory: it rotates neither way. */
 static void test_no_field(void **unused)
 {
     (void)unused;
@@ -331,7 +333,7 @@ static void test_no_field(void **unused)
     expect_regime(&r, FST_REGIME_UNDECIDED);
 }
 
-/* On the axis the bead balances for a while: an unstable equilibrium in x.  To fall off it is not chaos. */
+/* On the axis the bead balances for a while, in an unstable equilibrium. Falling off it is not chaos. */
 static void test_balanced_on_the_axis(void **unused)
 {
     (void)unused;
@@ -344,8 +346,8 @@ static void test_balanced_on_the_axis(void **unused)
     assert_int_not_equal(r.regime, FST_REGIME_CHAOTIC);
 }
 
-/* Close to the period halving <n_z> takes longer than the run to settle: nothing is claimed, and the error of
- * the mean says how far it may be from where it goes, which is 0 above the halving at 0.26885. */
+/* Close to the period halving <n_z> takes longer than the run to settle. No regime is claimed, and the error of
+ * the mean covers the distance to its limit, which is 0 above the halving at 0.26885. */
 static void test_near_the_period_halving(void **unused)
 {
     (void)unused;
@@ -384,8 +386,8 @@ static void test_slowly_lost(void **unused)
     expect_regime(&before, FST_REGIME_COUNTER_ROTATING);
 }
 
-/* What kind of motion a bead reaches is no matter of the tolerance: at a loose one an equilibrium jitters by
- * the integrator's noise, and is an equilibrium all the same. */
+/* The regime does not depend on the tolerance: with a loose one an equilibrium jitters by the integrator's
+ * noise, and is an equilibrium all the same. */
 static void test_same_regimes_at_any_tolerance(void **unused)
 {
     (void)unused;
@@ -409,8 +411,8 @@ static void test_same_regimes_at_any_tolerance(void **unused)
     assert_true(locked >= 4 && librating >= 2 && turning >= 5);
 }
 
-/* Just above a Hopf point the locked state is unstable and the bead leaves it, from a distance that no speed
- * tells from rest; just below it is stable. */
+/* Just above a Hopf point the locked state is unstable: the bead leaves it from a distance so small that its
+ * speed cannot be told from rest. Just below it is stable. */
 static void test_leaving_a_locked_state(void **unused)
 {
     (void)unused;

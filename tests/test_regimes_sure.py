@@ -1,4 +1,5 @@
-"""A small, fixed sample of the study tests/reliability/regimes.py: what a run is called, a run ten times as long is called too.
+"""A small, fixed sample of the study tests/reliability/regimes.py: a run and one ten times as long get the same
+regime.
 
 The seed is not the published one; the sample is small enough that a single contradiction is a finding.
 """

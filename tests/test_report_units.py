@@ -1,4 +1,4 @@
-"""What `festoon run` prints for people are the numbers of --json, in the units that stand beside them.
+"""The numbers that `festoon run` prints for people are those of --json, in the units beside them.
 
 Environment: FESTOON is the program.
 """
@@ -29,7 +29,7 @@ def number(text, name, unit):
 
 
 def close(actual, expected):
-    """Equal to the digits that are printed."""
+    """Equal to all printed digits."""
     assert math.isclose(actual, expected, rel_tol=1e-4), f"{actual} is not {expected}"
 
 
@@ -80,7 +80,7 @@ def test_where_a_bead_left():
 
 
 def test_the_time_in_which_chaos_parts_beads():
-    """The inverse of the exponent, in seconds."""
+    """The time in seconds is the inverse of the exponent."""
     more = ("--set", "drive.omega=0.4", "--set", "friction.law=none", "--set", "start.r=1.1", "--set", "run.periods=500",
             "--set", "run.discard=100", "--set", "bead.moment=0", "--set", "model.kappa=1.5")
     result = json.loads(run("--json", *more))

@@ -1,5 +1,5 @@
-/* fst_run(): the paper's Table 1, an independent implementation's numbers, and whether its means, extremes and
- * samples are what they are said to be. */
+/* fst_run() against the paper's Table 1 and the numbers of an independent implementation; and its means,
+ * extremes and samples against their definitions. */
 #include "physics.h"
 
 #include "reference_runs.h"
@@ -7,7 +7,7 @@
 /* ------------------------------------------------------------------ against published and independent numbers
  */
 
-/* Runs that several tests look at: [dynamics][drive of the reference table]. */
+/* Runs shared by several tests: [dynamics][drive of the reference table]. */
 static fst_run_result results[2][REFERENCE_RUNS];
 
 static const fst_run_result *reference_of(int dynamics)
@@ -62,8 +62,8 @@ static void check_number(const char *name, double omega, double actual, double e
                  actual - expected);
 }
 
-/* Every number of the reference table.  Means to 1e-10, extremes and angles to 1e-8 of themselves; close to the
- * period halving, where the motion still relaxes, a thousand times worse. */
+/* Every number of the reference table: means to a relative 1e-10, extremes and angles to 1e-8; a thousand times
+ * worse close to the period halving, where the motion still relaxes. */
 static void test_reference_runs(void **unused)
 {
     (void)unused;
@@ -143,9 +143,9 @@ static fst_status run_collecting(const fst_params *p, double sample_from, int st
     return fst_run(p, &options, result, NULL);
 }
 
-/* Samples lie at exact fractions of the drive period, and every column says the same: lab = turned frame, alpha
- * = Phi plus the drive's phase, the observation belongs to the state, and watching changes no bit of the
- * motion. */
+/* Samples lie at exact fractions of the drive period, and their columns agree: the laboratory's numbers with
+ * those of the turning frame, alpha with Phi plus the drive's phase, the observation with the state. Sampling
+ * changes no bit of the motion. */
 static void test_samples(void **unused)
 {
     (void)unused;
@@ -196,7 +196,7 @@ static fst_status greatest_load(void *user, const fst_sample *sample, fst_error 
     return FST_OK;
 }
 
-/* At this drive the load's greatest value lies in a wide gap between the stages of its step. */
+/* At this drive the load is greatest in a wide gap between the stages of a step. */
 static void test_extreme_between_distant_stages(void **unused)
 {
     (void)unused;
@@ -218,7 +218,7 @@ static void test_extreme_between_distant_stages(void **unused)
     CHECK_WITHIN(r.max_load_weights * gravity / sampled, 1 - 1e-9, 1 + 2e-5);
 }
 
-/* Phi and alpha are continuous from the first sample on, also where the start has Phi = 180 degrees. */
+/* Phi and alpha are continuous from the first sample on, also if the start has Phi = 180 degrees. */
 static void test_samples_from_half_a_turn(void **unused)
 {
     (void)unused;
@@ -234,14 +234,14 @@ static void test_samples_from_half_a_turn(void **unused)
     test_free(c.samples);
 }
 
-/* Averages by the trapezoidal rule and extremes of samples, over whole turns of Phi. */
+/* Means by the trapezoidal rule and extremes of samples, over whole turns of Phi. */
 typedef struct brute {
     double weight, r, b, b2, nz, power, load, slip2;
     double least_r, most_r, least_b, most_b, most_angle, most_slip, most_load;
 } brute;
 
-/* Weigh one interval between samples: with the part of it that lies between the first and the last passage of
- * Phi, which falls, through a multiple of 2 pi. */
+/* The weight of an interval between samples: the part of it between the first and the last passage of Phi,
+ * which falls, through a multiple of 2 pi. */
 static void add_interval(brute *sum, const fst_sample *a, const fst_sample *b, double first_turn,
                          double last_turn)
 {
@@ -284,8 +284,8 @@ static brute brute_force(const collected *c)
     return sum;
 }
 
-/* The orbit has closed, so that any whole number of returns gives the same means.  Samples a 2048th of a period
- * apart miss an extreme by about 4e-6 of the oscillation at most. */
+/* The orbit has closed, so any whole number of returns has the same means. Samples a 2048th of a period apart
+ * miss an extreme by at most about 4e-6 of the oscillation. */
 static void test_means_and_extremes_by_brute_force(void **unused)
 {
     (void)unused;
@@ -321,7 +321,7 @@ static void test_means_and_extremes_by_brute_force(void **unused)
     }
 }
 
-/* A callback that fails ends the run with its status; what was done until then is there. */
+/* A callback that fails ends the run with its status, and the samples until then are kept. */
 static void test_interruption(void **unused)
 {
     (void)unused;
@@ -342,7 +342,7 @@ static void test_interruption(void **unused)
 
 /* ------------------------------------------------------------------ windows */
 
-/* Without a discard the window is all of the run; the transient shows in the error bars. */
+/* Without a discard the window is the whole run, and the error bars cover the transient. */
 static void test_no_discard(void **unused)
 {
     (void)unused;
@@ -354,12 +354,12 @@ static void test_no_discard(void **unused)
     CHECK_WITHIN(all.mean_r_error, 1e-6, 1e-3);
     CHECK_CLOSE(all.mean_r, mean_r, 4 * all.mean_r_error);
     CHECK_WITHIN(all.window_periods, 398, 400);
-    p.start_phi = 180; /* the same by the symmetry S2, up to the sign of <n_z> */
+    p.start_phi = 180; /* the same motion by the symmetry S2, but for the sign of <n_z> */
     const fst_run_result turned = run_of(&p);
     CHECK_CLOSE(turned.mean_alpha_dot, all.mean_alpha_dot, 1e-4);
 }
 
-/* Stop after so many calls. */
+/* Stops the run after so many calls. */
 static fst_status stop_soon(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)what;
@@ -369,7 +369,7 @@ static fst_status stop_soon(void *user, double fraction, const char *what, fst_e
     return --*left > 0 ? FST_OK : FST_INTERRUPTED;
 }
 
-/* However long the run, it tells how far it is, ends when told to, and no count overflows. */
+/* A run of any length reports progress, ends when told to, and overflows no counter. */
 static void test_huge_runs_can_be_stopped(void **unused)
 {
     (void)unused;
@@ -399,7 +399,7 @@ typedef struct refusal {
     int refused, told_again;
 } refusal;
 
-/* Refuse once, past the middle, and note whether anything is told after that. */
+/* Refuses once, past the middle, and notes whether it is called again. */
 static fst_status refuse_once(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)what;
@@ -408,11 +408,12 @@ static fst_status refuse_once(void *user, double fraction, const char *what, fst
     if (r->refused || fraction < 0.6)
         return FST_OK;
     r->refused = 1;
-    error->code = FST_INTERRUPTED; /* there is room for it, though this caller of fst_run() wants no error */
+    error->code = FST_INTERRUPTED; /* always valid, although this caller of fst_run() passes no error */
     return FST_INTERRUPTED;
 }
 
-/* A run that was told to end says no more, though its motion, a libration, would need the largest exponent. */
+/* A run that was told to end reports nothing more, although its motion, a libration, would need the largest
+ * exponent. */
 static void test_refused_runs_are_silent(void **unused)
 {
     (void)unused;
@@ -431,7 +432,7 @@ static void test_refused_runs_are_silent(void **unused)
     assert_true(isnan(result.largest_exponent));
 }
 
-/* Returns are half turns of Phi: two for each mean period of the window. */
+/* Returns are half turns of Phi: two in each mean period of the window. */
 static void test_returns_are_counted(void **unused)
 {
     (void)unused;

@@ -1,4 +1,4 @@
-/* How a run ends: of two bounds met in one step by the earlier one, and at once where its caller says so. */
+/* How a run ends: at the first of two bounds that are met in one step, and at once if its caller says so. */
 #include "physics.h"
 
 #include "ode/flow.h"
@@ -13,15 +13,15 @@ static fst_params flying_bead(void)
     return p;
 }
 
-/* The bead's values of r and of the upward pull at a fraction of the flow's last step. */
+/* r and the upward pull on the bead at a fraction of the flow's last step. */
 static void look(fst_flow *flow, double x, double value[2])
 {
     value[EDGE] = flow->groups.plate_radius - fst_flow_function_at(flow, x, fst_edge_function);
     value[LIFT] = flow->groups.gravity - fst_flow_function_at(flow, x, fst_load_function);
 }
 
-/* The plate's edge where the bead is at one fraction of a step, and a weight that the magnet lifts at another:
- * the run ends where the first of the two is met, whichever that is. */
+/* The plate ends where the bead is at one fraction of a step, and its weight is what the magnet lifts at
+ * another: the run ends at whichever comes first. */
 static void test_the_earlier_of_two_bounds(void **unused)
 {
     (void)unused;
@@ -92,7 +92,7 @@ static fst_status lose_patience(void *user, double fraction, const char *what, f
     return p->calls > p->most ? FST_INTERRUPTED : FST_OK;
 }
 
-/* A caller who has heard enough ends the run, and is not asked again. */
+/* A caller that ends the run is not asked again. */
 static void test_progress_that_says_stop(void **unused)
 {
     (void)unused;
@@ -108,8 +108,8 @@ static void test_progress_that_says_stop(void **unused)
     }
 }
 
-/* A bead that turned at first and was then caught does not turn regularly: its means are those of the whole
- * window, not of the turning alone, and no direction is made of them. */
+/* A bead that turns at first and is then caught does not turn regularly: its means are over the whole window,
+ * not over the turning alone, and no direction follows from them. */
 static void test_a_bead_that_was_caught(void **unused)
 {
     (void)unused;
@@ -119,14 +119,14 @@ static void test_a_bead_that_was_caught(void **unused)
         p.run_periods = 40;
         p.run_rtol = 1e-8;
         const fst_run_result r = run_of(&p);
-        assert_true(r.returns >= 6); /* it did turn */
+        assert_true(r.returns >= 6); /* the bead did turn */
         CHECK_CLOSE(r.window_periods, 40, 1.0);
         assert_true(r.regime != FST_REGIME_COUNTER_ROTATING && r.regime != FST_REGIME_COROTATING);
         assert_null(fst_symmetry_name(r.symmetry));
     }
 }
 
-/* A bead that turns to and fro has no whole returns: its means are over whole drive periods. */
+/* A bead that turns to and fro makes no whole returns: its means are over whole drive periods. */
 static void test_turning_to_and_fro(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
-/* Scenes: what is read, what is refused with which sentence at which line, and that writing and reading again
- * changes no bit. */
+/* Scenes: which values are read, which are refused with which sentence at which line, and that writing and
+ * reading again changes no bit. */
 #include "same_params.h"
 
 #include <stdio.h>
@@ -33,7 +33,7 @@ static void scenes_are_read(void **state)
     CHECK_SAME_BITS(params.bead_mass, defaults.bead_mass);
 }
 
-/* Files without a word in them change nothing. */
+/* An empty file changes nothing. */
 static void empty_scenes_are_defaults(void **state)
 {
     (void)state;
@@ -108,7 +108,7 @@ static void bad_scenes_are_refused(void **state)
     }
 }
 
-/* The moment alone, or B0 alone, beside kappa only sets the tesla scale, in any order. */
+/* The moment alone, or B0 alone, beside kappa sets only the tesla scale, in any order. */
 static void kappa_with_a_tesla_scale(void **state)
 {
     (void)state;
@@ -183,7 +183,7 @@ static void files_are_checked(void **state)
     expect_refused(directory, "directory");
     expect_refused("/dev/null", "regular file");
     assert_int_equal(mkfifo(path, 0600), 0);
-    expect_refused(path, "regular file"); /* and does not wait for a writer */
+    expect_refused(path, "regular file"); /* must not wait for a writer */
     assert_int_equal(unlink(path), 0);
 
     const fst_params defaults = fst_default_params();

@@ -63,7 +63,7 @@ class Slurm(Case):
                                            controller_port=free_port(), node_port=free_port()))
         self.environment = dict(os.environ, SLURM_CONF=self.path("slurm.conf"), FESTOON=FESTOON,
                                 DATABASE="")
-        for name in ("slurmd", "slurmctld", "munge"):  # ended in this order, from the last to the first
+        for name in ("slurmd", "slurmctld", "munge"):  # ended in this order, the last one first
             self.addCleanup(self.end, self.path(name + ".pid"))
         self.run_tool("munged", "--force", *[f"--{what}={self.path('munge.' + ending)}" for what, ending in (
             ("key-file", "key"), ("socket", "socket"), ("pid-file", "pid"), ("log-file", "log"), ("seed-file", "seed"))])
@@ -113,7 +113,7 @@ class Slurm(Case):
             first = events.rows(path)
             self.assertGreater(first, 0, self.log(job))
             if first == points:
-                return False  # it was over before
+                return False  # the job was over before
             job = self.submit(size)
             self.wait_for_jobs()
             self.assertIn(f"all {points} points, {points - first} of them new", self.log(job))

@@ -1,7 +1,7 @@
 /* Special points over two parameters, over short ranges: test_special_curve_long.c follows them further. */
 #include "special_curves.h"
 
-/* A curve's ends over kappa are special points of branches over omega there, for the commonest type; every
+/* The ends of a curve over kappa are special points of branches over omega there, for the commonest type; every
  * point has the multiplier -1. */
 static void pitchforks(void **state)
 {
@@ -41,7 +41,7 @@ static void refusals(void **state)
     CHECK_CONTAINS(error.sentence, "no fold lies between");
     o.second_key = "drive.omega";
     assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
-    o.second_key = "bead.moment"; /* follows from others here, so it has no value of its own */
+    o.second_key = "bead.moment"; /* follows from other parameters here, so it has no value of its own */
     o.special = FST_SPECIAL_TRANSCRITICAL;
     assert_int_equal(fst_branch_follow(&params, &o, &b, &error), FST_BAD_INPUT);
     CHECK_CONTAINS(error.sentence, "transcritical points are not followed");

@@ -1,4 +1,4 @@
-/* Special points over two parameters: their curves pass where the same points lie over one. */
+/* Curves of special points over two parameters agree with the special points of branches over one. */
 #include "special_curves.h"
 
 static void curves_end_where_branches_say(void **state)
@@ -21,12 +21,12 @@ static void curves_end_where_branches_say(void **state)
                              cases[k].kappa_to);
         assert_int_equal(b.branches, 1);
         assert_int_equal(b.followed, cases[k].type);
-        /* kappa itself was reached within 1e-8 of its range; along the curve that moves omega as far */
+        /* the curve ends within 1e-8 of the range's kappa, which moves omega along the curve by as much */
         CHECK_ENDS(&b, cases[k].kind, cases[k].type, cases[k].from, cases[k].to, cases[k].kappa_from,
                    cases[k].kappa_to, 1e-8);
         for (size_t i = 0; i < b.point_count; ++i) {
             const fst_branch_point *p = &b.points[i];
-            assert_true(p->stable); /* but for what is critical */
+            assert_true(p->stable); /* the critical multipliers do not count here */
             if (cases[k].type == FST_SPECIAL_HOPF || cases[k].type == FST_SPECIAL_NEIMARK_SACKER)
                 CHECK_CLOSE(least_real_part_of_pairs(p), 0.0, 1e-9);
             if (cases[k].type == FST_SPECIAL_PITCHFORK)
@@ -36,7 +36,7 @@ static void curves_end_where_branches_say(void **state)
     }
 }
 
-/* In the middle of a curve, and the curve is smooth. */
+/* A point in the middle of a curve is special too, and the curve is smooth. */
 static void points_between_are_special(void **state)
 {
     (void)state;
@@ -53,7 +53,7 @@ static void points_between_are_special(void **state)
     fst_branch_free(&b);
 }
 
-/* With the parameters exchanged the same curve comes out. */
+/* Exchanging the two parameters gives the same curve. */
 static void parameters_may_be_exchanged(void **state)
 {
     (void)state;

@@ -132,7 +132,7 @@ static angles random_angles(const fst_model *model, uint64_t *seed)
     return angles_of(model, y);
 }
 
-/* Roundoff of the terms, some of which reach 1e3: 1e-12 of what they amount to. */
+/* The rounding error of the terms, some of which reach 1e3, is 1e-12 of their sum. */
 static double roundoff(const angles *a)
 {
     return 1e-12 * (1 + a->theta1 * a->theta1 + a->phi1 * a->phi1 + a->psi * a->psi + a->alpha1 * a->alpha1 +
@@ -168,8 +168,8 @@ static void test_corrected_form_is_the_vector_form(void **unused)
     }
 }
 
-/* Each printed error misses by its own amount, far above roundoff: with farago2020, which is what was printed
- * save for these two slips. */
+/* Each printed error is off by its own term, far above rounding, with farago2020, which is the printed dynamics
+ * but for these two slips. */
 static void test_printed_slips_are_errors(void **unused)
 {
     (void)unused;
@@ -197,7 +197,7 @@ static void test_printed_slips_are_errors(void **unused)
     fst_model_free(model);
 }
 
-/* The gyroscopic terms are missing in print: without them the equations are not those of a rigid sphere. */
+/* The printed equations lack the gyroscopic terms: without these they are not those of a rigid sphere. */
 static void test_gyroscopic_terms_are_missing(void **unused)
 {
     (void)unused;

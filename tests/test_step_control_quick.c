@@ -8,7 +8,7 @@ static fst_step_control_double control_of(double proposal)
     return fst_begin_control_double(proposal, INFINITY);
 }
 
-/* A step ends where the way ends, if that is no more than 1 % farther than was proposed. */
+/* A step goes to the end of the way if that is at most 1 % farther than proposed. */
 static void test_planning(void **state)
 {
     (void)state;
@@ -24,7 +24,7 @@ static void test_planning(void **state)
     c.greatest = 0.25;
     fst_plan_step_double(&c, REAL_EVERYWHERE, 2.0);
     assert_true(c.size == 0.25 && c.lands == 0.0 && c.proposal == 1.0);
-    /* Landing is exact, whatever the sum of the steps would be. */
+    /* Landing is exact, whatever the rounded sum of the steps would be. */
     const fst_twofold t = {0.1, 1e-18};
     fst_plan_step_double(&c, REAL_EVERYWHERE, 0.2);
     const fst_twofold end = fst_step_end_double(&c, t, 0.3);
@@ -41,8 +41,8 @@ static void test_factors(void **state)
     CHECK_CLOSE(fst_step_factor_double(1e300), 1.0 / 6.0, 0.0);
 }
 
-/* A step that was cut short to land leaves a longer proposal as it was; after a failed try runs do not let the
- * next step grow, tangents do. */
+/* A step that was shortened to land leaves a longer proposal as it was. After a failed try the next step of a
+ * run must not grow; that of a tangent may. */
 static void test_proposals(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-"""Sweeps from outside: rows, what is refused, carrying, exports, figures.
+"""Sweeps as a user meets them: rows, refusals, carrying, exports, figures.
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
@@ -39,7 +39,7 @@ class Rows(Case):
             self.assertEqual(run[key], row[key], key)
 
     def test_many_exponents_wanted_in_one_step(self):
-        """Undecided neighbours end together: more of them than lanes then wait for their exponents."""
+        """More runs than there are lanes end in the same step and wait for their exponents."""
         words = ["sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:300", "--portable"]
         self.good(*words, "-o", self.path("many.db"))
         self.good(*words, "--lanes", "1", "-o", self.path("one.db"))
@@ -81,7 +81,7 @@ class Rows(Case):
             self.assertEqual(run["final_state"], rows[2 * order[0]]["final_state"])
         up, down = self.rows("up.db"), self.rows("down.db")
         self.assertNotEqual(up, down)
-        # A chain that was cut goes on with the same bits.
+        # A chain that was interrupted goes on with the same bits.
         base = sqlite3.connect(self.path("up.db"))
         base.execute("DELETE FROM rows WHERE point >= 3")
         base.commit()
@@ -91,7 +91,8 @@ class Rows(Case):
         self.assertEqual(self.rows("up.db"), up)
 
     def test_nothing_is_carried_from_a_bead_that_left_the_plate(self):
-        """After an ejection or a lift-off a chain begins anew, at the scene's own start; going on after a cut, too."""
+        """After an ejection or a lift-off a chain begins anew at the scene's own start, also if it is resumed after
+        an interruption."""
         brief = ["--set", "run.periods=15", "--set", "run.discard=3", "--set", "run.rtol=1e-8"]
         for regime, carried, axis, *scene in (
                 ("ejected", [0, 0, 1], "plate.radius=45mm,80mm,90mm", "start.r=1.9", "drive.omega=2"),
@@ -117,7 +118,8 @@ class Rows(Case):
 
 class Bands(Case):
     def test_librating_bands_lie_between_bifurcations_of_locked_states(self):
-        """Rows come from integration, bifurcations from eigenvalues (docs/regimes.md)."""
+        """The bands of rows, which come from integration, end at the bifurcations, which come from eigenvalues
+        (docs/regimes.md)."""
         branch = json.loads(self.good("branch", "--kind", "locked", "--over", "drive.frequency=4Hz:8Hz", "--json"))
         stable = {}
         for point in branch["points"]:
@@ -226,7 +228,7 @@ class Exports(Case):
         self.refused("export", self.path("a.db"), "--csv", "--json")
 
     def test_hdf5_holds_what_csv_says(self):
-        """Read by HDF5's own library through ctypes."""
+        """Reads the export by HDF5's own library through ctypes."""
         self.good("sweep", *SHORT, "--over", "drive.frequency=9Hz:20Hz:6", "--over", "model.dynamics=rigid,farago2020",
                   "-o", self.path("a.db"))
         change(self.path("a.db"), "DELETE FROM rows WHERE point = 7",  # an incomplete sweep, with a run that failed

@@ -1,5 +1,5 @@
-"""Sweeps that meet what may happen in their life: a hundred kills, any threads, lanes, ranks and order, disks that
-are full, forbidden or far away.
+"""Sweeps in adverse conditions: a hundred kills; any number of threads, lanes and ranks, in any order; disks that are
+full, read-only or on a network.
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
@@ -63,7 +63,8 @@ class Invariance(Case):
             self.assertEqual(len(contents), 1, form)
 
     def test_order(self):
-        """Points come in any order: holes of a database, and values listed in another order."""
+        """Points are computed in any order: holes of a database are filled, and values may be listed in another
+        order."""
         self.good("sweep", *SMALL, "-o", self.path("whole.db"))
         expected = self.rows("whole.db")
         rng = random.Random(11)
@@ -87,7 +88,7 @@ class Invariance(Case):
 
 
 class Disks(Case):
-    """Mounted file systems need root; without it, or where mounting is forbidden, these are skipped."""
+    """Mounting file systems needs root; without it, or if mounting is forbidden, these tests are skipped."""
 
     def mount(self, *words):
         place = self.path("mounted")

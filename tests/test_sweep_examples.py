@@ -63,7 +63,7 @@ class Examples(Case):
                 self.assertAlmostEqual(r[i], r[i + 2], 6)
 
     def test_the_built_program_is_found(self):
-        """Neither FESTOON nor a festoon on the PATH: build/festoon beside examples/."""
+        """With neither FESTOON nor a festoon on the PATH, an example uses build/festoon beside examples/."""
         for folder in ("examples", "build"):
             os.mkdir(self.path(folder))
         shutil.copy(os.path.join(EXAMPLES, "sweep-frequency.sh"), self.path("examples"))

@@ -1,4 +1,4 @@
-"""Figures of sweeps: what is drawn where, in which units, on which scale; looked up in the data beside the figure.
+"""Figures of sweeps: positions, units and scales of what is drawn, read from the data beside the figure.
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
@@ -128,7 +128,7 @@ class Maps(Figures):
         self.good("plot", self.path("g.db"), "--units", "lab", "--key", "mean_r", "-o", self.path("f.svg"))
         self.refused("plot", self.path("g.db"), "--units", "imperial", "-o", self.path("f.svg"))
         self.sweep("one.db", "drive.frequency=10,10,10")
-        self.plot("one.db")  # an abscissa without extent
+        self.plot("one.db")  # a range of one value
 
 
 class Units(Figures):
@@ -208,9 +208,9 @@ class ManyPoints(Figures):
     """More points than a figure can show: some are drawn, and the title says how many."""
 
     def fill(self, name, points, value, *over):
-        """A sweep whose rows are made up: mean_r is this expression of the point i."""
+        """Makes a sweep with invented rows: mean_r is this expression of the point i."""
         words = [word for axis in over for word in ("--over", axis)]
-        # Rows that are there, were it all of them, are replaced by made up ones.
+        # Replaces all rows by invented ones.
         events.signal_when([FESTOON, "sweep", *SHORT, *words, "-o", self.path(name)],
                            lambda: events.rows(self.path(name)), signal.SIGINT)
         change(self.path(name), "DELETE FROM rows", (
@@ -238,7 +238,7 @@ class ManyPoints(Figures):
             self.assertEqual(cell[6], row * 2050 + 3 * column)
             self.assertAlmostEqual(cell[1], 1 + row, 6)
         script, blocks = self.plot("m.db")
-        self.assertEqual(len(blocks["cells-1"]), 10)  # a box a row: all are locked
+        self.assertEqual(len(blocks["cells-1"]), 10)  # one box for each row: all are locked
 
 
 class Words(Figures):

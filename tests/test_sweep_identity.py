@@ -1,4 +1,4 @@
-"""What a sweep's file says of itself: the seed that its rows were drawn with, and whether all of them are there.
+"""A sweep's file records the seed of its random values, and whether all rows are there.
 
 Environment: FESTOON is the program.
 """
@@ -15,7 +15,7 @@ DRAWN = SHORT + ["--over", "drive.frequency=9Hz:20Hz:random:4", "--over", "model
 
 class Identity(Case):
     def test_another_seed_is_another_sweep(self):
-        """Random axes drawn with another seed do not go on with the old rows; with the same they do."""
+        """A sweep with random axes goes on only with the same seed; another seed is refused."""
         self.good("sweep", *DRAWN, "--seed", "7", "-o", self.path("a.db"))
         before = self.rows("a.db")
         self.assertIn("seed", self.refused("sweep", *DRAWN, "--seed", "8", "-o", self.path("a.db")))
@@ -26,7 +26,7 @@ class Identity(Case):
         self.assertNotEqual(self.rows("b.db"), before)
 
     def test_failed_runs_are_counted(self):
-        """In the summary for people and in that for programs."""
+        """Failed runs are counted in the summary for people and in that for programs."""
         words = ["sweep", *SHORT, "--set", "model.eps=0.10869565217391304", "--over",
                  "start.r=0.10869565217391304,0.9,1", "-o"]
         told = json.loads(self.good(*words, self.path("a.db"), "--json"))
@@ -34,13 +34,13 @@ class Identity(Case):
         self.assertIn("1 runs failed", self.good(*words, self.path("b.db")))
 
     def test_what_changes_the_units_carries_no_state(self):
-        """A state in units of l and 1/gamma means another motion where these change."""
+        """A carried state is in units of l and 1/gamma, and means another motion if these change along the chain."""
         for axis in ("friction.gamma=300,312.5", "magnet.half_length=22mm,23mm"):
             err = self.refused("sweep", *SHORT, "--over", axis, "--carry", "up", "-o", self.path("a.db"))
             self.assertRegex(err, r"^festoon: --carry: .* changes the units")
 
     def test_random_axes_are_not_one(self):
-        """Two axes drawn together draw different numbers."""
+        """Two random axes draw different numbers."""
         self.good("sweep", *DRAWN, "--seed", "7", "-o", self.path("a.db"))
         rows = json.loads(self.good("export", self.path("a.db"), "--json"))
         parts = [((row["drive.frequency"] - 9) / 11, row["model.kappa"] - 1) for row in rows]

@@ -1,4 +1,5 @@
-"""What the journal of a sweep trusts, who may write it, and what it says when it is damaged, deleted or replaced.
+"""What the journal of a sweep trusts, which command may write it, and its messages when it is damaged, deleted or
+replaced.
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree, BUILD_DIR the build tree.
 """
@@ -32,7 +33,7 @@ class Journal(Case):
         return self.rows(name)
 
     def log_of(self, name, *statements):
-        """A write-ahead log with these changes of a database, which itself stays as it was."""
+        """Makes a write-ahead log with these changes of a database, and leaves the database as it was."""
         shutil.copy(self.path(name), self.path("twin.db"))
         base = sqlite3.connect(self.path("twin.db"))
         base.execute("PRAGMA wal_autocheckpoint = 0")
@@ -50,7 +51,7 @@ class Journal(Case):
 
 
 class Logs(Journal):
-    """Files that SQLite would take for the log of a database because of their names."""
+    """Files whose names make SQLite take them for the log of a database."""
 
     CHANGES = ("UPDATE rows SET mean_r = 9", "UPDATE seal SET commits = commits + 7")
 
@@ -64,7 +65,8 @@ class Logs(Journal):
         self.assertEqual([name for name in os.listdir(self.directory) if name.startswith("a.db-")], [])
 
     def test_what_a_killed_command_left_is_removed(self):
-        """The next command removes it, also where the database is there already; not what another host is writing."""
+        """The next command removes what a killed one left, also if the database exists already; files of another
+        host's process stay."""
         expected = self.made()
         host = 2166136261
         for byte in socket.gethostname().encode():
@@ -105,7 +107,7 @@ class Logs(Journal):
         self.put("a.db-wal", b"")
 
     def test_a_log_that_was_left_behind_is_refused(self):
-        """Moved without its log, finished, and moved back: the log would undo what was committed since."""
+        """A database was moved without its log, finished, and moved back: that log would undo later commits."""
         self.made()
         log = self.log_of("a.db", "DELETE FROM rows WHERE point > 8", self.CHANGES[1])
         for more, older in ((7, False), (8, True), (300, True)):
@@ -136,7 +138,7 @@ class Logs(Journal):
 
 
     def test_a_read_that_fails_is_no_damage(self):
-        """Once: whichever read it is, the file is not called damaged, and is not replaced."""
+        """A single read fails: whichever it is, the file is not called damaged, and is not replaced."""
         faults = os.path.join(os.environ["BUILD_DIR"], "tests", "faults.so")
         if not os.path.exists(faults):
             self.skipTest("nothing can be preloaded into a program with sanitizers")
@@ -172,8 +174,8 @@ def long_sweep(points):
 
 
 def begin(case, name, points=3000):
-    """A sweep that has its first rows and was stopped at work, and its number of points: more of them where the program
-    is faster than this interpreter."""
+    """Starts a sweep and stops it when it has its first rows; returns it and its number of points, which is raised
+    until the program is still at work when it is stopped."""
     while points < 3000000:
         process = subprocess.Popen([FESTOON, "sweep", *long_sweep(points), "-o", case.path(name)],
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -202,7 +204,7 @@ def rows_in(path):
 
 
 class Company(Journal):
-    """Several commands, one file."""
+    """Several commands work on one file."""
 
     def end(self, process):
         process.send_signal(signal.SIGCONT)
@@ -219,7 +221,7 @@ class Company(Journal):
         self.assertGreater(self.rows("a.db").count("\n"), 1)  # reading goes on
         first.kill()
         first.communicate()
-        self.good("sweep", *long_sweep(points), "-o", self.path("a.db"))  # at once
+        self.good("sweep", *long_sweep(points), "-o", self.path("a.db"))  # no waiting for the killed one's lock
         self.assertEqual(self.rows("a.db").count("\n"), points + 1)
 
     def test_many_make_the_same_file(self):
@@ -280,7 +282,7 @@ class Company(Journal):
 
 class Damage(Journal):
     def check(self, expected, lost, *words):
-        """The points that are lost are named, the others exported, and a sweep computes the lost ones."""
+        """The export names the points that are lost and has the others, and a sweep computes the lost ones again."""
         err = self.refused("export", self.path("a.db"), "--csv")
         self.assertIn("damaged", err)
         for word in words:
@@ -322,7 +324,8 @@ class Damage(Journal):
         self.check(expected, {6}, "the row of point 6 is lost")
 
     def test_pages_that_were_damaged(self):
-        """Each page in turn: rows are named and the rest goes on, or the file says that it is damaged."""
+        """Damages each page in turn: either rows are named as lost and the rest goes on, or the file is called
+        damaged."""
         expected = self.made()
         sound = content_of(self.path("a.db"))
         repaired = 0
@@ -360,7 +363,7 @@ class Damage(Journal):
                     self.assertIn(words, self.refused(*command))
 
     def test_all_that_makes_a_sweep_is_compared(self):
-        """Each line of the identity, with checksums that agree: another value is refused and named."""
+        """Changes each line of the identity, with checksums that agree: a wrong value is refused and named."""
         self.made()
         sound = content_of(self.path("a.db"))
         for key, value in (("fingerprint", "0123456789abcdef"), ("arithmetic", "other"), ("results_version", "1"),
@@ -371,7 +374,7 @@ class Damage(Journal):
             self.rows("a.db")
 
     def test_what_is_no_sweep(self):
-        """Each command says what the file is, and gives the advice that fits it."""
+        """Each command says what the file is, and gives advice that fits."""
         base = sqlite3.connect(self.path("foreign.db"))
         base.execute("CREATE TABLE notes(text)")
         base.commit()
@@ -386,7 +389,7 @@ class Damage(Journal):
                 self.assertIn(kind, said)
                 self.assertIn("festoon sweep -o FILE.db", said)
                 self.assertNotIn("choose another name", said)
-            if name != "empty.db":  # which a sweep takes
+            if name != "empty.db":  # a sweep replaces an empty file
                 said = self.refused("sweep", *SMALL, "-o", self.path(name))
                 self.assertIn(kind, said)
                 self.assertIn("choose another name", said)
@@ -418,7 +421,7 @@ class Names(Journal):
                 os.remove(self.path(name))
 
     def test_names_that_are_too_long(self):
-        """SQLite's files beside a database have longer names than it has."""
+        """SQLite's files beside a database have longer names than the database."""
         longest = os.pathconf(self.directory, "PC_NAME_MAX")
         for length in range(longest - 9, longest + 2):
             name = "n" * (length - 3) + ".db"
@@ -464,7 +467,7 @@ class Names(Journal):
         self.assertEqual(statuses, {0, 2})
 
     def test_few_files_may_be_open(self):
-        """Whatever is missing first, the sentence names the limit, and no permission."""
+        """Whichever file cannot be opened first, the message names the limit of open files, not a permission."""
         if not os.path.exists(os.path.join(os.environ["BUILD_DIR"], "tests", "faults.so")):
             self.skipTest("sanitizers need open files of their own")
         self.made()
@@ -537,7 +540,7 @@ class Texts(Journal):
 
 
     def test_columns_of_unequal_length(self):
-        """Made by HDF5 itself, so that every checksum in the file is right."""
+        """The file is made by HDF5 itself, so that every checksum in it is right."""
         status, _, err = festoon("run", *SHORT, "-o", self.path("t.h5"))
         if status != 0 and "HDF5" in err:
             self.skipTest("built without HDF5")
@@ -554,7 +557,7 @@ class Texts(Journal):
 
 
 class Power(Journal):
-    """What a loss of power may take (tests/reliability/power.py builds the states it may leave)."""
+    """A small sample of losses of power; tests/reliability/power.py builds the states of the disk."""
 
     def test_rows_are_on_the_disk_before_they_count(self):
         recorder = os.path.join(os.environ["BUILD_DIR"], "tests", "disk_recorder.so")
@@ -577,7 +580,7 @@ class Power(Journal):
         self.assertFalse(waits, "the last rows of the log were never synced")
 
     def test_a_folder_that_cannot_be_synced(self):
-        """A name that a loss of power may undo is no success, and the next command can use the file."""
+        """A file whose name a loss of power may undo is not reported as written, and the next command can use it."""
         faults = os.path.join(os.environ["BUILD_DIR"], "tests", "faults.so")
         if not os.path.exists(faults):
             self.skipTest("nothing can be preloaded into a program with sanitizers")

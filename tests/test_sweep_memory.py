@@ -1,4 +1,4 @@
-"""The memory of a sweep, of going on with it and of its exports does not grow with the number of points.
+"""The memory of a sweep, of resuming it and of its exports does not grow with the number of points.
 
 What is measured is the greatest resident size of the program (wait4), in which that of this interpreter before exec()
 counts as well; it lies close to the program's own.  Environment: FESTOON is the program, BUILD_DIR
@@ -15,12 +15,13 @@ import events
 from sweep_tools import FESTOON, Case, change, festoon
 
 FEW, MANY = 1000, 200000
-MEBIBYTES = 2  # may differ: pages of SQLite's cache, stacks of threads
+MEBIBYTES = 2  # allowed difference: pages of SQLite's cache, stacks of threads
 VERY_SHORT = ["--set", "run.periods=0.01", "--set", "run.discard=0.001", "--threads", "2"]
 
 
 class Child:
-    """What events.wait_for() asks of a program that was forked here, so that wait4() can tell of it."""
+    """The interface that events.wait_for() needs, for a program that was forked here so that wait4() can report on
+    it."""
 
     def __init__(self, pid):
         self.pid = pid
@@ -54,7 +55,7 @@ class Memory(Case):
         """A database in which every thousandth point is missing; rows without numbers, but for the radius."""
         status, _, err = festoon(*self.command(2))
         self.assertEqual(status, 0, err)
-        # Its identity is enough, and there may be rows.
+        # Only its identity is needed, and rows may be there.
         peak(*self.command(count), interrupted_when=lambda: events.rows(self.path(f"{count}.db")))
         change(self.path(f"{count}.db"), "DELETE FROM rows", (
             "WITH RECURSIVE c(i) AS (SELECT 0 UNION ALL SELECT i + 1 FROM c WHERE i < ?) "
@@ -62,7 +63,7 @@ class Memory(Case):
             "WHERE i % 1000 != 999", (count - 1,)))
 
     def test_from_a_thousand_points_to_a_thousand_million(self):
-        """Interrupted when as many rows are there as a whole small sweep has."""
+        """The large sweep is interrupted when it has as many rows as the whole small one."""
         status, small = peak(*self.command(FEW))
         self.assertEqual(status, 0)
         for count in (1000000, 1000000000):

@@ -1,4 +1,4 @@
-"""--over, for every parameter there is and in every form: each key can be varied, with units, or is refused in words.
+"""--over for every parameter in every form: a key can be varied, with units, or is refused in words.
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
@@ -20,14 +20,19 @@ RANGES = {
     "magnet.depth": ("15mm:17mm", 15e-3, 17e-3), "magnet.b0": ("10mT:200G", 10e-3, 20e-3),
     "drive.frequency": ("600rpm:12Hz", 10, 12), "drive.omega": ("0.2:0.4", 0.2, 0.4),
     "friction.gamma": ("0.3 1/ms:330 1/s", 300, 330), "friction.mu": ("0.1:0.3", 0.1, 0.3),
+    "friction.mu_static": ("0.25:0.4", 0.25, 0.4), "friction.stribeck_speed": ("1 mm/s:0.01", 1e-3, 1e-2),
+    "friction.rolling_resistance": ("1e-4:1e-3", 1e-4, 1e-3), "friction.contact_rate": ("1:0.1 1/ms", 1, 100),
     "model.kappa": ("1:2", 1, 2), "model.eps": ("0.1:0.12", 0.1, 0.12), "model.h": ("0.7:0.9", 0.7, 0.9),
     "model.lambda": ("0.3:0.5", 0.3, 0.5), "plate.radius": ("20cm:230mm", 0.2, 0.23),
     "plate.gravity": ("9.8 m/s2:10", 9.8, 10), "start.r": ("0.5:0.9", 0.5, 0.9),
     "start.phi": ("-90:0.25turn", -90, 90), "run.periods": ("2:3", 2, 3), "run.discard": ("0:1", 0, 1),
     "run.rtol": ("1e-6:1e-5", 1e-6, 1e-5),
 }
-NEEDS = {"bead.a": "bead.material=paramagnetic", "bead.b": "bead.material=mixed"}
-# What no row shows: the tesla scale, masses where kappa is given, and an edge that is not reached.
+DRY = "friction.law=coulomb"
+NEEDS = {"bead.a": ["bead.material=paramagnetic"], "bead.b": ["bead.material=mixed"], "friction.mu_static": [DRY],
+         "friction.stribeck_speed": [DRY, "friction.mu_static=0.4"], "friction.rolling_resistance": [DRY],
+         "friction.contact_rate": [DRY]}
+# Parameters that no row shows: the tesla scale, masses if kappa is given, and an edge that is not reached.
 INVISIBLE = {"bead.moment", "magnet.b0", "bead.mass", "plate.radius"}
 WHOLE = {"magnet.lines"}
 REFUSED = {"run.samples": "changes nothing in a row"}
@@ -77,15 +82,15 @@ class Keys(Over):
 
     def check_real(self, key):
         text, low, high = RANGES[key]
-        sets = [NEEDS[key]] if key in NEEDS else []
+        sets = NEEDS.get(key, [])
         rows = self.table(f"{key}={text}:3", sets=sets)
         for row, wanted in zip(rows, (low, (low + high) / 2, high)):
             self.assertTrue(math.isclose(row[key], wanted, rel_tol=1e-12, abs_tol=1e-15), (row[key], wanted))
         self.assertEqual({row["status"] for row in rows}, {"done"}, rows[0]["reason"])
-        if key not in INVISIBLE:  # it makes a difference
+        if key not in INVISIBLE:  # the two values give different rows
             self.assertNotEqual(*[[value for name, value in row.items() if name not in (key, "point")]
                                   for row in (rows[0], rows[2])])
-        # The same as a list, and as the one point of a run.
+        # The same values as a list, and each alone as a run.
         values = text.split(":")
         listed = self.table(f"{key}={values[0]},{values[1]}", sets=sets)
         for row, other in zip(listed, (rows[0], rows[2])):
@@ -105,7 +110,7 @@ class Keys(Over):
         self.says("no effect", "bead.a=1,2")
         self.says("no effect", "bead.b=1,2", sets=["bead.material=paramagnetic"])
         rows = self.table("bead.material=hard,paramagnetic", "bead.a=1,2")
-        self.assertEqual([row["final_state"] for row in rows].count(rows[0]["final_state"]), 2)  # hard: twice the same
+        self.assertEqual([row["final_state"] for row in rows].count(rows[0]["final_state"]), 2)  # hard: both end alike
         self.assertNotEqual(rows[2]["final_state"], rows[3]["final_state"])
 
 

@@ -1,5 +1,5 @@
-/* Two sweeps of one file in one process, and reading the file of one at work: refused, because SQLite's locks
- * end when any descriptor of the file is closed in the process (io/sweep_lock.h). */
+/* Two sweeps of one file in one process, and reading a file that this process is writing, are refused: SQLite's
+ * locks end when any descriptor of the file is closed in the process (src/sweep/lock.h). */
 #include "numeric.h"
 
 #include <fcntl.h>
@@ -31,8 +31,8 @@ static fst_sweep_options options_of(const fst_progress *progress)
     return o;
 }
 
-/* Whether this process has SQLite's lock of the file, as another process sees it: the 510 bytes behind 2^30 + 2
- * are those that every reader and writer of a database holds. */
+/* Whether another process sees SQLite's lock of this process on the file: the 510 bytes behind 2^30 + 2, which
+ * every reader and writer of a database holds. */
 static int is_locked_by_sqlite(const char *path)
 {
     const pid_t child = fork();
@@ -104,7 +104,7 @@ static void a_second_sweep_is_refused(void **state)
         fail_msg("%s: %s", error.where, error.sentence);
     assert_true(m.calls > 0);
     assert_int_equal(result.there, 6);
-    /* Afterwards the file is free. */
+    /* The file is free afterwards. */
     assert_int_equal(fst_sweep(&p, path, &quiet, &result, &error), FST_OK);
     assert_int_equal(result.added, 0);
     assert_int_equal(unlink(other), 0);
@@ -112,7 +112,8 @@ static void a_second_sweep_is_refused(void **state)
     assert_int_equal(rmdir(folder), 0);
 }
 
-/* Threads that begin with one file at the same moment: one of them gets it, or, after it, the next. */
+/* Threads that begin a sweep of one file at the same moment: at least one finishes it, and each other one is
+ * refused or comes after it. */
 typedef struct racer {
     pthread_barrier_t *start;
     const char *path;

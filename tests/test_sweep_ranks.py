@@ -1,4 +1,5 @@
-"""Sweeps by several processes under mpirun: the same rows, killed and interrupted ranks, what is refused.
+"""Sweeps by several processes under mpirun: they make the same rows, survive killed and interrupted ranks, and refuse
+what cannot work.
 
 Environment: FESTOON is the program, BUILD_DIR the build tree.  FESTOON_RANKS_ROUNDS: how often ranks are killed.
 """
@@ -33,8 +34,8 @@ def start(ranks, *words):
 
 class RankCase(Case):
     def finish(self, process, timeout=events.HANG):
-        """Status, output and messages.  An mpirun whose ranks were killed is known to hang at times when none of them
-        is left; it is ended then."""
+        """Status, output and messages. An mpirun whose ranks were killed sometimes hangs when none of them is left;
+        it is ended then."""
         alone = 0
         while True:
             try:
@@ -110,7 +111,7 @@ class Deaths(RankCase):
                 before, victims = events.rows(path), events.children_of(process)
                 try:
                     os.kill(victims[i % len(victims)], signal.SIGKILL)
-                except (IndexError, ProcessLookupError):  # all have done their work
+                except (IndexError, ProcessLookupError):  # all ranks were done
                     self.finish(process)
                 else:
                     struck += self.finish(process)[0] != 0
@@ -121,8 +122,8 @@ class Deaths(RankCase):
         events.struck(blow, self.size)
 
     def test_interruption(self):
-        """Of a follower: all stop; then of mpirun, which has a status of its own and passes the signal on when it
-        likes; then the same command ends the work."""
+        """A signal to a follower stops all ranks. A signal to mpirun, which has a status of its own and passes the
+        signal on at a time of its choice, stops them too. The same command then ends the work."""
         def blow(count):
             points, path = 4 * count, self.path(f"a{count}.db")
             process = start(2, "sweep", *medium(count), "-o", path)
@@ -155,7 +156,7 @@ class Deaths(RankCase):
         events.struck(blow, self.size)
 
     def test_runs_in_flight_of_every_rank_are_saved(self):
-        """Each of two ranks has one run at a time, so two images come only if those of the follower do."""
+        """Each of two ranks has one run at a time, so two images come only if the follower sends its own."""
         def words(periods):
             return ["--set", f"run.periods={periods}", "--set", f"run.discard={periods // 2}", "--portable", "--lanes",
                     "1", "--threads", "1", "--checkpoint", "0.05", "--over", "drive.frequency=12Hz:13Hz:8"]
@@ -170,10 +171,10 @@ class Deaths(RankCase):
             self.good("sweep", *words(periods), "-o", self.path(f"alone{periods}.db"))
             self.assertEqual(self.rows(f"both{periods}.db"), self.rows(f"alone{periods}.db"))
             return both
-        self.assertTrue(any(blow(periods) for periods in (200, 1000, 5000)), "never two images")
+        self.assertTrue(any(blow(periods) for periods in (1000, 5000, 25000)), "never two images")
 
     def test_runs_in_flight_go_on_on_other_ranks(self):
-        """Ranks that are killed as soon as images have changed come to the end of their runs all the same."""
+        """Ranks that are killed as soon as images have changed finish their runs all the same."""
         def words(periods):
             return ["--set", f"run.periods={periods}", "--set", f"run.discard={periods // 2}", "--set", "run.rtol=1e-8",
                     "--over", "drive.frequency=6Hz:20Hz:9", "--threads", "1", "--checkpoint", "0.05"]

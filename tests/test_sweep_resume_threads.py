@@ -19,19 +19,19 @@ PRELOADED = os.path.join(os.environ["BUILD_DIR"], "tests")
 
 
 def short_runs(count):
-    """Many runs, each over in a moment."""
+    """Many short runs."""
     return ["sweep", *SHORT, "--over", f"drive.frequency=9Hz:20Hz:{count}", "--over", "model.kappa=1,1.5",
             "--threads", "2", "-o"]
 
 
 def long_runs(periods):
-    """Few runs, no more than fit into the lanes of two threads; they are kept every 50 ms of work."""
+    """Few runs, no more than fit into the lanes of two threads; images are saved after every 50 ms of work."""
     return ["sweep", "--set", f"run.periods={periods}", "--set", f"run.discard={periods // 2}", "--set", "run.rtol=1e-8",
             "--over", "drive.frequency=6Hz:20Hz:12", "--threads", "2", "--checkpoint", "0.05", "-o"]
 
 
 class Measured(Case):
-    """Sweeps that last some tenths of a second on this machine, measured once, and their rows."""
+    """Sweeps that last some tenths of a second on this machine, which is measured once; with their rows."""
     SIZES, WHOLE = {}, {}
 
     def size_of(self, words, size, seconds=0.3):
@@ -49,7 +49,7 @@ class Measured(Case):
 
 class Resuming(Measured):
     def test_sigkill_and_resume(self):
-        """Killed when the file is there, when so many rows are in it, or a moment after: nothing committed is lost."""
+        """Killed when the file is there, when some rows are in it, or a moment later: no committed row is lost."""
         rng = random.Random(4)
 
         def rounds(count):
@@ -72,12 +72,12 @@ class Resuming(Measured):
                 self.assertEqual(self.rows(path), expected)
             return struck >= 3
         events.struck(rounds, self.size_of(short_runs, 100))
-        # What was killed while it made a database left files beside it, which the last command removed.
+        # A program that was killed while it made a database left files beside it; the last command removed them.
         self.assertEqual([name for name in os.listdir(self.directory) if not name.endswith(".db")], [])
 
     def test_a_kill_costs_no_more_than_what_came_after_the_last_image(self):
-        """Killed as soon as the images of its runs have changed, a sweep comes to its end all the same, although none
-        of its runs ends in one life of the program: what was done before the last image is never done again."""
+        """Killed whenever the images of its runs have changed, a sweep still comes to its end, although no run
+        finishes within one life of the program: work before the last image is never done again."""
         def blow(periods):
             path = self.path(f"cut{periods}.db")
             lives, before = 0, 0
@@ -89,7 +89,7 @@ class Resuming(Measured):
                 lives += 1
                 before = events.images(path)
                 self.assertLess(lives, 300, "it gets no further")
-            # A program that has computed for so long has made images of its runs.
+            # A program that has computed for so long has saved images of its runs.
             self.assertTrue(lives > 0 or os.times().children_user - spent < 4.0, "there were no images")
             self.assertEqual(self.rows(f"cut{periods}.db"), self.whole(long_runs, periods))
             self.assertIsNone(events.ask(path, "SELECT count(*) FROM checkpoints"))  # nothing is left of them
@@ -114,7 +114,7 @@ class Resuming(Measured):
         events.struck(blow, self.size_of(long_runs, 500))
 
     def test_interruption_ends_with_130(self):
-        """SIGINT and SIGTERM save what is finished and what is in flight; two at once are one."""
+        """SIGINT and SIGTERM save finished rows and runs in flight; two signals at once count as one."""
         for number, times, seconds in ((signal.SIGINT, 1, "0.05"), (signal.SIGTERM, 1, "1e6"), (signal.SIGINT, 2, "1e6")):
             def blow(periods):
                 path = self.path(f"{number}-{times}-{periods}.db")
@@ -139,7 +139,8 @@ class Resuming(Measured):
             events.struck(blow, self.size_of(long_runs, 500))
 
     def test_the_second_interruption_ends_it_at_once(self):
-        """The sweep waits for another program that holds its database; a second signal after a while ends it there."""
+        """The sweep waits for another program that locks its database; a second signal after a while ends the sweep
+        there."""
         def blow(count):
             path = self.path(f"second{count}.db")
             process = events.start([FESTOON, *short_runs(count), path], stdout=-1, stderr=-1)
@@ -151,13 +152,13 @@ class Resuming(Measured):
                 base.execute("BEGIN IMMEDIATE")
                 process.send_signal(signal.SIGINT)
                 events.wait_for(process, lambda: events.seems_noted(process, signal.SIGINT))
-                time.sleep(0.3)  # longer is as good: signals within a quarter of a second count as one
+                time.sleep(0.3)  # any longer time would do: signals within a quarter of a second count as one
                 process.send_signal(signal.SIGINT)
                 process.communicate(timeout=events.HANG)
             finally:
                 base.close()
             if process.returncode in (0, 130):
-                return False  # it had nothing to write any more, and did not wait
+                return False  # the sweep had nothing left to write, and did not wait
             self.assertEqual(process.returncode, -signal.SIGINT)
             return True
         events.struck(blow, self.size_of(short_runs, 100))
@@ -168,7 +169,7 @@ class Resuming(Measured):
             self.skipTest("nothing can be preloaded into a program with sanitizers")
 
         def many_long_runs(periods):
-            # One thread: the end of another one would wake the one that waits.
+            # One thread, because the end of a second one would wake the thread that waits.
             words = [*long_runs(periods)[:-1], "--over", "model.kappa=1,1.5,2", "-o"]
             words[words.index("--threads") + 1] = "1"
             return words
@@ -212,7 +213,7 @@ class FarAway(Measured):
             path = self.path(f"far{count}.db")
             for _ in range(6):
                 size = os.path.getsize(path) if os.path.exists(path) else 0
-                grown = rng.choice((0, 1, 50000))  # a reader would disturb: the file's size is looked at
+                grown = rng.choice((0, 1, 50000))  # the file's size is watched, because a reader would disturb
                 struck += events.kill_when([FESTOON, *words, path], lambda: os.path.exists(path) and
                                            os.path.getsize(path) >= size + grown, env=self.far)
                 seen.update(name for name in os.listdir(self.directory) if name.startswith("far"))

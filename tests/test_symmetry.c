@@ -11,7 +11,7 @@ static void mirror(const double *state, double *image)
         image[i] = sign[i] * state[i];
 }
 
-/* A model of the magnet that spins the other way: no parameter can say so. */
+/* A model whose magnet turns the other way, which no parameter can express. */
 static fst_model reversed(const fst_model *model)
 {
     fst_model back = *model;
@@ -20,8 +20,8 @@ static fst_model reversed(const fst_model *model)
     return back;
 }
 
-/* S2 and the mirror map the equations of motion onto themselves, for every material, friction and dynamics; S2
- * twice, and the mirror twice, is nothing. */
+/* S2 and the mirror map the equations of motion onto themselves, for every material, friction law and dynamics;
+ * either of them applied twice changes nothing. */
 static void test_equations(void **unused)
 {
     (void)unused;
@@ -55,7 +55,7 @@ static void test_equations(void **unused)
     }
 }
 
-/* The same of trajectories, in each dynamics: the image of the end is the end of the image. */
+/* The same for trajectories, in each dynamics: the image of a trajectory's end is the end of the image. */
 static void test_trajectories(void **unused)
 {
     (void)unused;
@@ -80,8 +80,8 @@ static void test_trajectories(void **unused)
     }
 }
 
-/* Nothing but the state matters: a trajectory taken up later goes on as it would have. In the laboratory that
- * is the drive's period: the whole motion turned by omega t. */
+/* The motion depends on the state alone: a trajectory that is taken up later goes on as it would have. In the
+ * laboratory this means that the whole motion may be turned by omega t. */
 static void test_shift_of_time(void **unused)
 {
     (void)unused;
@@ -98,8 +98,9 @@ static void test_shift_of_time(void **unused)
     }
 }
 
-/* The paper's polarity reversal: a start half a turn further round the magnet is the image under S2, and leads
- * to the conjugate orbit, the same but for the sign of <n_z>.  An orbit that shares S2 is its own conjugate. */
+/* The paper's reversal of polarity: a start half a turn further round the magnet is the image under S2, and
+ * leads to the conjugate orbit, which differs in the sign of <n_z>. An orbit with the symmetry S2 is its own
+ * conjugate. */
 static void test_polarity_reversal(void **unused)
 {
     (void)unused;
@@ -121,8 +122,8 @@ static void test_polarity_reversal(void **unused)
     }
 }
 
-/* SI is only another way to say the groups: the same bead given by scaled
- * keys (to the bit), or ten times as large with all that goes with it, moves the same. */
+/* SI and scaled parameters describe the same motion: a bead given by scaled keys (the same bits), and a setup
+ * ten times as large in every respect. */
 static void test_units_do_not_matter(void **unused)
 {
     (void)unused;

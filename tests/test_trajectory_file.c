@@ -24,7 +24,7 @@ static int make_directory(void **state)
     return mkdtemp(directory) ? 0 : 1;
 }
 
-/* Every test removes its files: what is left, a temporary file for instance, makes this fail. */
+/* Every test removes its files, so that any other file, such as a temporary one, makes this fail. */
 static int remove_directory(void **state)
 {
     (void)state;
@@ -88,7 +88,7 @@ static void write_file(const char *path, int rows, int complete)
         fst_sample sample = sample_at(i);
         assert_int_equal(fst_trajectory_append(trajectory, &sample, &error), FST_OK);
     }
-    assert_int_equal(access(path, F_OK), -1); /* not there before it is closed */
+    assert_int_equal(access(path, F_OK), -1); /* the file appears only when it is closed */
     fst_run_result result;
     memset(&result, 0, sizeof result);
     result.mean_r = NAN;
@@ -105,7 +105,7 @@ static int column(const char *name)
     return -1;
 }
 
-/* What stands in the laboratory's columns is not what the turning frame's hold. */
+/* The laboratory's columns differ from those of the turning frame. */
 static void check_laboratory(const fst_table *table, int row, const fst_sample *sample)
 {
     static const char *const names[] = {"x", "y", "vx", "vy", "n_x", "n_y", "n_z", "w_x", "w_y", "w_z"};
@@ -235,7 +235,7 @@ static char *contents_of(const char *path, size_t *size)
     return contents;
 }
 
-/* Cut off anywhere, a file is refused: a run's end stands in its last lines. */
+/* A file that is cut off anywhere is refused, because its last lines say how the run ended. */
 static void cut_files_are_refused(void **state)
 {
     (void)state;
@@ -256,7 +256,7 @@ static void cut_files_are_refused(void **state)
     }
 }
 
-/* One byte wrong among the numbers of a CSV file is found with its line. */
+/* A wrong byte among the numbers of a CSV file is reported with its line. */
 static void damaged_rows_are_refused(void **state)
 {
     (void)state;

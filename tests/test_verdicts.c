@@ -1,5 +1,5 @@
-/* Verdicts at their borders: for each rule a value just inside and just outside "reproduced" and "close".  The
- * rules are those that docs/paper.md prints. */
+/* Verdicts at their borders: for each rule a value just inside and just outside "reproduced" and "close". The
+ * rules are printed in docs/paper.md. */
 #include "numeric.h"
 
 #include "paper/runs.h"
@@ -17,19 +17,19 @@ typedef struct border {
 #define NO FST_VERDICT_NOT
 
 static const border borders[] = {
-    /* A printed number: half a unit of its last digit, ten units, and a fifth of it at most. */
+    /* A printed number: half a unit of its last digit; ten units, and at most a fifth of it. */
     {FST_RULE_NUMBER, 41.0, 1.0, 41.499, 41.501, YES, NEARLY},
     {FST_RULE_NUMBER, 41.0, 1.0, 40.501, 40.499, YES, NEARLY},
     {FST_RULE_NUMBER, 0.2904, 1e-4, 0.29139, 0.29141, NEARLY, NO},
     {FST_RULE_NUMBER, 0.2904, 1e-4, 0.28941, 0.28939, NEARLY, NO},
     {FST_RULE_NUMBER, 41.0, 1.0, 49.19, 49.21, NEARLY, NO},
     {FST_RULE_NUMBER, 41.0, 1.0, 32.81, 32.79, NEARLY, NO},
-    /* A limit: the same above, and nothing below. */
+    /* A limit: the same distances above it, and no bound below. */
     {FST_RULE_AT_MOST, 4.0, 1.0, 4.499, 4.501, YES, NEARLY},
     {FST_RULE_AT_MOST, 4.0, 1.0, 4.799, 4.801, NEARLY, NO},
     {FST_RULE_AT_MOST, 4.0, 1.0, -100.0, 4.501, YES, NEARLY},
     {FST_RULE_AT_MOST, 100.0, 1.0, 109.99, 110.01, NEARLY, NO},
-    /* An order of magnitude: half of one, one. */
+    /* An order of magnitude: within half an order; within one. */
     {FST_RULE_MAGNITUDE, 100.0, 1.0, 316.2, 316.3, YES, NEARLY},
     {FST_RULE_MAGNITUDE, 100.0, 1.0, 31.63, 31.62, YES, NEARLY},
     {FST_RULE_MAGNITUDE, 100.0, 1.0, 999.9, 1000.1, NEARLY, NO},
@@ -136,8 +136,8 @@ static void a_mean_counts_when_it_is_known(void **state)
     }
 }
 
-/* Next to the Hopf point of the locked states the swings die out so slowly that a usual run tells nothing: it
- * is prolonged, and where that does not help either it has no means. */
+/* Next to the Hopf point of the locked states swings die out so slowly that a run of the usual length decides
+ * nothing. It is prolonged, and if that does not help it has no means. */
 static void what_has_not_settled_is_prolonged(void **state)
 {
     (void)state;

@@ -1,23 +1,23 @@
-/* Whoever asks for orbits, branches or locked states can stop the work anywhere: the callback is called often,
- * by a number of evaluations of the equations of motion and not by a clock; after it refused, it is not called
- * again and hardly any work is done; and what is kept of a branch is part of the whole one, nothing that only
- * looks like a failure among it. */
+/* A caller can stop the search for orbits, branches and locked states anywhere. The callback is called often,
+ * after a number of evaluations of the equations of motion and not after a time. Once it has refused it is not
+ * called again, and hardly any work follows. The part of a branch that is kept is part of the whole branch,
+ * without anything that only looks like a failure. */
 #include "branches.h"
 
 #include "count/count_evaluations.h"
 
 enum {
     LONGEST_GAP = 12000, /* evaluations between two calls; a processor does 10^6 in a second or in less time */
-    REST = 3000,         /* of work after the refusal */
+    REST = 3000,         /* evaluations after the refusal */
     MOMENTS = 8
 };
 
 typedef struct spy {
-    long long last, longest; /* evaluations at the latest call, the longest gap */
+    long long last, longest; /* evaluations at the latest call; the longest gap */
     long calls, stop_at;     /* 0: never */
     int refused, called_again;
     double fraction;
-    int fell; /* the fraction did */
+    int fell; /* whether the fraction ever fell */
 } spy;
 
 static fst_status watch(void *user, double fraction, const char *what, fst_error *error)
@@ -46,7 +46,7 @@ typedef struct job {
     const char *set[3][2];
     fst_branch_kind kind;
     double from, to;
-    int hard; /* it takes too long to be waited for */
+    int hard; /* the whole takes too long to wait for */
 } job;
 
 static fst_params scene_for(const job *j)
@@ -114,7 +114,7 @@ static int same_point(const fst_branch_point *a, const fst_branch_point *b)
            memcmp(a->state, b->state, sizeof a->state) == 0;
 }
 
-/* Every point, special point and end of a part is one of the whole branch. */
+/* Every point, special point and end of a partial branch is also in the whole branch. */
 static void check_part(const char *name, const fst_branch *part, const fst_branch *whole)
 {
     assert_false(part->complete);
@@ -220,7 +220,7 @@ static void ordinary_scenes(void **state)
         stop_often(&jobs[i]);
 }
 
-/* A bead that all but touches the lines of the magnet takes tiny steps, and is found nowhere soon. */
+/* A bead that nearly touches the lines of the magnet takes tiny steps, and its orbit is not found soon. */
 static void hard_scenes(void **state)
 {
     static const job jobs[] = {

@@ -1,5 +1,5 @@
-/* Files that are there whole or not at all: what is on the disk, in which order, and what is left behind when
- * the disk refuses.  This program's own fsync() stands in for the system's and notes what it is asked for. */
+/* Output files that appear whole or not at all: what is on the disk, in which order, and what remains if the
+ * disk refuses. The test's own fsync() takes the place of the system's and notes each call. */
 #include "numeric.h"
 
 #include <dirent.h>
@@ -90,7 +90,7 @@ static void check_content(const char *expected)
     assert_string_equal(content, expected);
 }
 
-/* The content is on the disk before the file has its name, and the name after that. */
+/* The contents are synced before the file gets its name, and the name after that. */
 static void test_content_then_name(void **state)
 {
     (void)state;
@@ -104,7 +104,7 @@ static void test_content_then_name(void **state)
     assert_int_equal(files_in_folder(), 1);
 }
 
-/* Where the disk cannot promise to keep it, the old file stays, nothing else, and the caller is told. */
+/* If the disk cannot sync, the old file stays, nothing else remains, and the caller is told. */
 static void test_a_disk_that_refuses(void **state)
 {
     (void)state;
@@ -119,7 +119,7 @@ static void test_a_disk_that_refuses(void **state)
     assert_int_equal(files_in_folder(), 1);
 }
 
-/* Where the last bytes find no room, which only closing the file shows, likewise. */
+/* The same if the last bytes find no room, which only closing the file shows. */
 static void test_no_room_for_the_last_bytes(void **state)
 {
     (void)state;
@@ -138,7 +138,7 @@ static void test_no_room_for_the_last_bytes(void **state)
     assert_int_equal(files_in_folder(), 1);
 }
 
-/* Where the name is taken by a folder when the file is ready, likewise. */
+/* The same if a folder has taken the name when the file is ready. */
 static void test_a_name_that_was_taken(void **state)
 {
     (void)state;
@@ -153,7 +153,7 @@ static void test_a_name_that_was_taken(void **state)
     assert_int_equal(rmdir(path), 0);
 }
 
-/* What is given up leaves nothing. */
+/* A file that is given up leaves nothing. */
 static void test_what_is_given_up(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Files that appear whole or not at all: what a dead writer left is removed, what a living one writes is not;
- * and texts that are made harmless. */
+/* Output files that appear whole or not at all: a temporary file is removed if its writer is dead, and kept if
+ * its writer lives. And texts that are made harmless. */
 #include <fcntl.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -47,7 +47,7 @@ static int exists(const char *path)
     return access(path, F_OK) == 0;
 }
 
-/* A file as a killed command leaves it; the descriptor is open. */
+/* Makes the file that a killed command leaves; returns its open descriptor. */
 static int leave_file(const char *path)
 {
     const int descriptor = open(path, O_RDWR | O_CREAT, 0600);
@@ -55,14 +55,14 @@ static int leave_file(const char *path)
     return descriptor;
 }
 
-/* The temporary name of `name` with its process replaced by another one. */
+/* The temporary name of `name` for another process. */
 static char *other_writers(const char *name)
 {
     fst_whole_file file;
     assert_int_equal(fst_whole_file_open(&file, inside(name), NULL), FST_OK);
     char *path = strdup(file.temporary), *mark = path ? strrchr(path, '-') : NULL;
     assert_non_null(mark);
-    mark[1] = '7'; /* the number of the attempt */
+    mark[1] = '7'; /* the number of the try */
     fst_whole_file_discard(&file);
     assert_false(exists(path));
     return path;
@@ -85,7 +85,7 @@ static void leftovers_are_removed(void **state)
     (void)close(leave_file(cousin));
     write_whole(inside("a.csv"));
     assert_false(exists(dead));
-    assert_true(exists(cousin)); /* of another file */
+    assert_true(exists(cousin)); /* it belongs to another file */
     fst_whole_file_tidy(folder, ".a.csv");
     assert_false(exists(cousin));
     free(dead);
@@ -108,7 +108,8 @@ static void files_in_work_stay(void **state)
     free(living);
 }
 
-/* Other hosts' locks may not be seen, other programs' files are none of ours, and a link is not followed. */
+/* Kept: files of other hosts, whose locks may be invisible here, and files of other programs; links are not
+ * followed. */
 static void foreign_files_stay(void **state)
 {
     (void)state;
@@ -132,7 +133,7 @@ static void a_removed_file_is_no_success(void **state)
     fst_whole_file file;
     assert_int_equal(fst_whole_file_open(&file, inside("d.csv"), NULL), FST_OK);
     assert_int_equal(unlink(file.temporary), 0);
-    (void)close(leave_file(file.temporary)); /* another file of that name is not ours */
+    (void)close(leave_file(file.temporary)); /* another program's file of that name is kept */
     assert_int_equal(fst_whole_file_commit(&file, &error), FST_IO);
     assert_non_null(strstr(error.sentence, "removed"));
     assert_false(exists(inside("d.csv")));
@@ -169,8 +170,8 @@ static void texts_are_tamed(void **state)
         {"a\xe2\x80\xae"
          "b\xe2\x80\xa8",
          "a?b?"},                                    /* turns the direction of writing; a line separator */
-        {"\xff\xc3", "??"},                          /* no UTF-8; half a character */
-        {"\xc0\x8a\xe0\x80\x8a", "?????"},           /* a line's end in forms that are too long */
+        {"\xff\xc3", "??"},                          /* invalid UTF-8; half a character */
+        {"\xc0\x8a\xe0\x80\x8a", "?????"},           /* a line feed in overlong forms */
         {"\xed\xa0\x80\xf5\x80\x80\x80", "???????"}, /* a surrogate; beyond the last character */
         {"", ""},
     };
@@ -184,8 +185,8 @@ static void texts_are_tamed(void **state)
     assert_string_equal(fst_quote("a\nb", quoted), "\"a?b\"");
 }
 
-/* A sweep gives its file the name by itself.  The next file of this process then has the same temporary name,
- * and stays when the first one is given up. */
+/* A sweep renames its file by itself. The next file of this process then has the same temporary name, and must
+ * stay when the first one is given up. */
 static void a_name_that_came_free(void **state)
 {
     (void)state;
@@ -197,7 +198,7 @@ static void a_name_that_came_free(void **state)
     assert_int_equal(fst_whole_file_open(&second, place, &error), FST_OK);
     assert_string_equal(second.temporary, first.temporary);
     assert_false(fst_holds_lock(place, FST_LOCK_SWEEP));
-    assert_true(fst_holds_lock(place, FST_LOCK_WRITING)); /* of the first one, under its new name */
+    assert_true(fst_holds_lock(place, FST_LOCK_WRITING)); /* the first one's lock, under its new name */
     fst_whole_file_discard(&first);
     assert_false(fst_holds_lock(place, FST_LOCK_WRITING));
     assert_true(exists(second.temporary));

@@ -1,12 +1,12 @@
-/* A window of observation: how its marks are thinned, and that a window which is asked for nothing before its
- * end may leave out the integrals of most marks without any number of a result changing. */
+/* A window of observation: how its marks are thinned; and that a window which is asked only at its end may
+ * leave out the integrals of most marks without changing any number of a result. */
 #include "physics.h"
 
 #include "observe/means.h"
 #include "study/conclude.h"
 
-/* Of any number of marks those are kept whose index is a multiple of the stride, which is known beforehand; at
- * least half of the room is used. */
+/* Kept are the marks whose index is a multiple of the stride, which is known beforehand; at least half of the
+ * room is used. */
 static void test_marks_are_kept_evenly(void **unused)
 {
     (void)unused;
@@ -25,7 +25,7 @@ static void test_marks_are_kept_evenly(void **unused)
     }
 }
 
-/* Follow a bead to its end under a window that is asked at its end only, or at any time. */
+/* Follows a bead to its end, with a window that is asked only at its end, or at any time. */
 static fst_run_result observe(const fst_params *p, int asked_at_end)
 {
     fst_watched_run run;

@@ -43,7 +43,7 @@ extern "C" {
 
 /* Increased when the same parameters give other bits than before.  A sweep that was begun by another version is
  * not continued. */
-#define FST_RESULTS_VERSION 6
+#define FST_RESULTS_VERSION 7
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
@@ -348,6 +348,7 @@ typedef struct fst_run_result {
 #undef FST_RESULT
     fst_regime regime;
     fst_symmetry symmetry;
+    int never_slips;  /* dry friction: whether the contact stuck all the time of the means; -1: other laws */
     char reason[256]; /* why this regime: the criterion and its numbers */
     uint64_t rhs_calls;
     uint64_t accepted, rejected; /* steps */

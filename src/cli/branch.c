@@ -10,14 +10,17 @@ static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
     {"kind", '\0', "KIND",
-     "counter: the counter-rotating family; locked: every family of equilibria; all: these with the orbits "
-     "born there"},
+     "counter: the counter-rotating family; locked: every family of equilibria; all: these and the orbits "
+     "born at their Hopf points"},
     {"over", '\0', "KEY=LO:HI", "the parameter and its range, as in drive.omega=0.2:3"},
-    {"with", '\0', "KEY=LO:HI", "a second parameter and its range: the curves of special points over both"},
-    {"follow", '\0', "TYPE", "which: fold, pitchfork, period-doubling, hopf, neimark-sacker, origin-crossing"},
+    {"with", '\0', "KEY=LO:HI",
+     "a second parameter and its range: special points are followed as curves over both"},
+    {"follow", '\0', "TYPE",
+     "type of these special points: fold, pitchfork, period-doubling, hopf, neimark-sacker, origin-crossing"},
     {"output", 'o', "FILE.json", "write the branch to a file, for festoon plot"},
-    {"tolerance", '\0', "T", "of the integration, 1e-12"},
-    {"step", '\0', "S", "greatest step along the branch, scaled, 0.5"},
+    {"tolerance", '\0', "T",
+     "tolerance of the integration; that of Newton's method and of special points follows it (1e-12)"},
+    {"step", '\0', "S", "greatest step along the branch, scaled (0.5)"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -246,9 +249,9 @@ const command branch_command = {
     .summary = "Follow families of orbits or locked states over a parameter, with their bifurcations",
     .details =
         "counter: the symmetric counter-rotating branch both ways through the range, and the branches that\n"
-        "leave it, through r = 0 and beyond.  locked: every family of equilibria, and the orbits born at "
-        "their\n"
-        "Hopf points.  With --with and --follow, special points of one type are sought over the first "
+        "leave it, through r = 0 and beyond.  locked: every family of equilibria.  all: these, and the orbits\n"
+        "born at their Hopf points.  With --with and --follow, special points of one type are sought over the "
+        "first "
         "parameter\n"
         "at the scene's value of the second, and each is followed as a curve over both.  festoon plot draws "
         "the\n"

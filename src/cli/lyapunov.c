@@ -47,7 +47,7 @@ const command lyapunov_command = {
     .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json]",
     .summary = "The spectrum of Lyapunov exponents of the motion from the start",
     .details =
-        "run.discard drive periods are left out, the rest of run.periods is averaged over.  Errors tell\n"
+        "run.discard drive periods are left out, the rest of run.periods is averaged over.  Errors show\n"
         "what differs between parts of that time; \"converged\" means that every sign is decided.\n",
     .options = options,
     .most_operands = 1,

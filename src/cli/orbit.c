@@ -6,7 +6,8 @@
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
-    {"festoons", '\0', "N", "the stable pattern that closes in the laboratory after N festoons"},
+    {"festoons", '\0', "N",
+     "find the drive at which a stable pattern closes in the laboratory after N festoons"},
     {NULL, '\0', NULL, NULL},
 };
 

@@ -17,16 +17,16 @@ static const struct {
 static const option options[] = {
     {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
     {"kind", '\0', "KIND",
-     "path: in the laboratory; local-n: of the moment in the local frame; radius-field: r and "
-     "|B| against Phi"},
-    {"key", '\0', "KEY,...", "of a sweep: the keys of festoon run that are drawn (regime: a map of regimes)"},
+     "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame) or "
+     "radius-field (r and |B| against Phi)"},
+    {"key", '\0', "KEY,...", "of a sweep: the keys of festoon run to draw (regime: a map of regimes)"},
     {"units", '\0', "lab|scaled",
-     "of a sweep: Hz, mm and seconds, or the drive's omega and lengths in l (unless given: as they were "
-     "varied)"},
+     "of a sweep: Hz, mm and seconds, or the drive's omega and lengths in l (without it: the units in which "
+     "the axes were given)"},
     {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
     {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
-    {"no-arrows", '\0', NULL, "draw none"},
-    {"inset", '\0', NULL, "into the middle of a path the path of the moment in the local frame"},
+    {"no-arrows", '\0', NULL, "draw no arrows"},
+    {"inset", '\0', NULL, "draw the moment's path in the local frame in the middle of the bead's path"},
     {"from", '\0', "P", "first drive period shown"},
     {"to", '\0', "P", "last drive period shown"},
     {"zoom", '\0', "X0,X1,Y0,Y1", "the part of the plate shown, in mm"},
@@ -34,7 +34,7 @@ static const option options[] = {
      "of a branch: mean_r, mean_alpha_dot, mean_nz, festoons, min_r, period, phi_deg, slip, multipliers; of "
      "curves\n"
      "over two parameters: second"},
-    {"runs", '\0', "FILE", "dots over a branch, from documents of festoon run --json"},
+    {"runs", '\0', "FILE", "of a branch: draw dots over it, from documents of festoon run --json"},
     {NULL, '\0', NULL, NULL},
 };
 

@@ -16,9 +16,10 @@ static const option options[] = {
      "slow ramp of the drive after the discard: 7:20 or 420rpm:1200rpm, or omega=0.2:0.4"},
     {"ramp-points", '\0', "N", "pieces of the ramp over which means are taken (64)"},
     {"ramp-wait", '\0', "TURNS",
-     "most turns for which each piece waits half way until the motion has settled (1000; 0: a steady ramp)"},
+     "longest wait half way through each piece, in turns, for the motion to settle (1000; 0: a steady ramp)"},
     {"ramp-disturbance", '\0', "SIZE",
-     "of velocities, scaled, with which the motion starts there, so that it leaves what is unstable (1e-6)"},
+     "scaled disturbance of the velocities when a wait begins, so that the motion leaves unstable states "
+     "(1e-6)"},
     {NULL, '\0', NULL, NULL},
 };
 

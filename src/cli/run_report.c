@@ -116,6 +116,20 @@ static void print_motion(FILE *out, const fst_groups *g, const fst_run_result *s
                1.0 / g->time_unit, "1/s");
 }
 
+/* Dry friction: how the contact moves. */
+static void print_contact(FILE *out, const fst_groups *g, const fst_run_result *s)
+{
+    const double power = 1e3 * g->mass * g->length_unit * g->length_unit / pow(g->time_unit, 3);
+    if (s->never_slips)
+        (void)fprintf(out, "  the contact never slips: the motion that is reached depends on the start\n");
+    print_line(out, "contact at rest, share of time", s->sticking, NAN, "", 1, NULL);
+    print_line(out, "  slips that end, a turn of Phi", s->captures_per_return, NAN, "", 1, NULL);
+    print_line(out, "viscous rate of the same power", s->effective_rate, NAN, "gamma", 1.0 / g->time_unit,
+               "1/s");
+    print_line(out, "power lost to rolling", s->mean_rolling_power, NAN, "l^2 gamma^3", power, "mW");
+    print_line(out, "power lost to pivoting", s->mean_pivoting_power, NAN, "l^2 gamma^3", power, "mW");
+}
+
 static void print_forces(FILE *out, const fst_groups *g, const fst_run_result *s)
 {
     const int tesla = isfinite(g->field_unit);
@@ -130,7 +144,10 @@ static void print_forces(FILE *out, const fst_groups *g, const fst_run_result *s
     print_line(out, "load on the plate", s->mean_load_weights, NAN, "weights", 1, NULL);
     print_line(out, "  least", s->min_load_weights, NAN, "weights", 1, NULL);
     print_line(out, "  greatest", s->max_load_weights, NAN, "weights", 1, NULL);
-    print_line(out, "friction rate if it were dry", s->dry_friction_rate, NAN, "1/s", 1, NULL);
+    if (s->never_slips >= 0)
+        print_contact(out, g, s);
+    else
+        print_line(out, "friction rate if it were dry", s->dry_friction_rate, NAN, "1/s", 1, NULL);
     print_line(out, "power lost to friction", s->mean_friction_power, NAN, "l^2 gamma^3", power, "mW");
     print_line(out, "power of the drive", s->mean_drive_power, NAN, "l^2 gamma^3", power, "mW");
     print_line(out, "energy residual", s->energy_residual, NAN, "", 1, NULL);

@@ -141,6 +141,8 @@ json_t *fst_json_run(const fst_params *params, const fst_run_result *result)
         memcpy(&value, (const char *)result + info->offset, sizeof value);
         json_object_set_new(run, info->name, fst_json_number(value));
     }
+    json_object_set_new(run, "never_slips",
+                        result->never_slips < 0 ? json_null() : json_boolean(result->never_slips));
     json_object_set_new(run, "returns", json_integer(result->returns));
     json_object_set_new(run, "rhs_calls", count_of(result->rhs_calls));
     json_object_set_new(run, "steps_accepted", count_of(result->accepted));

@@ -22,9 +22,9 @@ static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, c
     FN(coefficients) c;
     c.kinds.source = (int)g->shape;
     c.kinds.pieces = g->lines;
-    c.kinds.contact = (int)g->friction;
-    c.kinds.dry = g->friction == FST_FRICTION_COULOMB || g->friction == FST_FRICTION_ROLLING;
-    c.kinds.paced = g->friction == FST_FRICTION_COULOMB;
+    c.kinds.contact = fst_law_in_effect(params, g->friction);
+    c.kinds.dry = c.kinds.contact == FST_FRICTION_COULOMB || c.kinds.contact == FST_FRICTION_ROLLING;
+    c.kinds.paced = c.kinds.contact == FST_FRICTION_COULOMB;
     c.kinds.magnetisable = g->material != FST_MATERIAL_HARD;
     c.kinds.gyroscopic_term_lost = g->dynamics == FST_DYNAMICS_FARAGO2020;
     c.eps = REAL_OF(g->eps);

@@ -17,6 +17,14 @@ typedef struct fst_kinds {
     int paced;                /* the law has modes, and while the bead slips a step measures its own time */
 } fst_kinds;
 
+/* The contact law that acts: dry friction of no strength is no friction. */
+static inline int fst_law_in_effect(const fst_params *p, fst_friction_law law)
+{
+    const int acts = p->friction_mu > 0 || p->friction_mu_static > 0 || p->friction_contact_rate > 0 ||
+                     p->friction_rolling_resistance > 0;
+    return law == FST_FRICTION_COULOMB && !acts ? FST_FRICTION_NONE : (int)law;
+}
+
 static inline int fst_kinds_equal(const fst_kinds *a, const fst_kinds *b)
 {
     return a->source == b->source && a->pieces == b->pieces && a->contact == b->contact &&
@@ -24,7 +32,8 @@ static inline int fst_kinds_equal(const fst_kinds *a, const fst_kinds *b)
            a->dry == b->dry && a->paced == b->paced;
 }
 
-/* Whether the contact law takes energy from a bead that slips. */
+/* Whether the contact law takes energy from a bead that slips.  A bead that rolls may lose some all the same.
+ */
 static inline int fst_kinds_brake(const fst_kinds *kinds)
 {
 #define BRAKES(NAME, name, modes, brakes, doc) brakes,

@@ -328,6 +328,12 @@ fst_status fst_params_validate(const fst_params *params, fst_error *error)
         if (status != FST_OK)
             return status;
     }
+    if (params->friction_mu_static < params->friction_mu)
+        return fst_fail(
+            error, FST_BAD_INPUT, "friction.mu_static",
+            "friction.mu_static = %g is less than friction.mu = %g: friction at rest is at least as "
+            "strong as sliding friction",
+            params->friction_mu_static, params->friction_mu);
     if (!(fst_run_discard(params) < params->run_periods))
         return fst_fail(error, FST_BAD_INPUT, "run.discard",
                         "run.discard = %g leaves nothing of run.periods = %g: make run.periods larger or "

@@ -59,6 +59,7 @@ void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, 
     if (!whole)
         return;
     fst_quadrature_at(q, flow, x, mark->integrals, &mark->moment_angle);
+    mark->captures = flow->contact.captures;
     const fst_winding phi = fst_flow_bead_angle(flow, x);
     mark->bead_angle = fst_winding_angle(&phi);
     fst_pull_double p;

@@ -15,6 +15,7 @@ typedef struct fst_mark {
     double state[FST_STATE_SIZE];
     double half_distance; /* marks of returns: from the state half a return ago, its image under S2 */
     double full_distance; /* marks of returns: from the state a whole return ago */
+    int64_t captures;     /* slips that have come to rest */
     double activity;      /* marks of periods: greatest speed in the turning frame since the mark before */
 } fst_mark;
 

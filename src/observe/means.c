@@ -20,6 +20,8 @@
 
 #include "base/constants.h"
 
+static const double ROUNDING = 1e-12; /* of a share of time */
+
 /* Mean of one integrand between two marks. */
 static double mean(const fst_mark *first, const fst_mark *last, int which)
 {
@@ -106,7 +108,8 @@ static double energy_residual(const fst_mark_series *series, const fst_mark *las
     for (int i = 0; i < series->count; ++i) {
         const fst_mark *from = &series->kept[i], *to = i + 1 < series->count ? &series->kept[i + 1] : last;
         const double work = (to->integrals[FST_Q_DRIVE_POWER] - from->integrals[FST_Q_DRIVE_POWER]) -
-                            (to->integrals[FST_Q_FRICTION_POWER] - from->integrals[FST_Q_FRICTION_POWER]);
+                            (to->integrals[FST_Q_FRICTION_POWER] - from->integrals[FST_Q_FRICTION_POWER]) -
+                            (to->integrals[FST_Q_ROLLING_POWER] - from->integrals[FST_Q_ROLLING_POWER]);
         const double defect = fabs((to->energy - from->energy) - work);
         worst = defect > worst ? defect : worst;
     }
@@ -164,6 +167,22 @@ static double tilt(const fst_mark *first, const fst_mark *last)
     return FST_DEGREES * asin(sine < 1 ? sine : 1.0);
 }
 
+/* What a contact with dry friction does, which slips and sticks. */
+static void fill_contact(const fst_window *w, const fst_mark_series *series, fst_run_result *result)
+{
+    const fst_mark *first = &series->kept[0], *last = &series->latest;
+    const int64_t captures = last->captures - first->captures;
+    const double sticking = mean(first, last, FST_Q_STICKING), slip2 = mean(first, last, FST_Q_SLIP2);
+    result->never_slips = captures == 0 && sticking > 1.0 - ROUNDING;
+    result->sticking = result->never_slips ? 1.0 : sticking;
+    result->mean_rolling_power = mean(first, last, FST_Q_ROLLING_POWER);
+    result->mean_pivoting_power = 0.0;
+    if (!result->never_slips && slip2 > 0)
+        result->effective_rate = result->mean_friction_power / slip2;
+    if (series == &w->returns.marks)
+        result->captures_per_return = (double)captures / (double)(series->offered - 1);
+}
+
 void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fst_params *params,
                     fst_run_result *result)
 {
@@ -184,6 +203,8 @@ void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fs
     result->mean_friction_power = mean(first, last, FST_Q_FRICTION_POWER);
     result->mean_drive_power = mean(first, last, FST_Q_DRIVE_POWER);
     result->energy_residual = energy_residual(series, last);
+    if (w->dry)
+        fill_contact(w, series, result);
     result->rms_slip = sqrt(mean(first, last, FST_Q_SLIP2));
     result->tilt_deg = tilt(first, last);
     const double load = mean(first, last, FST_Q_LOAD);

@@ -27,6 +27,7 @@ void fst_window_begin(fst_window *w, const fst_span *span, double period, const 
     w->span = *span;
     w->period = period;
     w->groups = flow->groups;
+    w->dry = flow->step.context.coefficients.kinds.dry;
     fst_quadrature_begin(&w->quadrature, flow);
     fst_extremes_begin(w->extremes);
     fst_returns_begin(&w->returns);

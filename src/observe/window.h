@@ -16,6 +16,7 @@ typedef struct fst_window {
     fst_span span;
     double period;     /* of the drive: one mark each, from the span's beginning on */
     fst_groups groups; /* of the model */
+    int dry;           /* its contact slips and sticks */
     fst_quadrature quadrature;
     fst_extreme extremes[FST_TRACK_COUNT];
     fst_returns returns;

@@ -263,8 +263,10 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, "fst_flow",
                         "time cannot run backwards under dry friction: what was at rest does not tell when it "
                         "came to rest");
-    if (flow->contact.next_mode >= 0) {
-        enter(flow, flow->contact.next_mode, flow->step.end);
+    const int next_mode = flow->contact.next_mode;
+    if (next_mode >= 0) {
+        flow->contact.captures += fst_contact_mode(flow) == FST_MODE_SLIP && next_mode == FST_MODE_STICK;
+        enter(flow, next_mode, flow->step.end);
         fst_bead_flow_restart(flow);
     }
     fst_bead_flow_prepare(flow);
@@ -284,7 +286,5 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));
     flow->has_step = 1;
     flow->contact.next_mode = !lands && event <= 1.0 ? next : slip_ends(flow) ? FST_MODE_STICK : -1;
-    flow->contact.captures +=
-        fst_contact_mode(flow) == FST_MODE_SLIP && flow->contact.next_mode == FST_MODE_STICK;
     return FST_OK;
 }

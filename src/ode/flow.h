@@ -15,7 +15,7 @@
 /* The contact of a bead under a law with modes (contact.c). */
 typedef struct fst_contact_state {
     int next_mode;      /* begins with the next step; -1: the mode goes on */
-    int64_t captures;   /* slips that have come to rest */
+    int64_t captures;   /* slips that came to rest before the last step */
     double proposal[3]; /* size of the next step in each mode */
     double clock[8];    /* dense output of the time over the last step, */
     int has_clock;      /* once formed */

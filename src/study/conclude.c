@@ -40,6 +40,7 @@ const char *fst_symmetry_name(fst_symmetry symmetry)
 void fst_result_clear(fst_run_result *result)
 {
     memset(result, 0, sizeof *result);
+    result->never_slips = -1;
 #define FST_RESULT(name, unit, doc) result->name = NAN;
 #include <festoon/run.def>
 #undef FST_RESULT

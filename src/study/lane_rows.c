@@ -30,6 +30,8 @@
  * exponent to be told (conclude.h).  Their runs are parked until there are as many as lanes, and followed side
  * by side too.
  *
+ * A run with dry friction has modes, which lanes do not know: it is done alone, while the lanes wait.
+ *
  * No row's bits depend on any of this: lanes do not mix (only the order in which rows come out does).
  */
 #include "study/lane_rows.h"
@@ -41,6 +43,7 @@
 #include "base/error.h"
 #include "study/conclude.h"
 #include "study/lane_worker.h"
+#include "study/lone_run.h"
 
 /* ------------------------------------------------------------------ beginning and ending */
 
@@ -96,9 +99,10 @@ static int fits(const fst_row_worker *w, const fst_model *model)
     return at_work(w) == 0 || fst_kinds_equal(&w->kind.kinds, &model->coefficients.kinds);
 }
 
-typedef enum { BEGUN, REFUSED, FAILED } beginning;
+typedef enum { BEGUN, REFUSED, ALONE, FAILED } beginning;
 
-/* Begin the job of `at`.  FAILED: `error` says why; REFUSED: it has to wait until nothing is at work. */
+/* Begin the job of `at`.  FAILED: `error` says why; REFUSED: it has to wait until nothing is at work; ALONE: it
+ * is one for no lane, since lanes know no contact that slips and sticks. */
 static beginning begin(fst_row_worker *w, fst_lane *at, fst_status *status, fst_error *error)
 {
     fst_watched_run *run = calloc(1, sizeof *run);
@@ -107,11 +111,12 @@ static beginning begin(fst_row_worker *w, fst_lane *at, fst_status *status, fst_
         return FAILED;
     }
     *status = fst_watched_run_begin(run, &at->job.params, at->job.has_start ? at->job.start : NULL, error);
-    const int refused = *status == FST_OK && !fits(w, run->model);
-    if (*status != FST_OK || refused) {
+    const int alone = *status == FST_OK && run->model->coefficients.kinds.dry;
+    const int refused = *status == FST_OK && !alone && !fits(w, run->model);
+    if (*status != FST_OK || refused || alone) {
         fst_watched_run_free(run);
         free(run);
-        return refused ? REFUSED : FAILED;
+        return alone ? ALONE : refused ? REFUSED : FAILED;
     }
     at->run = run;
     w->kind = run->model->coefficients;
@@ -197,6 +202,12 @@ static int admit(fst_row_worker *w)
         fst_status status;
         fst_error error = {FST_OK, "", ""};
         const beginning begun = begin(w, &fresh, &status, &error);
+        if (begun == ALONE) {
+            w->no_more = w->stopped = fst_row_alone(w->work, w->images, &fresh.job, &has_job, &error) != FST_OK;
+            if (w->stopped)
+                return 0;
+            continue;
+        }
         if (begun == REFUSED) {
             w->deferred[w->deferred_count++] = fresh.job;
             return 1;
@@ -444,9 +455,11 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_row_images *images,
             status = conclude_parked(w, error);
             occupy_idle(w);
         }
-        if (status == FST_OK && steps % 64 == 0 && fst_worker_stopped(w))
+        if (status == FST_OK && (steps % 64 == 0 || w->stopped) && fst_worker_stopped(w))
             status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
     }
+    if (status == FST_OK && w->stopped)
+        status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
     free_worker(w);
     return status;
 }

@@ -56,6 +56,7 @@ typedef struct fst_row_worker {
     int waiting_count, deferred_count;
     fst_coefficients_double kind; /* of the runs at work, which share its integers */
     int no_more;
+    int stopped; /* a run that was done alone was told to stop */
 } fst_row_worker;
 
 static inline unsigned fst_lane_bit(int l)

@@ -1,11 +1,7 @@
 /* rows.c - many runs, one after another or side by side. */
-#include <stdlib.h>
-
-#include "base/clock.h"
 #include "base/error.h"
-#include "study/conclude.h"
 #include "study/lane_rows.h"
-#include "study/run_image.h"
+#include "study/lone_run.h"
 
 const char *fst_arithmetic_name(fst_arithmetic arithmetic)
 {
@@ -20,106 +16,15 @@ fst_arithmetic fst_best_arithmetic(void)
                                                         : FST_ARITHMETIC_PORTABLE;
 }
 
-/* One run after another: the present one. */
-typedef struct lone_run {
-    const fst_row_work *work;
-    const fst_row_images *images;
-    fst_row_job job;
-    fst_watched_run *run;
-    fst_run_stage stage;
-    fst_exponent exponent; /* what a parked run waits for */
-    double saved;
-} lone_run;
-
-/* Whether to stop; before that, save the image if it is due. */
-static int is_stopped(lone_run *l)
-{
-    const int stop = l->work->stopped(l->work->user);
-    const double time = l->images ? fst_clock_seconds() : 0.0;
-    if (!l->images || (!stop && time - l->saved < l->images->seconds))
-        return stop;
-    const fst_run_place place = {.stage = l->stage};
-    double *none;
-    size_t size;
-    void *image =
-        fst_run_image_make(l->run, l->stage == FST_STAGE_PARKED ? &l->exponent : NULL, &place, 0, &none, &size);
-    if (image)
-        l->images->save(l->images->user, &l->job, image, size);
-    free(image);
-    l->saved = time;
-    return stop;
-}
-
-static fst_status watch_exponent(void *user, double fraction, const char *what, fst_error *error)
-{
-    (void)fraction, (void)what;
-    return is_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
-}
-
-static fst_status begin(lone_run *l, fst_error *error)
-{
-    l->stage = FST_STAGE_ALONE;
-    l->run = calloc(1, sizeof *l->run);
-    if (!l->run)
-        return fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
-    const fst_status status =
-        fst_watched_run_begin(l->run, &l->job.params, l->job.has_start ? l->job.start : NULL, error);
-    if (status != FST_OK || !l->images)
-        return status;
-    size_t size;
-    fst_run_place place;
-    const double *none;
-    void *image = l->images->find(l->images->user, &l->job, &size);
-    if (fst_run_image_take(image, size, 0, l->run, &l->exponent, &place, &none))
-        l->stage = place.stage;
-    free(image);
-    l->saved = fst_clock_seconds();
-    return FST_OK;
-}
-
-/* Follow the run to its end and fill in the result; FST_INTERRUPTED: it has not got there. */
-static fst_status go_on(lone_run *l, fst_run_result *result, fst_error *error)
-{
-    enum { STEPS = 64 }; /* between two looks whether to stop */
-    fst_status status = FST_OK;
-    int needs_exponent = l->stage == FST_STAGE_PARKED;
-    for (int over = needs_exponent; status == FST_OK && !over;) {
-        status = fst_watched_run_go_on(l->run, STEPS, &over, error);
-        if (status == FST_OK && !over && is_stopped(l))
-            status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
-    }
-    if (status == FST_OK && !needs_exponent) {
-        status = fst_conclude(l->run, NULL, result, &needs_exponent, error);
-        if (status == FST_OK && needs_exponent)
-            fst_ask_exponent(l->run, &l->exponent);
-    }
-    if (status != FST_OK || !needs_exponent)
-        return status;
-    const fst_progress progress = {l, watch_exponent};
-    fst_exponent *asked = &l->exponent;
-    l->stage = FST_STAGE_PARKED;
-    status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, &progress, error);
-    fst_result_clear(result);
-    return status == FST_OK ? fst_conclude(l->run, asked, result, &needs_exponent, error) : status;
-}
-
 static fst_status single_rows(const fst_row_work *work, const fst_row_images *images, fst_error *error)
 {
-    lone_run l = {.work = work, .images = fst_run_images_possible() ? images : NULL};
-    int more = work->next(work->user, &l.job);
+    fst_row_job job;
+    int more = work->next(work->user, &job);
     while (more) {
-        fst_run_result result;
-        fst_error own = {FST_OK, "", ""};
-        fst_result_clear(&result);
-        fst_status status = begin(&l, &own);
-        if (status == FST_OK)
-            status = go_on(&l, &result, &own);
-        if (l.run)
-            fst_watched_run_free(l.run);
-        free(l.run);
-        if (status == FST_INTERRUPTED)
-            return fst_fail(error, FST_INTERRUPTED, "", "interrupted");
-        more = work->done(work->user, &l.job, status, &result, &own) || work->next(work->user, &l.job);
+        const fst_status status = fst_row_alone(work, images, &job, &more, error);
+        if (status != FST_OK)
+            return status;
+        more = more || work->next(work->user, &job);
     }
     return FST_OK;
 }

@@ -26,7 +26,8 @@ fst_status fst_workers_new(const fst_sweep_identity *identity, const fst_workers
 /* How many tasks should be given now: 0 while there are enough, or where no more are expected. */
 int fst_workers_room(fst_workers *workers);
 
-/* The leader has been asked for tasks.  Until they are given, fst_workers_take() waits for rows at ease. */
+/* The leader has been asked for tasks.  Until they come, fst_workers_take() does not return early to ask for
+ * more. */
 void fst_workers_expect(fst_workers *workers);
 
 /* Give tasks, at most fst_workers_room(); an empty list says that there will never be more. */

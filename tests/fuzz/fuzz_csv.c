@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fst_error error = {FST_OK, "", ""};
     union {
         const uint8_t *constant;
-        void *plain; /* fmemopen() writes nothing when it reads */
+        void *plain; /* fmemopen() with "r" does not write to it */
     } bytes = {data};
     FILE *in = size > 0 ? fmemopen(bytes.plain, size, "r") : NULL;
     if (!in)
@@ -25,7 +25,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             for (size_t row = 0; row < table.rows; ++row)
                 sum += table.columns[i][row];
     }
-    const volatile double sink = sum; /* every number was there to be read */
+    const volatile double sink = sum; /* reads every number, so that the sanitizer sees it */
     (void)sink;
     (void)fclose(in);
     fst_table_free(&table);

@@ -15,7 +15,7 @@ static void refused(fst_status status, const fst_error *error)
         abort();
 }
 
-/* Texts from the file go to terminals. */
+/* Texts from the file reach terminals. */
 static void check_export(const char *path)
 {
     char *text = NULL;

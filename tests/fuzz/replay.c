@@ -15,7 +15,8 @@ enum { MOST_BYTES = 1 << 16, MOST_PLACES = 200 };
 
 static void replay(const uint8_t *data, size_t size)
 {
-    uint8_t *exact = malloc(size > 0 ? size : 1); /* an array of its own, so that reading beyond it shows */
+    uint8_t *exact =
+        malloc(size > 0 ? size : 1); /* a copy of exactly this size, so that reading beyond it is noticed */
     if (!exact)
         abort();
     memcpy(exact, data, size);

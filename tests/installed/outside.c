@@ -1,4 +1,4 @@
-/* outside.c - a program of somebody else's, in C: simulates a short run with libfestoon alone. */
+/* outside.c - a user's program in C: it simulates a short run with libfestoon alone. */
 #include <festoon/festoon.h>
 
 #include <stdio.h>

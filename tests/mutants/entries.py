@@ -34,7 +34,7 @@ class Entry:
         self.old, self.new, self.tests, self.comment, self.why = [], [], [], [], []
 
     def pattern(self):
-        """What the old text looks like, however it is laid out."""
+        """A pattern of the old text that ignores its layout."""
         words = " ".join(self.old).split()
         return re.compile(r"\s+".join(re.escape(word) for word in words))
 
@@ -50,11 +50,11 @@ class Entry:
         return after
 
     def fingerprint(self):
-        """Changes when the fault does."""
+        """A text that changes if the fault changes."""
         return hashlib.sha256(repr((self.path, self.old, self.new)).encode()).hexdigest()
 
     def check(self):
-        """Complain about what is missing."""
+        """Raises Wrong if something is missing."""
         if not self.path or not self.old:
             raise Wrong(f"{self.room}.mutants: {self.name} needs a file and a line of old text")
         if not self.tests:
@@ -113,7 +113,7 @@ def read_all(folder=HERE):
 
 
 def stale(entries, source):
-    """What keeps each entry from applying to the tree: a list of sentences, empty if all is well."""
+    """One sentence for each entry that does not apply to the tree; an empty list if all do."""
     complaints, texts = [], {}
     for entry in entries:
         try:

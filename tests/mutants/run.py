@@ -22,6 +22,7 @@ import hashlib
 import json
 import os
 import queue
+import re
 import shutil
 import signal
 import subprocess
@@ -59,7 +60,7 @@ def digest(path):
 
 
 def fingerprint_of_tree(names):
-    """Changes when anything does that is compiled or tested."""
+    """A text that changes if any file changes that is compiled or tested."""
     parts = [name + digest(os.path.join(SOURCE, name)) for name in names
              if name.split("/")[0] in ("src", "include", "tests", "tools", "examples", "cmake", "CMakeLists.txt")
              and not name.startswith(("tests/mutants/", "tests/reliability/"))]
@@ -67,7 +68,7 @@ def fingerprint_of_tree(names):
 
 
 def mirror(source, target, names=None):
-    """Make `target` what `source` is, times included; files that are alike already are left alone."""
+    """Makes `target` a copy of `source`, times included; equal files are left alone."""
     if names is None:
         names = [os.path.relpath(os.path.join(folder, name), source)
                  for folder, _, files in os.walk(source) for name in files]
@@ -104,7 +105,7 @@ class Test:
     def run(self, limit, log):
         """`passed`, `failed` or `hangs`."""
         with open(log, "wb") as output:
-            # A group of its own: what a test starts ends with it.
+            # A process group of its own, so that everything that a test starts ends with it.
             process = subprocess.Popen(self.command, cwd=self.folder, env={**os.environ, **self.environment},
                                        stdin=subprocess.DEVNULL, stdout=output, stderr=output, start_new_session=True)
             try:
@@ -121,7 +122,7 @@ class Test:
 
 
 class Tree:
-    """A copy of the tree, built without faults and kept so beside it."""
+    """A copy of the tree, and beside it the copy's state when it was built without faults."""
 
     def __init__(self, place, number, jobs):
         self.root = os.path.join(place, f"tree-{number}")
@@ -129,16 +130,16 @@ class Tree:
         self.jobs, self.tests, self.times = jobs, {}, {}
 
     def make(self, *targets):
-        """Build; the end of what went wrong, or an empty text."""
+        """Builds; returns the end of the messages if it failed, else an empty text."""
         done = subprocess.run(["cmake", "--build", self.build, "-j", str(self.jobs)] +
                               (["--target", *targets] if targets else []),
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
         return "" if done.returncode == 0 else done.stdout.decode(errors="replace")[-2000:]
 
     def prepare(self, names):
-        """Copy, configure and build the tree, and keep a copy of what came of it."""
+        """Copies, configures and builds the tree, and keeps a copy of the result."""
         if os.path.isdir(self.clean):
-            mirror(self.clean, self.build)  # a run that was interrupted leaves a fault behind
+            mirror(self.clean, self.build)  # an interrupted run may have left a fault in it
         mirror_tree(names, self.root)
         subprocess.run(["cmake", "--preset", "release", "--log-level=WARNING", "-DFESTOON_TESTS=ON"], cwd=self.root,
                        check=True, stdout=subprocess.DEVNULL)
@@ -168,8 +169,8 @@ class Tree:
         return 30.0 + 10.0 * self.times.get(name, 60.0)
 
     def notices(self, name, confirm):
-        """Whether a test notices the fault, in words, or None.  To confirm is to run it twice: a test that passes
-        the second time noticed something else."""
+        """Returns in words how a test notices the fault, or None. With `confirm` the test is run again: if it passes
+        the second time, it failed for another reason."""
         log = os.path.join(self.root, "test.log")
         how = self.tests[name].run(self.limit(name), log)
         if how != "passed" and (confirm or how == "hangs"):
@@ -177,7 +178,7 @@ class Tree:
         return None if how == "passed" else f"{name} {how}"
 
     def judge(self, entry, quick):
-        """Put the fault in, look what notices it, take it out again."""
+        """Puts the fault in, finds out which test notices it, and takes it out again."""
         path = os.path.join(self.root, entry.path)
         kept = os.stat(path)
         with open(path, encoding="utf-8") as file:
@@ -217,12 +218,12 @@ class Tree:
         return "survived", ""
 
     def is_python(self, name):
-        """Whether a test is no program of its own."""
+        """Whether a test is a script, not a program of its own."""
         return "ython" in os.path.basename(self.tests[name].command[0])
 
 
 def mirror_tree(names, root):
-    """Copy the tree, but only what changed: the times of the files are those of the copies."""
+    """Copies the files of the tree that have changed, so that the times of the others stay."""
     wanted = set(names)
     for folder, below, files in os.walk(root):
         if folder == root:
@@ -256,7 +257,7 @@ def write_json(path, what):
 
 
 def measure(tree, results, entries, all_tests):
-    """Seconds that each test takes without a fault; a test that fails without one cannot notice any."""
+    """Measures the seconds of each test without a fault; a test that fails without a fault cannot notice any."""
     path = os.path.join(results, "times.json")
     times = read_json(path)
     needed = set(tree.tests) if all_tests else {name for entry in entries for name in entry.tests}
@@ -274,18 +275,18 @@ def measure(tree, results, entries, all_tests):
 
 
 class Results:
-    """A file a fault."""
+    """The kept results, one file for each fault."""
 
     def __init__(self, folder, tree, likely):
         self.folder, self.tree, self.likely = folder, tree, likely
         os.makedirs(folder, exist_ok=True)
 
     def path(self, entry):
-        """Of the file."""
+        """The path of a fault's result."""
         return os.path.join(self.folder, f"{entry.name}.json")
 
     def key(self, entry):
-        """Says for what the result holds."""
+        """The state for which a result holds."""
         return [entry.fingerprint(), digest(os.path.join(SOURCE, entry.path))]
 
     def get(self, entry):
@@ -303,7 +304,7 @@ class Results:
 
 
 def work(trees, entries, results, quick):
-    """Judge what is not known yet, one fault at a time in each tree."""
+    """Judges the faults without a valid result, one fault at a time in each tree."""
     free = queue.SimpleQueue()
     for tree in trees:
         free.put(tree)
@@ -344,7 +345,7 @@ def tabulate(entries, results):
 
 
 def row_of(room, counts):
-    """One line of the table."""
+    """Makes one line of the table."""
     valid = sum(counts[name] for name in COUNTED)
     score = f"{100.0 * counts['noticed'] / valid:.1f} %" if valid else "-"
     return [room, valid, counts["noticed"], counts["survived"] + counts["open"],
@@ -355,7 +356,7 @@ HEAD = ["room", "faults", "noticed", "survived", "do not count", "not tried", "s
 
 
 def report(entries, results, write):
-    """Print the score, write the section, and say by the exit status whether all is well."""
+    """Prints the score, writes the section, and returns the exit status."""
     rows, counts = tabulate(entries, results)
     widths = [max(len(str(row[i])) for row in [HEAD] + rows) for i in range(len(HEAD))]
     print()
@@ -378,23 +379,32 @@ def report(entries, results, write):
                  not left and all(entry.why for entry in survivors)) else 1
 
 
+def results_version():
+    """FST_RESULTS_VERSION of the tree: which state of the code the numbers are about."""
+    with open(os.path.join(SOURCE, "include", "festoon", "festoon.h"), encoding="utf-8") as file:
+        return re.search(r"#define FST_RESULTS_VERSION (\d+)", file.read())[1]
+
+
 def text_of(rows, survivors, few):
-    """The section of docs/reliability.md; `few` are the faults that only their likely tests were asked about."""
-    text = ("Faults that a reviewer would call bugs (a wrong sign, factor, index or threshold, a check, a term or an "
-            "error bar\nleft out, a text unquoted, a status ignored) are put into the code by hand, one at a time: "
-            "`tests/mutants/*.mutants`\nlists them, a block a fault. For each, the tree is built and its tests are "
-            "run, all but the long ones, until one fails or\nhangs. Faults that compile to the same object files do "
-            "not count.\n\n")
-    left = rows[-1][5]  # a column that is only there where something is left
+    """The section of docs/reliability.md; `few` are the faults of which only the likely tests were run."""
+    text = ("Faults that a reviewer would call bugs (a wrong sign, factor, index or threshold; a check, a term or an "
+            "error bar left\nout; an unquoted text; an ignored status) are put into the code by hand, one at a time. "
+            "`tests/mutants/*.mutants` lists\nthem, a block for each fault. For each fault the tree is built, and its "
+            "tests are run, all but the long ones, until one\nfails or hangs. Faults that compile to the same object "
+            f"files do not count. The numbers are of the code with\n`FST_RESULTS_VERSION` {results_version()}.\n\n")
+    left = rows[-1][5]  # this column is written only if something is left
     text += section.table(*([HEAD, rows] if left else [HEAD[:5] + HEAD[6:], [row[:5] + row[6:] for row in rows]]))
     if left:
         text += f"\n\n{left} faults were not tried: `make mutants` goes on with them."
-    text += "\n\nFaults that no test notices, and why that is accepted:\n\n" if survivors else "\n\nNone of those tried survives.\n"
+    text += ("\n\nFaults that no test notices, and why that is accepted:\n\n" if survivors
+             else "\n\nTests noticed every fault that was tried.\n")
     for entry in survivors:
         what = " ".join(entry.comment) or "`" + " ".join(" ".join(entry.old).split()).replace("|", "\\|") + "`"
         text += f"- `{entry.name}` in `{entry.path}` ({what}): {' '.join(entry.why) or 'no reason yet'}\n"
-    if few:
-        text += f"\nOf these, only the likely tests were asked about {len(few)}: `{'`, `'.join(few)}`.\n"
+    if few and len(few) == len(survivors):
+        text += "\nFor these faults only the likely tests were run.\n"
+    elif few:
+        text += f"\nFor {len(few)} of these only the likely tests were run: `{'`, `'.join(few)}`.\n"
     return text
 
 

@@ -1,5 +1,5 @@
-/* Preloaded, the clock of the day is an hour ahead of the one by which the kernel waits: what a program sees
- * that read the clock just before it was set back. */
+/* clock_ahead.c - preloaded into a program, it sets the time of day an hour ahead of the clock by which the
+ * kernel waits: so a program sees it that read the time just before it was set back. */
 #define _GNU_SOURCE
 #include <sys/syscall.h>
 #include <time.h>

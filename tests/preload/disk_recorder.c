@@ -68,7 +68,7 @@ static void put(const char *entry, const void *bytes, size_t size)
         abort();
 }
 
-/* One call at a time is made and written down: begin(), the call, and its end by record() or by finish(). */
+/* Calls are made and recorded one at a time: begin(), the call, and its end by record() or finish(). */
 static void begin(void)
 {
     (void)pthread_mutex_lock(&order);
@@ -82,7 +82,7 @@ static int finish(int answer)
     return answer;
 }
 
-/* The end of a call that answered `failed`: an entry if it did not fail and this path is watched. */
+/* Ends a call that answered `failed`: adds an entry if it succeeded and its path is watched. */
 __attribute__((format(printf, 3, 4))) static int record(int failed, const char *watched, const char *format,
                                                         ...)
 {
@@ -160,8 +160,8 @@ VISIBLE ssize_t pwrite64(int descriptor, const void *bytes, size_t size, off_t p
     return pwrite_recorded(descriptor, bytes, size, place);
 }
 
-/* Streams write by write(2) inside the C library, which nothing preloaded sees: none of the watched files is
- * one. */
+/* Streams call write(2) inside the C library, which a preloaded function cannot see; no watched file is a
+ * stream. */
 VISIBLE ssize_t write(int descriptor, const void *bytes, size_t size)
 {
     char path[4096];

@@ -1,6 +1,5 @@
-/* far_away.c - preloaded into the program by tests: every file seems to lie on a network file system (NFS).  A
- * lock of a file as a whole is there one of all its bytes, and shuts out the locks of single bytes (flock(2)).
- */
+/* far_away.c - preloaded into the program by tests: every file seems to lie on a network file system (NFS).
+ * There a lock of a whole file is a lock of all its bytes, and excludes locks of single bytes (flock(2)). */
 #define _GNU_SOURCE /* F_OFD_SETLK */
 #include <fcntl.h>
 #include <string.h>

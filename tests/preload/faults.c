@@ -34,7 +34,7 @@ static char wanted[32], under[4000];
 static int error_number, active;
 static long at;
 
-/* The next definition of a function, which POSIX lets dlsym() return as a pointer to data. */
+/* The next definition of a function; POSIX lets dlsym() return it as a pointer to data. */
 #define NEXT(result, function, name, ...)                                                                      \
     result (*function)(__VA_ARGS__);                                                                           \
     *(void **)&function = dlsym(RTLD_NEXT, name)
@@ -113,7 +113,7 @@ static void moment(void)
     (void)next(place, gone);
 }
 
-/* Count a call; 1 if it is the one that fails, with errno set. */
+/* Counts a call; 1 if it is the one to fail, with errno set. */
 static int fails(int call)
 {
     const long number = atomic_fetch_add(&calls[call], 1) + 1;
@@ -131,7 +131,7 @@ static int fails(int call)
     return 1;
 }
 
-/* How many of `size` bytes a write may take; -1: none, with errno set. */
+/* How many of `size` bytes a write may take; -1 for none, with errno set. */
 static ssize_t room_for(size_t size)
 {
     if (fails(WRITE))
@@ -209,7 +209,7 @@ PUBLIC int ftruncate64(int file, off64_t size)
     return ftruncate(file, (off_t)size);
 }
 
-/* Linux closes the descriptor whatever it answers. */
+/* Linux closes the descriptor whatever close() answers. */
 PUBLIC int close(int file)
 {
     NEXT(int, next, "close", int);

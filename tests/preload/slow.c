@@ -1,5 +1,5 @@
-/* Preloaded, a program gets a tenth of the time: a child of it stops it and lets it go on, over and over.  By
- * hand, to see that no test depends on speed: tests/slowly. */
+/* slow.c - preloaded, it gives a program a tenth of the time: a child process stops the program and lets it go
+ * on, over and over. Used by hand through tests/slowly, to see that no test depends on speed. */
 #define _GNU_SOURCE
 #include <signal.h>
 #include <time.h>
@@ -18,7 +18,7 @@ __attribute__((constructor)) static void begin(void)
     const pid_t slowed = getpid();
     if (fork() != 0)
         return;
-    (void)setpgid(0, 0); /* signals of the terminal are not for this one */
+    (void)setpgid(0, 0); /* must not receive signals of the terminal */
     for (int descriptor = 0; descriptor < 1024; ++descriptor)
         (void)close(descriptor);
     while (getppid() == slowed) {

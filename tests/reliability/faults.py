@@ -125,7 +125,7 @@ class Campaign:
         return os.path.join(self.out, command.out)
 
     def content(self, command):
-        """What stands in the place of the output: a value that can be compared, or None."""
+        """The contents of the output: a value that can be compared, or None."""
         path = self.path(command)
         if command.out.endswith(".db"):
             if not os.path.exists(path):
@@ -150,7 +150,7 @@ class Campaign:
                     file.write(content)
 
     def learn(self, command):
-        """The contents before and after an undisturbed command; and the numbers of its calls."""
+        """Finds the contents before and after an undisturbed command, and the numbers of its calls."""
         self.begin(command)
         if command.old:
             done(*command.old)
@@ -229,7 +229,7 @@ class Campaign:
         command, status = case.command, result.returncode
         words = result.stderr.decode(errors="replace")
         gone = os.path.isdir(self.out + ".gone")
-        if gone:  # what stands in the directory that went away is nobody's; the name must not exist by half
+        if gone:  # the contents of the directory that went away do not matter; under its name no partial file may exist
             shutil.rmtree(self.out, ignore_errors=True)
             os.rename(self.out + ".gone", self.out)
         content, old = self.content(command), self.old.get(command.name, (None, None))[0]
@@ -257,7 +257,7 @@ class Campaign:
             return True
         if command.out == "frames":  # each frame is a file of its own
             return content is not None and all(frame in self.wanted[command.name] for frame in content)
-        if "is complete" in words and not command.out.endswith(".db"):  # only the directory could not be synced
+        if "is complete" in words and not command.out.endswith(".db"):  # only its folder could not be synced
             return content == self.wanted[command.name]
         if command.out.endswith(".db"):  # the same command goes on
             again = run(command.words)
@@ -276,7 +276,7 @@ class Campaign:
     # ------------------------------------------------------------------ special cases
 
     def expect(self, command, fault, status, result, condition=True, problem="not as promised"):
-        """Note one special case by its status and a condition."""
+        """Counts one special case: the promise is kept if the status is the expected one and the condition holds."""
         case = Case(command, fault)
         wrong = None if result.returncode == status and condition else f"status {result.returncode}: {problem}"
         self.note(case, wrong, result.returncode, result.stderr.decode(errors="replace") if result.stderr else "")
@@ -318,7 +318,8 @@ class Campaign:
                     (ends[1].returncode == 0 or other[0] == "init"), "two at once")
 
     def leftovers(self, command):
-        """Killed at a write; the next command removes what was left, but nothing that is being written."""
+        """A command is killed at a write; the next one removes what was left, but nothing that another process is
+        writing."""
         self.begin(command)
         killed = run(command.words, self.preload("festoon", "kill", 0, 1))
         left = [n for n in os.listdir(self.out) if n.endswith(".part")]
@@ -329,7 +330,7 @@ class Campaign:
                     not [n for n in os.listdir(self.out) if n.endswith(".part")], "leftovers")
 
     def living(self):
-        """A temporary file in work survives a second command to the same name."""
+        """A temporary file that a command is writing survives a second command to the same name."""
         command = self.commands[0]
         self.begin(command)
         path = self.path(command)
@@ -361,7 +362,7 @@ class Campaign:
             self.expect(command, "no such directory", 1, run(words))
 
     def streams(self):
-        """Standard output on a full disk, and readers that want no more."""
+        """Standard output on a full disk, and readers that stop reading early."""
         sweep = os.path.join(self.given, "s.db")
         for words in (["export", sweep, "--csv"], ["export", sweep, "--json"], ["schema"], ["check"], ["run", *OTHER],
                       ["run", *OTHER, "--json"], ["locked", "--json"]):
@@ -376,7 +377,7 @@ class Campaign:
             self.expect(command, "reader wants no more", 0, result, read(log) == b"", read(log).decode(errors="replace"))
 
     def small_disk(self):
-        """A real file system without room: the kernel says it to festoon, gnuplot and ffmpeg alike."""
+        """A real, full file system: the kernel refuses festoon, gnuplot and ffmpeg alike."""
         place = os.path.join(self.folder, "disk")
         os.makedirs(place, exist_ok=True)
         if os.geteuid() != 0:
@@ -415,7 +416,7 @@ def some(count, most=24):
 
 
 def is_named(words, command, out, given):
-    """One sentence of the program, with the name of a file."""
+    """Whether the message is one sentence that names a file."""
     lines = [line for line in words.strip().splitlines() if not line.startswith("wrote ")]
     name = os.path.join(out, command.out.rsplit(".", 1)[0])
     return len(lines) == 1 and lines[0].startswith("festoon: ") and (name in lines[0] or given in lines[0] or
@@ -431,12 +432,13 @@ def report(campaign):
 that names what failed, and the old file as it was. It never crashes, never leaves a file of its own behind, never
 says that a disk's failure is bad input, and is not disturbed by signals and writes that take a part.
 
-The attack: `tests/reliability/faults.py` runs {names} with a library before the C library that lets a call fail: the
+The attack: `tests/reliability/faults.py` runs {names} with a preloaded library that
+makes a chosen call fail: the
 disk is full (or a quota used up) after so many bytes, at {PLACES} places over each file; the Nth write, sync, rename,
 truncation, opening, closing or reading fails; every write takes one byte; every second call is interrupted; the
 directory goes away between two writes. Besides: a limit of file sizes (`ulimit -f`), a real file system of 4 to
 512 KiB, a directory that cannot be written, two commands to one name at once, a command killed while it writes, and
-gnuplot and ffmpeg that are missing, fail, die half way, or report a success that is none.
+gnuplot and ffmpeg that are missing, fail, die half way, or report success without a whole file.
 
 A sweep's database is not replaced but goes on: after a fault the same command must finish it with the same rows. A
 folder of frames holds whole frames. A directory that cannot be synced is told (status 1) over a complete new file.

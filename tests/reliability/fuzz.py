@@ -27,7 +27,7 @@ SOURCE = os.path.abspath(os.environ.get("SOURCE_DIR", os.path.join(os.path.dirna
 BUILD = os.path.abspath(os.environ.get("BUILD_DIR", os.path.join(SOURCE, "build")))
 FESTOON = os.environ.get("FESTOON", os.path.join(BUILD, "festoon"))
 
-# Shares of the executions: an execution of the first ones takes microseconds, one of the last ones opens files.
+# Shares of the executions: one execution takes microseconds for the first targets; the last ones open files.
 SHARES = {"scene": 0.40, "csv": 0.30, "value": 0.22, "over": 0.05, "branch": 0.028, "sweep": 0.002}
 LENGTHS = {"scene": 2048, "csv": 4096, "value": 64, "over": 200, "branch": 4096, "sweep": 16384}
 WHAT = {"scene": "scenes (YAML)", "value": "settings: keys, numbers, units", "over": "axes of sweeps (--over)",
@@ -57,7 +57,7 @@ def has_fuzzer():
 
 
 def build(work, targets):
-    """The targets in `work`, linked with libFuzzer to libraries that tell it of their branches."""
+    """Builds the targets in `work`, linked with libFuzzer to libraries that report their branches to it."""
     tree = os.path.join(work, "build")
     done("cmake", "-S", SOURCE, "-B", tree, "-G", "Ninja", "-DCMAKE_C_COMPILER=clang", "-DCMAKE_BUILD_TYPE=Debug",
          "-DCMAKE_C_FLAGS_DEBUG=-O1 -g", "-DFESTOON_SANITIZE=address,undefined,fuzzer-no-link")
@@ -84,7 +84,7 @@ def make_seeds(corpus, name):
         done(FESTOON, "branch", "--kind", "locked", "--over", "drive.omega=0.2:0.201", "-o", made + ".json")
     elif name == "sweep":
         done(FESTOON, "sweep", *short, "--over", "model.kappa=1:2:2", "-o", made + ".db")
-        with sqlite3.connect(made + ".db") as file:  # small pages: more of what is spoilt is content
+        with sqlite3.connect(made + ".db") as file:  # small pages: a larger part of the file is content
             file.execute("PRAGMA journal_mode=DELETE")
             file.execute("PRAGMA page_size=512")
             file.execute("VACUUM")
@@ -118,7 +118,7 @@ def minimise(work, name, path, env):
 
 
 class State:
-    """What was done, in a file, so that the same command goes on."""
+    """Saves the counts, so that the same command goes on."""
 
     def __init__(self, work):
         self.path = os.path.join(work, "state.json")

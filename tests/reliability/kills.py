@@ -59,7 +59,7 @@ def exponents_of(size):
 
 
 class Kind:
-    """A kind of sweep, the share of the kills that it gets, and what became of them."""
+    """A kind of sweep, its share of the kills, and the counts of what happened."""
 
     def __init__(self, name, words, size, seconds, share, blows=5, ranks=0, raced=False, portable=False, number=None):
         self.name, self.words, self.size, self.seconds, self.share, self.blows = name, words, size, seconds, share, blows
@@ -102,8 +102,8 @@ class Broken(Exception):
 
 
 def finish(process):
-    """Wait for a program: status and seconds of processor time.  An mpirun whose ranks were killed is known to hang at
-    times when none of them is left; it is ended then."""
+    """Waits for a program; returns its status and its seconds of processor time. An mpirun whose ranks were killed
+    sometimes hangs when none of them is left; it is ended then."""
     alone = 0
     while "mpirun" in process.args and alive(process) and alone < 200:
         time.sleep(0.05)
@@ -139,7 +139,7 @@ def measure(kind, folder):
 
 
 def moment(kind, path, rng):
-    """What to wait for before the blow."""
+    """The event to wait for before the blow."""
     seen, before = events.rows(path), events.images(path)
     choice = rng.randrange(4)
     if choice == 0:
@@ -154,7 +154,7 @@ def moment(kind, path, rng):
 
 
 def strike(kind, process, rng):
-    """One of the ranks, or the program itself."""
+    """Returns one of the ranks, or the program itself."""
     victim = process.pid
     if kind.ranks:
         ranks = events.children_of(process)
@@ -168,7 +168,8 @@ def strike(kind, process, rng):
 
 
 def blow(kind, path, rng):
-    """Start the command (or two at once), strike, and look what is left; whether it struck, and its processor time."""
+    """Starts the command (or two at once), strikes, and looks what is left; returns whether it struck, and its
+    processor time."""
     process = events.start(kind.ranked(path))
     rival = events.start(kind.command(path)) if kind.raced else None
     happened = moment(kind, path, rng)
@@ -180,7 +181,7 @@ def blow(kind, path, rng):
     status, processor = finish(process)
     if rival:
         if rng.randrange(2):
-            os.kill(rival.pid, signal.SIGKILL)  # it was not waited for yet
+            os.kill(rival.pid, signal.SIGKILL)  # its process still exists until it is waited for
         ended, _ = finish(rival)
         kind.refused += ended in (1, 2)
         if ended not in (0, 1, 2, -signal.SIGKILL):
@@ -202,7 +203,7 @@ def alive(process):
 
 
 def journey(kind, path, expected, wanted, rng):
-    """A database from its beginning to its end; the number of blows that struck."""
+    """Takes one database from its beginning to its end; returns the number of blows that struck."""
     struck, spent = 0, 0.0
     for _ in range(min(kind.blows, wanted)):
         hit, processor = blow(kind, path, rng)
@@ -233,7 +234,7 @@ def campaign(kind, count, folder, rng):
     work = kind.lost_work / kind.kills / THREADS if kind.kills else 0.0
     print(f"{kind.name}: {kind.kills} blows on {kind.journals} databases, each {kind.took:.2g} s of work; "
           f"{work:.2f} s of work done again a blow and thread, {kind.refused} refused", flush=True)
-    # Shared processors do the same work in times that differ by half, of which so much is allowed here.
+    # On a shared processor the same work takes times that differ by half, so this much is allowed.
     allowance = 0.5 * kind.processor / max(1.0, kind.kills / max(1, kind.journals)) / THREADS
     if not kind.ranks and not kind.raced and work > MOST_LOST + allowance:
         raise Broken(f"{kind.name}: {work:.2f} s of work lost a kill and thread, more than {MOST_LOST} s")

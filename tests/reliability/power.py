@@ -83,7 +83,7 @@ class File:
 
 
 class Disk:
-    """The disk after some entries of a record; file systems give the number of a removed file to the next one."""
+    """The disk after some entries of a record; a file system may give the number of a removed file to the next one."""
 
     def __init__(self, names):
         self.files = {}                                                   # inode of the record: File
@@ -145,7 +145,7 @@ def chosen(asked, how, rng):
 
 
 def tear(asked, how, rng):
-    """Of some writes only some sectors."""
+    """Keeps only some sectors of some writes."""
     if how != "torn":
         return asked
     torn = []
@@ -247,7 +247,7 @@ class Scene:
         return rows
 
     def strike(self, moment, rng):
-        """A sentence if something is wrong after a loss of power at this moment."""
+        """A sentence if something is wrong after a loss of power at this moment, else None."""
         promised = self.rows_promised(moment)
         state = self.disk(moment).state(rng)
         put(self.folder, state)
@@ -304,8 +304,8 @@ def scenes(folder):
 
 
 def is_sensitive(folder, seed):
-    """Whether a program that never synced would be found out: its record is that of this one without the syncs of
-    files, its promises the same."""
+    """Whether the attack would find a program that never syncs: its record is this one without the syncs of files,
+    its promises are the same."""
     scene, rng = Scene("never synced", folder, 800), random.Random(seed)
     for moment in range(len(scene.entries) + 1):
         scene.rows_promised(moment)

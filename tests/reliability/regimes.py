@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How sure a regime is: random scenes, each run twice, the second time ten times as long.
+"""How certain a regime is: random scenes, each run twice, the second time ten times as long.
 
 A run that is called R is right if the longer run of the same scene is called R too.  Printed for each regime: how often
 it was given, how often the longer run agrees, is undecided or contradicts, with Wilson's interval of 95 %; and how many of
@@ -35,13 +35,13 @@ REGIMES = ["locked", "librating", "counter-rotating", "corotating", "chaotic"]
 
 
 def pick(rng, *choices):
-    """One of (value, weight), ..."""
+    """Draws one of (value, weight), ..."""
     return rng.choices([value for value, _ in choices], [weight for _, weight in choices])[0]
 
 
 def bands(rng, default_length, quick=False):
-    """The sampling: what is fixed for a batch, and from where to where its random numbers lie.  The quick one leaves out
-    what takes long: low frequencies, strong magnets, runs of more than 40 drive periods."""
+    """The sampling: the values that are fixed for a batch, and the ranges of its random numbers. The quick sampling
+    leaves out what takes long: low frequencies, strong magnets, runs of more than 40 drive periods."""
     material = pick(rng, ("hard", 70), ("mixed", 20), ("paramagnetic", 10))
     fixed = {
         "model.dynamics": pick(rng, ("rigid", 60), ("farago2020", 40)),
@@ -118,7 +118,7 @@ def wilson(hits, total, z=1.959963984540054):
 
 
 def outcomes(pairs):
-    """For each regime of the shorter run: how often the longer run has which."""
+    """For each regime of the shorter run: how often the longer run has each regime."""
     table = collections.defaultdict(collections.Counter)
     for _, short, long in pairs:
         if short["status"] == "done" and long["status"] == "done":

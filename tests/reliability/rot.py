@@ -29,7 +29,7 @@ def content_of(path):
 
 
 class Subject:
-    """Files to be damaged, what they hold, and what the sweep is when it is finished."""
+    """The files to be damaged, the rows that they hold, and those of the finished sweep."""
 
     def __init__(self, name, path, points):
         self.name, self.points = name, points
@@ -80,7 +80,7 @@ def subjects(folder, points):
 
 
 def strike(subject, work, ending, place, bit):
-    """What one flip does: to the export, and to the sweep that goes on; a sentence if something is silently wrong."""
+    """The effect of one flip on the export and on the sweep that goes on; a sentence if something is silently wrong."""
     path = os.path.join(work, "a.db")
     subject.put(path, ending, place, bit)
     status, out, err = festoon("export", path, "--csv")

@@ -55,8 +55,8 @@ def write(name, text):
 
 
 def run(name, campaign, report, count=1000):
-    """The main program of a campaign of `count` blows: campaign(count, seed) gives what was found and a list of the
-    promises that were broken, report() of these the text of the section `name`.  The status of the program."""
+    """The main program of a campaign of `count` blows. campaign(count, seed) returns its findings and a list of the
+    promises that were broken; report() makes of these the text of the section `name`. Returns the exit status."""
     options = argparse.ArgumentParser()
     options.add_argument("--count", type=int, default=count)
     options.add_argument("--seed", type=int, default=1)

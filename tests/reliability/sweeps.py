@@ -28,7 +28,7 @@ def good(*words, **options):
 
 
 def words_of(points):
-    """A sweep of so many points, each over in a moment."""
+    """The arguments of a sweep of this many short runs."""
     return ["sweep", *SHORT, "--over", f"drive.frequency=9Hz:20Hz:{points}", "--threads", "2", "-o"]
 
 
@@ -43,8 +43,8 @@ def rows_in(path):
 
 
 def stopped_at_work(points, path, rows=1):
-    """A sweep that was stopped by SIGSTOP when it had committed so many rows, and not all; its number of points,
-    which grows until the program is not faster than this interpreter."""
+    """Starts a sweep and stops it by SIGSTOP when it has committed this many rows, and not all; returns it and its
+    number of points, which is raised until the program is still at work when it is stopped."""
     while points < 2000000:
         process = subprocess.Popen([FESTOON, *words_of(points), path], stdin=subprocess.DEVNULL,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

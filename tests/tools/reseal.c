@@ -40,7 +40,7 @@ static void read_lines(sqlite3 *database, fst_identity_lines *lines)
     (void)sqlite3_finalize(row);
 }
 
-/* Axes that are no choices. */
+/* Sets the axes whose values are numbers; choices are left as they are. */
 static void set_axes(sqlite3 *database, const fst_grid *grid)
 {
     for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
