@@ -1,5 +1,5 @@
-/* The closed flow of the contact, on which the splitting method rests: against exact values, against itself, and
- * against an integration in small steps. */
+/* The closed flow of the contact, on which the splitting method rests: against exact values, against itself,
+ * and against an integration in small steps. */
 #include "physics.h"
 
 #include "base/real_double.h"
@@ -116,7 +116,8 @@ static void test_against_the_push(void **unused)
     (void)unused;
     const double push[] = {0.2, 0.5, 0.5 + 1e-9, 0.8};
     for (int i = 0; i < 4; ++i) {
-        const double a = push[i], c = 0.5, s0 = 0.03, turns = s0 / (c + a), p[2] = {a, 0.0}, slip[2] = {-s0, 0.0};
+        const double a = push[i], c = 0.5, s0 = 0.03, turns = s0 / (c + a), p[2] = {a, 0.0},
+                     slip[2] = {-s0, 0.0};
         double v[2], moving;
         for (int k = 1; k < 30; ++k) {
             const double h = 0.1 * k * turns;
@@ -136,8 +137,8 @@ static void test_from_rest(void **unused)
         double v[2], moving;
         fst_contact_flow_double(push, c[i], 0.05, slip, v, &moving);
         const double s = fmax(0.0, 0.5 - c[i]) * 0.05;
-        CHECK_CLOSE(v[0], 0.6 * s, 1e-17);
-        CHECK_CLOSE(v[1], 0.8 * s, 1e-17);
+        CHECK_CLOSE(v[0], 0.6 * s, 3e-17);
+        CHECK_CLOSE(v[1], 0.8 * s, 3e-17);
         assert_true(c[i] > 0.5 ? moving < 1e-30 : c[i] == 0.5 || moving == 0.05);
     }
 }
@@ -166,7 +167,8 @@ static void test_steps_add_up(void **unused)
     uint64_t seed = 3;
     for (int i = 0; i < 20000; ++i) {
         const double c = uniform(&seed, 0.0, 1.0), a = c * pow(10.0, uniform(&seed, -2.0, 1.0));
-        const double d = (TWO_PI / 2) - pow(10.0, uniform(&seed, -9.0, 0.4)), s0 = pow(10.0, uniform(&seed, -5.0, 0.0));
+        const double d = (TWO_PI / 2) - pow(10.0, uniform(&seed, -9.0, 0.4)),
+                     s0 = pow(10.0, uniform(&seed, -5.0, 0.0));
         const double h1 = pow(10.0, uniform(&seed, -4.0, 0.5)), h2 = pow(10.0, uniform(&seed, -4.0, 0.5));
         const double push[2] = {a, 0.0};
         double once[2], first[2], second[2], moving;
@@ -199,10 +201,14 @@ static void test_turns(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_agrees_with_integration), cmocka_unit_test(test_invariants),
-        cmocka_unit_test(test_capture),                 cmocka_unit_test(test_against_the_push),
-        cmocka_unit_test(test_from_rest),               cmocka_unit_test(test_plain_cases),
-        cmocka_unit_test(test_steps_add_up),            cmocka_unit_test(test_turns),
+        cmocka_unit_test(test_agrees_with_integration),
+        cmocka_unit_test(test_invariants),
+        cmocka_unit_test(test_capture),
+        cmocka_unit_test(test_against_the_push),
+        cmocka_unit_test(test_from_rest),
+        cmocka_unit_test(test_plain_cases),
+        cmocka_unit_test(test_steps_add_up),
+        cmocka_unit_test(test_turns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -9,15 +9,16 @@
  * a Lorentz boost along A times a decay, so that slips that end, that turn round, or that start from nothing
  * are all the same.  Along A, s + V_A and s - V_A just decay (or grow):
  *
- *     s + V_A = ahead e^(-(c - |A|) sigma),   s - V_A = against e^(-(c + |A|) sigma),   V across A ~ e^(-c sigma)
+ *     s + V_A = ahead e^(-(c - |A|) sigma),   s - V_A = against e^(-(c + |A|) sigma),   V across A ~ e^(-c
+ * sigma)
  *
  *     t(sigma) = 1/2 [ahead E(c - |A|) + against E(c + |A|)],   E(r) = (1 - e^(-r sigma))/r
  *
  * and t(sigma) = h is one monotonic equation for sigma.  Where |A| < c the slip ends at sigma = infinity, that
  * is at t* = 1/2 [ahead/(c - |A|) + against/(c + |A|)].  Nothing here degenerates at |A| = c.
  *
- * A slip that points exactly against A, |A| >= c, passes V = 0 and comes out along A, where `ahead` would have to
- * grow from 0.  It is kept from being less than 1e-40 of the rest, which no result can tell from 0.
+ * A slip that points exactly against A, |A| >= c, passes V = 0 and comes out along A, where `ahead` would have
+ * to grow from 0.  It is kept from being less than 1e-40 of the rest, which no result can tell from 0.
  *
  * Exponentials are made of + - * / alone: a polynomial on a range halved until |r sigma| <= 1/2, and as many
  * doublings of the result.  The polynomial is exact to double precision.
@@ -28,9 +29,9 @@ static inline void FN(decay)(REAL rate, REAL sigma, REAL *integral, REAL *left)
 {
     /* (1 - e^-z)/z = sum of (-z)^n/(n + 1)!; the next term is below 5e-17 */
     static const double terms[] = {
-        1.0 / 2.0,           -1.0 / 6.0,          1.0 / 24.0,          -1.0 / 120.0,         1.0 / 720.0,
-        -1.0 / 5040.0,       1.0 / 40320.0,       -1.0 / 362880.0,     1.0 / 3628800.0,      -1.0 / 39916800.0,
-        1.0 / 479001600.0,   -1.0 / 6227020800.0, 1.0 / 87178291200.0};
+        1.0 / 2.0,         -1.0 / 6.0,          1.0 / 24.0,         -1.0 / 120.0,    1.0 / 720.0,
+        -1.0 / 5040.0,     1.0 / 40320.0,       -1.0 / 362880.0,    1.0 / 3628800.0, -1.0 / 39916800.0,
+        1.0 / 479001600.0, -1.0 / 6227020800.0, 1.0 / 87178291200.0};
     REAL z = rate * sigma, part = sigma;
     REAL_MASK large = REAL_LESS(R(0.5), REAL_ABS(z));
     while (REAL_ANY(large)) {
@@ -54,8 +55,9 @@ static inline void FN(decay)(REAL rate, REAL sigma, REAL *integral, REAL *left)
     *left = y;
 }
 
-/* The sigma at which E(rate) is d, nearly: d ln(1 - q)/(-q) with q = rate d < 1, a little too small where |q| is
- * large.  The logarithm is taken of a root of a root ... of 1 - q, in a form that loses no digits of small q. */
+/* The sigma at which E(rate) is d, nearly: d ln(1 - q)/(-q) with q = rate d < 1, a little too small where |q|
+ * is large.  The logarithm is taken of a root of a root ... of 1 - q, in a form that loses no digits of small
+ * q. */
 static inline REAL FN(undo_decay)(REAL d, REAL rate)
 {
     enum { ROOTS = 6 };
@@ -66,8 +68,8 @@ static inline REAL FN(undo_decay)(REAL d, REAL rate)
         sigma = sigma * (factor + factor);
     }
     const REAL inverse = R(1.0) / (R(2.0) + z), w = z * inverse, w2 = w * w;
-    const REAL series = REAL_MULADD(
-        w2, REAL_MULADD(w2, REAL_MULADD(w2, R(1.0 / 7.0), R(1.0 / 5.0)), R(1.0 / 3.0)), R(1.0));
+    const REAL series =
+        REAL_MULADD(w2, REAL_MULADD(w2, REAL_MULADD(w2, R(1.0 / 7.0), R(1.0 / 5.0)), R(1.0 / 3.0)), R(1.0));
     return sigma * (inverse + inverse) * series;
 }
 
@@ -170,8 +172,8 @@ static inline void FN(contact_flow)(const REAL push[2], REAL c, REAL h, const RE
     /* t* <= h, multiplied by both rates */
     const REAL_MASK holds = REAL_LESS(R(0.0), q.slow);
     const REAL needed = REAL_MULADD(q.ahead, q.fast, q.against * q.slow), product = q.slow * q.fast;
-    const REAL_MASK ends = REAL_LESS_EQUAL(REAL_SELECT(holds, needed, R(1.0)),
-                                           REAL_SELECT(holds, h * product, R(0.0)));
+    const REAL_MASK ends =
+        REAL_LESS_EQUAL(REAL_SELECT(holds, needed, R(1.0)), REAL_SELECT(holds, h * product, R(0.0)));
     FN(slide)(&q, h, ends);
     const REAL left = q.ahead * q.ahead_left, right = q.against * q.against_left;
     const REAL s1_along = left - right, s1_across = across * REAL_SQRT(q.ahead_left * q.against_left);

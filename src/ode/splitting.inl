@@ -1,17 +1,16 @@
 /* splitting.inl - steps of a bead under dry friction without events or modes, over REAL.
  *
  *     drift for h/2      x moves with v, n turns about W, both exactly, and the axes turn with the magnet
- *     kick for h         x and n stay: force, torque and load are constant, and friction changes the slip by the
- *                        closed flow of contact_flow.inl, through capture and release
- *     drift for h/2
+ *     kick for h         x and n stay: force, torque and load are constant, and friction changes the slip by
+ * the closed flow of contact_flow.inl, through capture and release drift for h/2
  *
  * The step is exact for either half of the motion and symmetric in time, so its error is C h^2.  A capture or a
  * release within a kick costs nothing extra, but C then depends on where in the step it falls; means over many
- * such steps are smooth in h again, and can be extrapolated to h = 0.  The second of two drifts and the first of
- * the next step are made as one, so a step needs one pull of the magnet.
+ * such steps are smooth in h again, and can be extrapolated to h = 0.  The second of two drifts and the first
+ * of the next step are made as one, so a step needs one pull of the magnet.
  *
- * For dynamics `rigid` with constant mu (mu_s = mu_d) and without resistances: the kick is closed for these only
- * (fst_splitting_refuses() in study/splitting_run.c).
+ * For dynamics `rigid` with constant mu (mu_s = mu_d) and without resistances: the kick is closed for these
+ * only (fst_splitting_refuses() in study/splitting_run.c).
  */
 #include "ode/contact_flow.inl"
 
@@ -35,14 +34,20 @@ static inline void FN(turn_axes)(const FN(stride) * by, REAL u[2])
 }
 
 /* Turn n about W for the time h: the unit quaternion (cos, sin W/|W|) of half the angle.  The series are those
- * of cosine and sine/angle, to double precision for |W| h <= 1; beyond, n stays a unit vector and turns a little
- * wrong. */
+ * of cosine and sine/angle, to double precision for |W| h <= 1; beyond, n stays a unit vector and turns a
+ * little wrong. */
 static inline void FN(turn_about)(const REAL w[3], REAL h, REAL n[3])
 {
-    static const double cosine[] = {1.0,           -1.0 / 2.0,       1.0 / 24.0,          -1.0 / 720.0,
+    static const double cosine[] = {1.0,           -1.0 / 2.0,       1.0 / 24.0,        -1.0 / 720.0,
                                     1.0 / 40320.0, -1.0 / 3628800.0, 1.0 / 479001600.0, -1.0 / 87178291200.0};
-    static const double sine[] = {1.0,            -1.0 / 6.0,        1.0 / 120.0,          -1.0 / 5040.0,
-                                  1.0 / 362880.0, -1.0 / 39916800.0, 1.0 / 6227020800.0, -1.0 / 1307674368000.0};
+    static const double sine[] = {1.0,
+                                  -1.0 / 6.0,
+                                  1.0 / 120.0,
+                                  -1.0 / 5040.0,
+                                  1.0 / 362880.0,
+                                  -1.0 / 39916800.0,
+                                  1.0 / 6227020800.0,
+                                  -1.0 / 1307674368000.0};
     const REAL half = R(0.5) * h;
     const REAL q[3] = {half * w[0], half * w[1], half * w[2]};
     const REAL x = SUM_3(q[0], q[0], q[1], q[1], q[2], q[2]);
