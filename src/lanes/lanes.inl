@@ -42,8 +42,6 @@
 #include <stddef.h>
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/elementary.h"
 #include "base/twofold.inl"
 #include "model/bodies.inl"
 #include "ode/bead_step.inl"

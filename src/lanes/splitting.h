@@ -18,7 +18,15 @@ typedef struct fst_splitting_job {
     double h, steps;     /* step and how many of them */
     double discard;      /* steps before the means */
     double plate_radius; /* beyond it the bead is ejected */
+    /* made of these by fst_splitting_prepare(): */
+    fst_stride_double half, whole; /* half a step, a step */
+    double first[FST_STATE_SIZE];  /* the state at the first kick */
 } fst_splitting_job;
+
+/* Make the rest of a job.  The engines' own files do no arithmetic on single doubles: for some instruction sets
+ * gcc fuses products and sums there (a pattern of additions and subtractions in turn) though it is told not to.
+ */
+void fst_splitting_prepare(fst_splitting_job *job);
 
 typedef enum {
     FST_SPLITTING_ON_ITS_WAY,
@@ -51,16 +59,20 @@ typedef struct fst_splitting_engine {
     int width;
     size_t bytes; /* to be aligned to 64 and zeroed */
 
-    /* Put a run at its start into a lane. */
+    /* Put a run that is prepared into a lane. */
     void (*load)(void *memory, int lane, const fst_splitting_job *job);
 
     /* At most `count` steps in every lane.  The lanes whose runs are over, one bit each; they stand still.  All
      * lanes must have been loaded once. */
     unsigned (*go_on)(void *memory, int count);
 
-    /* What has become of a lane's run. */
+    /* What has become of a lane's run; the state is that at the next kick. */
     void (*outcome)(const void *memory, int lane, fst_splitting_outcome *outcome);
 } fst_splitting_engine;
+
+/* The same, with the state at the end. */
+void fst_splitting_outcome_of(const fst_splitting_engine *engine, const void *memory, int lane,
+                              const fst_splitting_job *job, fst_splitting_outcome *outcome);
 
 extern const fst_splitting_engine fst_splitting_scalar;
 

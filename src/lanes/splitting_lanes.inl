@@ -1,16 +1,15 @@
 /* splitting_lanes.inl - the engine of runs by the splitting method, over REAL.
  *
- * Lanes whose runs are over make steps of length 0, and their means have the weight 0.  The including file
+ * Lanes whose runs are over make steps like the others, of which nothing is kept.  The including file
  * brings the bodies of ode/splitting.inl and load_coefficients(), and defines SPLITTING_WIDTH.
  */
 typedef struct splitting {
     FN(coefficients) coefficients;
-    FN(stride) half, whole;            /* half a step, a step */
+    FN(stride) whole;                  /* a step */
     REAL y[FST_STATE_SIZE];            /* at the next kick */
     REAL step, steps, discard, window; /* steps made; in all; before the window; 1/those in it */
     REAL plate_2;
-    REAL end;     /* fst_splitting_end */
-    REAL start_h; /* the step, also of a run that is over */
+    REAL end; /* fst_splitting_end */
     FN(weighted) sums;
 } splitting;
 
@@ -20,13 +19,6 @@ _Static_assert(sizeof(FN(weighted)) == sizeof(fst_splitting_sums) / sizeof(doubl
 static double *splitting_lane(void *reals)
 {
     return reals;
-}
-
-static fst_stride_double make_stride(double omega, double h)
-{
-    fst_stride_double stride = {h, 1.0, 0.0};
-    fst_sin_cos_degrees(omega * h * FST_DEGREES, &stride.sine, &stride.cosine);
-    return stride;
 }
 
 static void load_stride(FN(stride) * to, int lane, const fst_stride_double *from)
@@ -40,22 +32,15 @@ static void load_splitting(void *memory, int lane, const fst_splitting_job *job)
 {
     splitting *s = memory;
     load_coefficients(&s->coefficients, lane, job->coefficients);
-    const fst_stride_double half = make_stride(job->coefficients->omega, 0.5 * job->h);
-    const fst_stride_double whole = make_stride(job->coefficients->omega, job->h);
-    load_stride(&s->half, lane, &half);
-    load_stride(&s->whole, lane, &whole);
-    double y[FST_STATE_SIZE];
-    memcpy(y, job->start, sizeof y);
-    fst_drift_double(&half, y);
+    load_stride(&s->whole, lane, &job->whole);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
-        splitting_lane(s->y)[i * SPLITTING_WIDTH + lane] = y[i];
+        splitting_lane(s->y)[i * SPLITTING_WIDTH + lane] = job->first[i];
     splitting_lane(&s->step)[lane] = 0.0;
     splitting_lane(&s->steps)[lane] = job->steps;
     splitting_lane(&s->discard)[lane] = job->discard;
     splitting_lane(&s->window)[lane] = 1.0 / fmax(job->steps - job->discard, 1.0);
     splitting_lane(&s->plate_2)[lane] = job->plate_radius * job->plate_radius;
     splitting_lane(&s->end)[lane] = FST_SPLITTING_ON_ITS_WAY;
-    splitting_lane(&s->start_h)[lane] = job->h;
     fst_splitting_sums empty;
     memset(&empty, 0, sizeof empty);
     for (int i = 0; i < FST_SPAN_COUNT; ++i) {
@@ -66,15 +51,6 @@ static void load_splitting(void *memory, int lane, const fst_splitting_job *job)
     const double *numbers = (const double *)&empty;
     for (size_t i = 0; i < sizeof empty / sizeof(double); ++i)
         sums[i * SPLITTING_WIDTH + (size_t)lane] = numbers[i];
-}
-
-/* The lanes in which a mask holds stand still from now on. */
-static void stop_lanes(splitting *s, REAL_MASK mask, REAL end)
-{
-    s->end = REAL_SELECT(mask, end, s->end);
-    s->whole.h = REAL_SELECT(mask, R(0.0), s->whole.h);
-    s->whole.cosine = REAL_SELECT(mask, R(1.0), s->whole.cosine);
-    s->whole.sine = REAL_SELECT(mask, R(0.0), s->whole.sine);
 }
 
 static REAL alive_lanes(const splitting *s)
@@ -91,10 +67,10 @@ static REAL stop_lost(splitting *s, const FN(pull) * p)
     const REAL pressed = REAL_SELECT(REAL_LESS(R(0.0), FN(load)(&s->coefficients, p->force)), R(1.0), R(0.0));
     const REAL_MASK lifted = REAL_LESS(R(0.5), alive * (R(1.0) - pressed));
     if (REAL_ANY(lifted))
-        stop_lanes(s, lifted, R(FST_SPLITTING_LIFTED));
+        s->end = REAL_SELECT(lifted, R(FST_SPLITTING_LIFTED), s->end);
     const REAL_MASK ejected = REAL_LESS(R(0.5), alive * (R(1.0) - on_plate));
     if (REAL_ANY(ejected))
-        stop_lanes(s, ejected, R(FST_SPLITTING_EJECTED));
+        s->end = REAL_SELECT(ejected, R(FST_SPLITTING_EJECTED), s->end);
     return alive * (pressed * on_plate);
 }
 
@@ -110,12 +86,13 @@ static void make_step(splitting *s)
     FN(kick_by)(&s->coefficients, &p, s->whole.h, s->y, &did);
     const REAL x = (s->step + R(0.5) - s->discard) * s->window;
     if (REAL_ANY(REAL_LESS(R(0.0), alive * x)))
-        FN(weighted_add)(&s->sums, &s->coefficients, &p, &did, s->start_h, before, s->y, x, alive);
+        FN(weighted_add)(&s->sums, &s->coefficients, &p, &did, s->whole.h, before, s->y, x, alive);
     FN(drift)(&s->whole, s->y);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        s->y[i] = REAL_SELECT(REAL_LESS(R(0.5), alive), s->y[i], before[i]);
     s->step = s->step + alive;
     const REAL_MASK over = REAL_LESS_EQUAL(s->steps, REAL_SELECT(REAL_LESS(R(0.5), alive), s->step, R(-1.0)));
-    if (REAL_ANY(over))
-        stop_lanes(s, over, R(FST_SPLITTING_DONE));
+    s->end = REAL_SELECT(over, R(FST_SPLITTING_DONE), s->end);
 }
 
 static unsigned go_on_splitting(void *memory, int count)
@@ -136,14 +113,6 @@ static void splitting_outcome(const void *memory, int lane, fst_splitting_outcom
     outcome->step = splitting_lane(&s->step)[lane];
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         outcome->state[i] = splitting_lane(s->y)[i * SPLITTING_WIDTH + lane];
-    if (outcome->end == FST_SPLITTING_DONE) { /* back from the next kick */
-        const fst_stride_double back = {-splitting_lane(&s->half.h)[lane],
-                                        splitting_lane(&s->half.cosine)[lane],
-                                        -splitting_lane(&s->half.sine)[lane]};
-        fst_drift_double(&back, outcome->state);
-    } else {
-        outcome->step += 0.5;
-    }
     const double *sums = splitting_lane(&s->sums);
     double *numbers = (double *)&outcome->sums;
     for (size_t i = 0; i < sizeof outcome->sums / sizeof(double); ++i)

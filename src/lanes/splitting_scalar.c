@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#include "base/constants.h"
-#include "base/elementary.h"
 #include "observe/weighted.inl"
 
 #define SPLITTING_WIDTH 1

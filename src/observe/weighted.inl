@@ -45,7 +45,7 @@ static inline void FN(look_at_kick)(const FN(coefficients) * c, const FN(pull) *
     const REAL s0 = REAL_SQRT(s0_2), s1 = REAL_SQRT(s1_2);
     const REAL share = did->moving / h; /* of the kick, in which the contact slips */
     /* While the slip decays from s0 to s1, nearly as a straight line: */
-    const REAL slip = share * (R(0.5) * (s0 + s1)), slip2 = share * (R(1.0 / 3.0) * (s0_2 + s0 * s1 + s1_2));
+    const REAL slip = share * (R(0.5) * (s0 + s1)), slip2 = share * (R((1.0 / 3.0)) * (s0_2 + s0 * s1 + s1_2));
     const REAL twist = REAL_MULSUB(n[0], p->b[1], n[1] * p->b[0]);
     const REAL lever = REAL_MULSUB(y[FST_X], p->force[1], y[FST_Y] * p->force[0]);
     values[FST_MEAN_R] = r2 * inverse_r;

@@ -61,7 +61,7 @@ static inline void FN(decay)(REAL rate, REAL sigma, REAL *integral, REAL *left)
 static inline REAL FN(undo_decay)(REAL d, REAL rate)
 {
     enum { ROOTS = 6 };
-    REAL z = REAL_MAX(-(rate * d), R(-1.0 + 1e-15)), sigma = d;
+    REAL z = REAL_MAX(-(rate * d), R((1e-15 - 1.0))), sigma = d;
     for (int i = 0; i < ROOTS; ++i) {
         const REAL factor = R(1.0) / (R(1.0) + REAL_SQRT(R(1.0) + z));
         z = z * factor;
@@ -69,7 +69,7 @@ static inline REAL FN(undo_decay)(REAL d, REAL rate)
     }
     const REAL inverse = R(1.0) / (R(2.0) + z), w = z * inverse, w2 = w * w;
     const REAL series =
-        REAL_MULADD(w2, REAL_MULADD(w2, REAL_MULADD(w2, R(1.0 / 7.0), R(1.0 / 5.0)), R(1.0 / 3.0)), R(1.0));
+        REAL_MULADD(w2, REAL_MULADD(w2, REAL_MULADD(w2, R((1.0 / 7.0)), R((1.0 / 5.0))), R((1.0 / 3.0))), R(1.0));
     return sigma * (inverse + inverse) * series;
 }
 
@@ -89,7 +89,7 @@ static inline REAL FN(slide_step)(const FN(sliding) * q, REAL missing, REAL *siz
     const REAL a = q->ahead * q->ahead_left, b = q->against * q->against_left, inverse = R(1.0) / (a + b);
     const REAL d = missing * inverse, ra = q->slow * a, rb = q->fast * b;
     const REAL g = (ra + rb) * inverse, k = REAL_MULADD(q->slow, ra, q->fast * rb) * inverse;
-    const REAL third = REAL_MULSUB(R(3.0) * g, g, k) * R(1.0 / 6.0);
+    const REAL third = REAL_MULSUB(R(3.0) * g, g, k) * R((1.0 / 6.0));
     const REAL near = d * REAL_MULADD(d, REAL_MULADD(d, third, R(0.5) * g), R(1.0));
     *size = REAL_ABS(q->fast * d);
     const REAL_MASK far = REAL_LESS(R(0.25), *size);
@@ -111,7 +111,7 @@ static inline REAL FN(slide_first)(const FN(sliding) * q, REAL h, REAL *size)
 /* e^-z for |z| < 1e-4. */
 static inline REAL FN(slight_decay)(REAL z)
 {
-    return R(1.0) - z * (R(1.0) - z * (R(0.5) - z * R(1.0 / 6.0)));
+    return R(1.0) - z * (R(1.0) - z * (R(0.5) - z * R((1.0 / 6.0))));
 }
 
 /* Find the sigma with t(sigma) = h, in the lanes in which the slip does not end. */

@@ -94,7 +94,7 @@ static inline void FN(kick_by)(const FN(coefficients) * c, const FN(pull) * p, R
     FN(contact_flow)(push, hold, h, did->before, did->after, &did->moving);
     for (int i = 0; i < 2; ++i) {
         /* V changed by the push and by 7/2 of the impulse of friction */
-        impulse[i] = R(2.0 / 7.0) * (REAL_MULADD(h, push[i], did->before[i]) - did->after[i]);
+        impulse[i] = R((2.0 / 7.0)) * (REAL_MULADD(h, push[i], did->before[i]) - did->after[i]);
         y[FST_VX + i] = y[FST_VX + i] + REAL_MULSUB(h, p->force[i], impulse[i]);
     }
     const REAL torque = h * c->torque;

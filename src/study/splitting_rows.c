@@ -158,7 +158,7 @@ static void finish(batch *b, int index)
     fst_splitting_outcome outcome;
     fst_error error = {FST_OK, "", ""};
     fst_result_clear(&result);
-    b->engine->outcome(b->memory, index, &outcome);
+    fst_splitting_outcome_of(b->engine, b->memory, index, &l->run.job, &outcome);
     const fst_status status = fst_splitting_conclude(&l->run, &outcome, &result, &error);
     fst_splitting_free(&l->run);
     l->busy = 0;

@@ -78,7 +78,11 @@ fst_status fst_splitting_begin(fst_splitting_run *run, const fst_params *params,
     run->job.coefficients = &run->model->coefficients;
     run->job.plate_radius = run->model->groups.plate_radius;
     run->period = FST_TWO_PI / run->model->groups.omega;
-    return status == FST_OK ? plan_steps(run, error) : status;
+    if (status == FST_OK)
+        status = plan_steps(run, error);
+    if (status == FST_OK)
+        fst_splitting_prepare(&run->job);
+    return status;
 }
 
 void fst_splitting_free(fst_splitting_run *run)
@@ -274,7 +278,7 @@ fst_status fst_splitting_alone(const fst_params *params, const fst_run_options *
         status = fst_tell(options->progress, made / run.job.steps, NULL, error);
     if (memory && (status == FST_OK || status == FST_INTERRUPTED)) {
         fst_splitting_outcome outcome;
-        engine->outcome(memory, 0, &outcome);
+        fst_splitting_outcome_of(engine, memory, 0, &run.job, &outcome);
         if (status == FST_OK)
             status = fst_splitting_conclude(&run, &outcome, result, error);
         else
