@@ -68,8 +68,8 @@ static inline REAL FN(undo_decay)(REAL d, REAL rate)
         sigma = sigma * (factor + factor);
     }
     const REAL inverse = R(1.0) / (R(2.0) + z), w = z * inverse, w2 = w * w;
-    const REAL series =
-        REAL_MULADD(w2, REAL_MULADD(w2, REAL_MULADD(w2, R((1.0 / 7.0)), R((1.0 / 5.0))), R((1.0 / 3.0))), R(1.0));
+    const REAL series = REAL_MULADD(
+        w2, REAL_MULADD(w2, REAL_MULADD(w2, R((1.0 / 7.0)), R((1.0 / 5.0))), R((1.0 / 3.0))), R(1.0));
     return sigma * (inverse + inverse) * series;
 }
 
