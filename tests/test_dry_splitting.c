@@ -249,10 +249,15 @@ static void test_refusals(void **unused)
     p = dry_bead(0.2, 10.7, 0.02);
     p.friction_contact_rate = 1.0;
     check_refused(&p, "viscous part");
+    fst_error error = {FST_OK, "", ""};
+    p = dry_bead(0.2, 10.7, 0.01);
+    assert_int_equal(fst_params_check_effects(&p, &error), FST_OK);
+    p.run_method = FST_METHOD_EVENTS;
+    assert_int_equal(fst_params_check_effects(&p, &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "run.step = 0.01 has no effect");
     p = dry_bead(0.2, 10.7, 1e-6);
     p.run_periods = 1e9;
     fst_run_result result;
-    fst_error error = {FST_OK, "", ""};
     fst_run_options options = fst_default_run_options();
     assert_int_equal(fst_run(&p, &options, &result, &error), FST_BAD_INPUT);
     CHECK_CONTAINS(error.sentence, "run.step");

@@ -86,7 +86,7 @@ static void make_step(splitting *s)
     FN(kick_by)(&s->coefficients, &p, s->whole.h, s->y, &did);
     const REAL x = (s->step + R(0.5) - s->discard) * s->window;
     if (REAL_ANY(REAL_LESS(R(0.0), alive * x)))
-        FN(weighted_add)(&s->sums, &s->coefficients, &p, &did, s->whole.h, before, s->y, x, alive);
+        FN(weighted_add)(&s->sums, &s->coefficients, &p, &did, before, s->y, x, alive);
     FN(drift)(&s->whole, s->y);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         s->y[i] = REAL_SELECT(REAL_LESS(R(0.5), alive), s->y[i], before[i]);

@@ -34,18 +34,17 @@ static inline REAL FN(window_weight)(REAL x)
 
 /* What a kick shows of the bead: `y` is the state after it. */
 static inline void FN(look_at_kick)(const FN(coefficients) * c, const FN(pull) * p, const FN(kick) * did,
-                                    REAL h, const REAL *y, REAL *values, REAL *spans)
+                                    const REAL *y, REAL *values, REAL *spans)
 {
     const REAL r2 = SUM_2(y[FST_X], y[FST_X], y[FST_Y], y[FST_Y]);
     const REAL inverse_r = REAL_RECIPROCAL_SQRT(r2 + R(1e-290));
     const REAL b2 = SUM_3(p->b[0], p->b[0], p->b[1], p->b[1], p->b[2], p->b[2]);
     const REAL inverse_b = REAL_RECIPROCAL_SQRT(b2 + R(1e-290));
-    const REAL *n = y + FST_NX, s0_2 = SUM_2(did->before[0], did->before[0], did->before[1], did->before[1]);
-    const REAL s1_2 = SUM_2(did->after[0], did->after[0], did->after[1], did->after[1]);
-    const REAL s0 = REAL_SQRT(s0_2), s1 = REAL_SQRT(s1_2);
-    const REAL share = did->moving / h; /* of the kick, in which the contact slips */
+    const REAL *n = y + FST_NX, s0 = did->slide.speed[0], s1 = did->slide.speed[1], share = did->slide.share;
+    const REAL s0_2 = s0 * s0, s1_2 = s1 * s1;
     /* While the slip decays from s0 to s1, nearly as a straight line: */
-    const REAL slip = share * (R(0.5) * (s0 + s1)), slip2 = share * (R((1.0 / 3.0)) * (s0_2 + s0 * s1 + s1_2));
+    const REAL slip = share * (R(0.5) * (s0 + s1));
+    const REAL slip2 = share * (R((1.0 / 3.0)) * (s0_2 + s0 * s1 + s1_2));
     const REAL twist = REAL_MULSUB(n[0], p->b[1], n[1] * p->b[0]);
     const REAL lever = REAL_MULSUB(y[FST_X], p->force[1], y[FST_Y] * p->force[0]);
     values[FST_MEAN_R] = r2 * inverse_r;
@@ -85,13 +84,12 @@ static inline void FN(count_crossing)(FN(weighted) * w, const REAL *y, REAL insi
 /* Observe a kick from `before` to `y` at the fraction x of the window; outside it, and where a lane is `alive`
  * no more (0), nothing is added. */
 static inline void FN(weighted_add)(FN(weighted) * w, const FN(coefficients) * c, const FN(pull) * p,
-                                    const FN(kick) * did, REAL h, const REAL *before, const REAL *y, REAL x,
-                                    REAL alive)
+                                    const FN(kick) * did, const REAL *before, const REAL *y, REAL x, REAL alive)
 {
     REAL values[FST_MEAN_COUNT], spans[FST_SPAN_COUNT], slope[FST_STATE_SIZE];
     const REAL weight = alive * FN(window_weight)(x);
     const REAL inside = REAL_SELECT(REAL_LESS(R(0.0), weight), R(1.0), R(0.0));
-    FN(look_at_kick)(c, p, did, h, y, values, spans);
+    FN(look_at_kick)(c, p, did, y, values, spans);
     const REAL_MASK first = REAL_LESS(w->weight, R(1e-300));
     w->r_reference = REAL_SELECT(first, values[FST_MEAN_R], w->r_reference);
     w->b_reference = REAL_SELECT(first, values[FST_MEAN_B], w->b_reference);
@@ -100,7 +98,7 @@ static inline void FN(weighted_add)(FN(weighted) * w, const FN(coefficients) * c
     values[FST_MEAN_B2] = db * db;
     /* of the mean of both velocities, which is that at the time of the kick */
     const REAL v[2] = {R(0.5) * (before[FST_VX] + y[FST_VX]), R(0.5) * (before[FST_VY] + y[FST_VY])};
-    const REAL r2 = values[FST_MEAN_R] * values[FST_MEAN_R] + R(1e-290);
+    const REAL r2 = REAL_MULADD(values[FST_MEAN_R], values[FST_MEAN_R], R(1e-290));
     values[FST_MEAN_ALPHA_DOT] = REAL_MULSUB(y[FST_X], v[1], y[FST_Y] * v[0]) / r2;
     FN(weigh)(weight, values, FST_MEAN_COUNT, &w->weight, w->sum);
     const REAL_MASK counts = REAL_LESS(R(0.5), inside);
@@ -119,7 +117,7 @@ static inline void FN(weighted_add)(FN(weighted) * w, const FN(coefficients) * c
         w->least[i] = REAL_SELECT(counts, -REAL_MAX(-w->least[i], -spans[i]), w->least[i]);
     }
     /* A contact that rests slips for a rounding's time. */
-    const REAL ended = REAL_SELECT(REAL_LESS(did->moving, h), inside, R(0.0));
-    w->captures = w->captures + REAL_SELECT(REAL_LESS(R(1e-9) * h, did->moving), ended, R(0.0));
+    const REAL ended = REAL_SELECT(REAL_LESS(did->slide.share, R(1.0)), inside, R(0.0));
+    w->captures = w->captures + REAL_SELECT(REAL_LESS(R(1e-9), did->slide.share), ended, R(0.0));
     FN(count_crossing)(w, y, inside);
 }

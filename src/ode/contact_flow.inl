@@ -60,12 +60,13 @@ static inline void FN(decay)(REAL rate, REAL sigma, REAL *integral, REAL *left)
  * q. */
 static inline REAL FN(undo_decay)(REAL d, REAL rate)
 {
-    enum { ROOTS = 6 };
     REAL z = REAL_MAX(-(rate * d), R((1e-15 - 1.0))), sigma = d;
-    for (int i = 0; i < ROOTS; ++i) {
+    REAL_MASK large = REAL_LESS(R(0.5), REAL_ABS(z));
+    while (REAL_ANY(large)) {
         const REAL factor = R(1.0) / (R(1.0) + REAL_SQRT(R(1.0) + z));
-        z = z * factor;
-        sigma = sigma * (factor + factor);
+        z = REAL_SELECT(large, z * factor, z);
+        sigma = REAL_SELECT(large, sigma * (factor + factor), sigma);
+        large = REAL_LESS(R(0.5), REAL_ABS(z));
     }
     const REAL inverse = R(1.0) / (R(2.0) + z), w = z * inverse, w2 = w * w;
     const REAL series = REAL_MULADD(
@@ -122,7 +123,10 @@ static inline void FN(slide)(FN(sliding) * q, REAL h, REAL_MASK ends)
     REAL size, open = REAL_SELECT(ends, R(0.0), R(1.0));
     q->sigma = R(0.0);
     q->ahead_left = q->against_left = R(1.0);
-    REAL step = FN(slide_first)(q, h, &size);
+    /* Where the slip ends there is nothing to look for: h = 0 keeps such a lane from asking for the long way.
+     */
+    const REAL span = REAL_SELECT(ends, R(0.0), h);
+    REAL step = FN(slide_first)(q, span, &size);
     for (int i = 0; i < MOST_STEPS; ++i) {
         /* A last small step needs no new exponentials. */
         const REAL_MASK last = REAL_LESS_EQUAL(size, enough * open);
@@ -140,22 +144,27 @@ static inline void FN(slide)(FN(sliding) * q, REAL h, REAL_MASK ends)
         FN(decay)(q->fast, q->sigma, &e2, &left2);
         q->ahead_left = REAL_SELECT(busy, left1, q->ahead_left);
         q->against_left = REAL_SELECT(busy, left2, q->against_left);
-        const REAL missing = h - REAL_MULADD(q->ahead, e1, q->against * e2);
-        const REAL_MASK met = REAL_LESS_EQUAL(REAL_ABS(missing), R(2e-16) * h);
+        const REAL missing = REAL_SELECT(busy, span - REAL_MULADD(q->ahead, e1, q->against * e2), R(0.0));
+        const REAL_MASK met = REAL_LESS_EQUAL(REAL_ABS(missing), R(2e-16) * span);
         step = FN(slide_step)(q, missing, &size);
         step = REAL_SELECT(met, R(0.0), step);
         size = REAL_SELECT(met, R(0.0), size);
     }
 }
 
-/* The slip after the time h under the push A and the friction c = (7/2) mu N >= 0; `moving`: the time of it in
- * which the contact slips. */
-static inline void FN(contact_flow)(const REAL push[2], REAL c, REAL h, const REAL slip[2], REAL end[2],
-                                    REAL *moving)
+/* A slip before and after a time. */
+typedef struct FN(slide_result) {
+    REAL end[2], speed[2]; /* V at the end; |V| at the start and the end */
+    REAL share;            /* of the time, in which the contact slips */
+} FN(slide_result);
+
+/* The slip after the time h under the push A and the friction c = (7/2) mu N >= 0. */
+static inline void FN(contact_flow)(const REAL push[2], REAL c, REAL h, const REAL slip[2],
+                                    FN(slide_result) * result)
 {
-    const REAL a2 = SUM_2(push[0], push[0], push[1], push[1]), a = REAL_SQRT(a2);
+    const REAL a2 = SUM_2(push[0], push[0], push[1], push[1]);
     const REAL_MASK pushed = REAL_LESS(R(1e-280), a2);
-    const REAL inverse_a = R(1.0) / REAL_SELECT(pushed, a, R(1.0));
+    const REAL inverse_a = REAL_RECIPROCAL_SQRT(REAL_SELECT(pushed, a2, R(1.0))), a = a2 * inverse_a;
     const REAL p[2] = {REAL_SELECT(pushed, push[0] * inverse_a, R(1.0)),
                        REAL_SELECT(pushed, push[1] * inverse_a, R(0.0))};
     const REAL s = REAL_SQRT(SUM_2(slip[0], slip[0], slip[1], slip[1]));
@@ -171,13 +180,14 @@ static inline void FN(contact_flow)(const REAL push[2], REAL c, REAL h, const RE
     q.ahead = REAL_MAX(q.ahead, floor);
     /* t* <= h, multiplied by both rates */
     const REAL_MASK holds = REAL_LESS(R(0.0), q.slow);
-    const REAL needed = REAL_MULADD(q.ahead, q.fast, q.against * q.slow), product = q.slow * q.fast;
-    const REAL_MASK ends =
-        REAL_LESS_EQUAL(REAL_SELECT(holds, needed, R(1.0)), REAL_SELECT(holds, h * product, R(0.0)));
+    const REAL needed = REAL_MULADD(q.ahead, q.fast, q.against * q.slow), had = h * (q.slow * q.fast);
+    const REAL_MASK ends = REAL_LESS_EQUAL(REAL_SELECT(holds, needed, R(1.0)), REAL_SELECT(holds, had, R(0.0)));
     FN(slide)(&q, h, ends);
     const REAL left = q.ahead * q.ahead_left, right = q.against * q.against_left;
-    const REAL s1_along = left - right, s1_across = across * REAL_SQRT(q.ahead_left * q.against_left);
-    end[0] = REAL_SELECT(ends, R(0.0), REAL_MULSUB(s1_along, p[0], s1_across * p[1]));
-    end[1] = REAL_SELECT(ends, R(0.0), REAL_MULADD(s1_along, p[1], s1_across * p[0]));
-    *moving = REAL_SELECT(ends, needed / REAL_SELECT(ends, product, R(1.0)), h);
+    const REAL end_along = left - right, end_across = across * REAL_SQRT(q.ahead_left * q.against_left);
+    result->end[0] = REAL_SELECT(ends, R(0.0), REAL_MULSUB(end_along, p[0], end_across * p[1]));
+    result->end[1] = REAL_SELECT(ends, R(0.0), REAL_MULADD(end_along, p[1], end_across * p[0]));
+    result->speed[0] = s;
+    result->speed[1] = REAL_SELECT(ends, R(0.0), left + right);
+    result->share = REAL_SELECT(ends, needed / REAL_SELECT(ends, had, R(1.0)), R(1.0));
 }

@@ -10,7 +10,7 @@
  * of the next step are made as one, so a step needs one pull of the magnet.
  *
  * For dynamics `rigid` with constant mu (mu_s = mu_d) and without resistances: the kick is closed for these
- * only (fst_splitting_refuses() in study/splitting_run.c).
+ * only (study/splitting_run.c refuses others).
  */
 #include "ode/contact_flow.inl"
 
@@ -21,9 +21,8 @@ typedef struct FN(stride) {
 
 /* What a kick did. */
 typedef struct FN(kick) {
-    REAL before[2], after[2]; /* slip */
-    REAL load;                /* N; friction acts while it is positive */
-    REAL moving;              /* time in which the contact slips */
+    FN(slide_result) slide;
+    REAL load; /* N; friction acts while it is positive */
 } FN(kick);
 
 static inline void FN(turn_axes)(const FN(stride) * by, REAL u[2])
@@ -83,18 +82,18 @@ static inline void FN(drift)(const FN(stride) * by, REAL *y)
 /* The kick by the magnet's pull `p` at the state. */
 static inline void FN(kick_by)(const FN(coefficients) * c, const FN(pull) * p, REAL h, REAL *y, FN(kick) * did)
 {
-    REAL twist[3], turning[3], push[2], impulse[2];
+    REAL twist[3], turning[3], push[2], slip[2], impulse[2];
     FN(cross)(y + FST_NX, p->b, twist);
     for (int i = 0; i < 3; ++i)
         turning[i] = p->strength * twist[i];
     FN(push)(c, p->force, turning, NULL, push);
-    FN(slip)(c, y, did->before);
+    FN(slip)(c, y, slip);
     did->load = FN(load)(c, p->force);
     const REAL hold = R(3.5) * c->law.coulomb.sliding * REAL_MAX(did->load, R(0.0));
-    FN(contact_flow)(push, hold, h, did->before, did->after, &did->moving);
+    FN(contact_flow)(push, hold, h, slip, &did->slide);
     for (int i = 0; i < 2; ++i) {
         /* V changed by the push and by 7/2 of the impulse of friction */
-        impulse[i] = R((2.0 / 7.0)) * (REAL_MULADD(h, push[i], did->before[i]) - did->after[i]);
+        impulse[i] = R((2.0 / 7.0)) * (REAL_MULADD(h, push[i], slip[i]) - did->slide.end[i]);
         y[FST_VX + i] = y[FST_VX + i] + REAL_MULSUB(h, p->force[i], impulse[i]);
     }
     const REAL torque = h * c->torque;
