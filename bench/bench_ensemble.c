@@ -206,12 +206,6 @@ static int row_done(void *user, fst_row_job *job, fst_status status, const fst_r
     return 0;
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 /* Rows with all keys, the means over the second half of the periods; the final states are not needed here. */
 static int by_rows(const solver *self, const int *which, int count, double tolerance,
                    double (*ends)[FST_STATE_SIZE])
@@ -221,7 +215,7 @@ static int by_rows(const solver *self, const int *which, int count, double toler
     const fst_arithmetic form = !self->engine->fused       ? FST_ARITHMETIC_PORTABLE
                                 : self->engine->width == 8 ? FST_ARITHMETIC_AVX512
                                                            : FST_ARITHMETIC_AVX2;
-    const fst_row_work work = {&source, form, self->engine->width, next_row, row_done, never};
+    const fst_row_work work = {&source, form, self->engine->width, next_row, row_done, NULL};
     return fst_rows(&work, NULL) == FST_OK;
 }
 

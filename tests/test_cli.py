@@ -438,5 +438,33 @@ class StandardOutput(Case):
             self.bad(["schema"], "standard output", status=1, stdout=stream)
 
 
+class Advice(Case):
+    """The library speaks of functions; the program says the commands that a person types."""
+
+    def test_commands_in_messages(self):
+        scene = self.path("scene.yaml", "bead:\n  radios: 2.5 mm\n")
+        for words in (("run", "--set", "bead.radios=1mm"), ("check", scene)):
+            self.bad(words, "the nearest is bead.radius (festoon schema lists them all)")
+        other = self.path("other.json", "{}")
+        self.bad(("plot", other, "-o", self.path("f.svg")), "festoon branch -o FILE.json makes one")
+        status, _, said = festoon("orbit", "--set", "drive.omega=0.02", "--set", "start.spin=rest")
+        self.assertEqual(status, 1, said)
+        self.assertIn("festoon locked lists the states", said)
+
+    def test_the_library_names_no_command(self):
+        """Of its strings only documents do: the comments of a scene, and the paper's commands for repeating a number."""
+        names = re.findall(r"^  (\w+) ", self.good("--help"), re.M)
+        self.assertIn("lyapunov", names)
+        documents = ("src/cli/", "src/paper/", "src/io/scene_text.c")
+        for folder, _, files in os.walk(os.path.join(SOURCE_DIR, "src")):
+            for name in files:
+                path = os.path.join(folder, name)
+                if os.path.relpath(path, SOURCE_DIR).startswith(documents) or not name.endswith((".c", ".h", ".inl", ".def")):
+                    continue
+                with open(path, encoding="utf-8") as file:
+                    found = re.findall(r'"[^"\n]*\bfestoon (?:%s)\b[^"\n]*"' % "|".join(names), file.read())
+                self.assertEqual(found, [], path)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -148,6 +148,30 @@ static void every_kind_in_every_format(void **state)
     free_table(&table);
 }
 
+/* The outline in a figure is that of the bar of lines: the data hang on its width.  Of another source it is not
+ * known, and not drawn. */
+static void only_the_bar_of_lines_is_drawn(void **state)
+{
+    (void)state;
+    for (int bar = 0; bar < 2; bar++) {
+        char *data[2];
+        size_t size[2];
+        for (int wide = 0; wide < 2; wide++) {
+            fst_table table = make_table();
+            fst_figure_options options = fst_default_figure_options();
+            table.params.magnet_width = wide ? 0.06 : 0.03;
+            table.params.magnet_shape = bar ? (int)FST_MAGNET_LINES : (int)FST_MAGNET_SHAPES;
+            assert_int_equal(fst_figure_trajectory(&table, inside("bar.svg"), &options, NULL), FST_OK);
+            data[wide] = contents("bar.dat", &size[wide]);
+            free_table(&table);
+        }
+        assert_int_equal(strcmp(data[0], data[1]) != 0, bar);
+        assert_int_equal(strstr(data[0], "magnet") != NULL, bar);
+        free(data[0]);
+        free(data[1]);
+    }
+}
+
 static void the_script_draws_the_figure_again(void **state)
 {
     (void)state;
@@ -334,6 +358,7 @@ int main(void)
         cmocka_unit_test(between_samples_the_path_is_smooth),
         cmocka_unit_test(units_have_their_symbols),
         cmocka_unit_test_teardown(every_kind_in_every_format, clear_directory),
+        cmocka_unit_test_teardown(only_the_bar_of_lines_is_drawn, clear_directory),
         cmocka_unit_test_teardown(the_script_draws_the_figure_again, clear_directory),
         cmocka_unit_test_teardown(bad_requests_say_what_is_wrong, clear_directory),
         cmocka_unit_test_teardown(without_gnuplot_the_package_is_named, clear_directory),

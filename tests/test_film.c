@@ -152,6 +152,59 @@ static void test_ranges_of_colours(void **state)
     }
 }
 
+/* ------------------------------------------------------------------ frames */
+
+enum { PICTURE_ROOM = 1 << 20 };
+
+/* The first frame of a film, as PNG. */
+static size_t first_frame(const fst_table *table, unsigned char *picture)
+{
+    char folder[] = "/tmp/festoon-film-XXXXXX", frames[64], name[128];
+    fst_film_options options = fst_default_film_options();
+    fst_error error = {FST_OK, "", ""};
+    assert_non_null(mkdtemp(folder));
+    (void)snprintf(frames, sizeof frames, "%s/frames", folder);
+    options.width = options.height = 200;
+    options.fps = 1.0;
+    const fst_status status = fst_film(table, frames, &options, &error);
+    if (status == FST_UNAVAILABLE) {
+        assert_int_equal(rmdir(folder), 0);
+        skip();
+    }
+    if (status != FST_OK)
+        fail_msg("%s", error.sentence);
+    (void)snprintf(name, sizeof name, "%s/frame-00001.png", frames);
+    FILE *file = fopen(name, "rb");
+    assert_non_null(file);
+    const size_t size = fread(picture, 1, PICTURE_ROOM, file);
+    assert_int_equal(fclose(file), 0);
+    (void)snprintf(name, sizeof name, "rm -r %s", folder);
+    assert_int_equal(system(name), 0);
+    return size;
+}
+
+/* The magnet that is painted is the bar of lines, as wide as it is.  Of another source the outline is not
+ * known, and nothing is painted. */
+static void test_only_the_bar_of_lines_is_painted(void **state)
+{
+    (void)state;
+    unsigned char *pictures[2] = {test_malloc(PICTURE_ROOM), test_malloc(PICTURE_ROOM)};
+    for (int bar = 0; bar < 2; ++bar) {
+        size_t size[2];
+        for (int wide = 0; wide < 2; ++wide) {
+            fst_table table = table_of_turning(0.0, 1.0);
+            table.params.magnet_width = wide ? 0.04 : 0.02;
+            table.params.magnet_shape = bar ? (int)FST_MAGNET_LINES : (int)FST_MAGNET_SHAPES;
+            size[wide] = first_frame(&table, pictures[wide]);
+            fst_table_free(&table);
+        }
+        const int same = size[0] == size[1] && memcmp(pictures[0], pictures[1], size[0]) == 0;
+        assert_int_equal(same, !bar);
+    }
+    test_free(pictures[0]);
+    test_free(pictures[1]);
+}
+
 /* ------------------------------------------------------------------ files */
 
 static void put_number(unsigned char *at, size_t value)
@@ -225,6 +278,7 @@ int main(void)
         cmocka_unit_test(test_places_between_samples),
         cmocka_unit_test(test_ranges_of_colours),
         cmocka_unit_test(test_films_are_whole),
+        cmocka_unit_test(test_only_the_bar_of_lines_is_painted),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

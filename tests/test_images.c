@@ -1,6 +1,7 @@
 /* A run that is interrupted and goes on from its image ends with the bits of an undisturbed run, in every form
  * of arithmetic, however often and wherever it is interrupted. Bytes that are no image of the run are ignored.
  */
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "lanes/lanes.h"
@@ -48,8 +49,8 @@ typedef struct store {
     fst_run_result results[JOBS];
     fst_status statuses[JOBS];
     int done[JOBS];
-    int stages[FST_STAGE_COUNT]; /* how many images of each stage were found */
-    int parked;                  /* images saved of runs that wait for their exponents */
+    int stations[FST_STATION_COUNT]; /* how many images of each station were found */
+    int parked;                      /* images saved of runs that wait for their exponents */
     image images[JOBS];
     void (*spoil)(struct store *s, image *i); /* changes an image before it is found again; NULL: leaves it */
 } store;
@@ -79,10 +80,14 @@ static int job_done(void *user, fst_row_job *job, fst_status status, const fst_r
     return 0;
 }
 
-static int is_stopped(void *user)
+static fst_status answer(void *user, double fraction, const char *what, fst_error *error)
 {
     store *s = user;
-    return s->patience > 0 && ++s->looks > s->patience;
+    (void)fraction, (void)what;
+    if (s->patience == 0 || ++s->looks <= s->patience)
+        return FST_OK;
+    (void)snprintf(error->sentence, sizeof error->sentence, "no more patience");
+    return error->code = FST_INTERRUPTED;
 }
 
 static void save(void *user, const fst_row_job *job, const void *bytes, size_t size)
@@ -97,7 +102,7 @@ static void save(void *user, const fst_row_job *job, const void *bytes, size_t s
     i->size = size;
     fst_run_place place;
     memcpy(&place, (const unsigned char *)bytes + sizeof(uint64_t), sizeof place);
-    s->parked += place.stage == FST_STAGE_PARKED;
+    s->parked += place.station == FST_STATION_PARKED;
 }
 
 static void *find(void *user, const fst_row_job *job, size_t *size)
@@ -110,7 +115,7 @@ static void *find(void *user, const fst_row_job *job, size_t *size)
     s->found += 1;
     fst_run_place place; /* it stands behind the number of the layout */
     memcpy(&place, (const unsigned char *)bytes + sizeof(uint64_t), sizeof place);
-    s->stages[place.stage] += 1;
+    s->stations[place.station] += 1;
     if (s->spoil)
         s->spoil(s, i);
     *size = i->size;
@@ -133,12 +138,13 @@ static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int other_lan
     fst_status status = FST_INTERRUPTED;
     s->patience = patience;
     for (int turn = 0; status == FST_INTERRUPTED; ++turn) {
+        const fst_progress progress = {s, answer};
         const fst_row_work work = {.user = s,
                                    .arithmetic = arithmetic,
                                    .lanes = turn % 2 == 0 ? lanes : other_lanes,
                                    .next = next_job,
                                    .done = job_done,
-                                   .stopped = is_stopped};
+                                   .progress = &progress};
         fst_error error = {FST_OK, "", ""};
         s->next = s->looks = 0;
         status = fst_rows_with_images(&work, &images, &error);
@@ -146,12 +152,40 @@ static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int other_lan
             fail_msg("fst_rows_with_images: %s", error.sentence);
         if (status == FST_INTERRUPTED) {
             assert_int_equal(s->looks, s->patience + 1); /* it stopped when it was first told to */
+            assert_string_equal(error.sentence, "no more patience");
             s->broken_off += 1;
         }
         s->patience += patience > 0;
     }
     for (int i = 0; i < JOBS; ++i)
         assert_true(s->done[i]);
+}
+
+static fst_status refuse(void *user, double fraction, const char *what, fst_error *error)
+{
+    (void)user, (void)what;
+    assert_true(fraction == 0.0);
+    (void)snprintf(error->sentence, sizeof error->sentence, "the disk is full");
+    return error->code = FST_IO;
+}
+
+/* Whatever the caller answers is handed back, and is no failure of the runs that were at work. */
+static void test_any_answer_ends_the_rows(void **state)
+{
+    (void)state;
+    static store s;
+    const fst_progress progress = {NULL, refuse};
+    for (int lanes = 1; lanes <= 4; lanes += 3) {
+        const fst_row_work work = {&s, FST_ARITHMETIC_PORTABLE, lanes, next_job, job_done, &progress};
+        fst_error error = {FST_OK, "", ""};
+        if (lanes > 1 && !fst_lane_engine_of(FST_ARITHMETIC_PORTABLE, lanes))
+            continue;
+        assert_int_equal(fst_rows(&work, &error), FST_IO);
+        assert_string_equal(error.sentence, "the disk is full");
+        for (int i = 0; i < JOBS; ++i)
+            assert_false(s.done[i]);
+        s.next = 0;
+    }
 }
 
 static void check_same(const store *a, const store *b)
@@ -166,7 +200,7 @@ static void test_bits(void **state)
 {
     (void)state;
     static store whole, parts;
-    int stages[FST_STAGE_COUNT] = {0}, fused = 0;
+    int stations[FST_STATION_COUNT] = {0}, fused = 0;
     static const struct {
         fst_arithmetic arithmetic;
         int lanes, other_lanes;
@@ -191,15 +225,16 @@ static void test_bits(void **state)
             assert_true(parts.broken_off > 3);
             assert_true(parts.found > 8);
             check_same(&whole, &parts);
-            for (int stage = 0; stage < FST_STAGE_COUNT; ++stage)
-                stages[stage] += parts.stages[stage];
+            for (int station = 0; station < FST_STATION_COUNT; ++station)
+                stations[station] += parts.stations[station];
             clear(&parts);
         }
         fused = fused || kinds[k].arithmetic != FST_ARITHMETIC_PORTABLE;
         clear(&whole);
     }
-    assert_true(stages[FST_STAGE_ALONE] > 0 && stages[FST_STAGE_PARKED] > 0 && stages[FST_STAGE_OBSERVED] > 0);
-    assert_true(!fused || stages[FST_STAGE_RUN_UP] > 0);
+    assert_true(stations[FST_STATION_ALONE] > 0 && stations[FST_STATION_PARKED] > 0 &&
+                stations[FST_STATION_OBSERVED] > 0);
+    assert_true(!fused || stations[FST_STATION_RUN_UP] > 0);
 }
 
 static void cut(store *s, image *i)
@@ -217,7 +252,7 @@ static void of_another_build(store *s, image *i)
 
 static void with_wild_numbers(store *s, image *i)
 {
-    /* Spoils every byte behind the layout in turn: a wrong count, stride or stage must be noticed. */
+    /* Spoils every byte behind the layout in turn: a wrong count, stride or station must be noticed. */
     (void)s;
     memset((unsigned char *)i->bytes + 8, 0xff, i->size - 8);
     s->spoilt += 1;
@@ -275,8 +310,8 @@ static void test_what_a_run_takes_up(void **state)
     const fst_params p = job_params(1), other = job_params(2);
     fst_exponent exponent;
     for (int cut_off = 0; cut_off < 2; ++cut_off) {
-        const fst_run_place place = {.stage = FST_STAGE_ALONE};
-        fst_run_place found = {.stage = FST_STAGE_PARKED};
+        const fst_run_place place = {.station = FST_STATION_ALONE};
+        fst_run_place found = {.station = FST_STATION_PARKED};
         double *lane;
         const double *read;
         size_t size;
@@ -290,7 +325,7 @@ static void test_what_a_run_takes_up(void **state)
         assert_non_null(bytes);
         const int taken = fst_run_image_take(bytes, size - (size_t)cut_off, 0, &to, &exponent, &found, &read);
         assert_int_equal(taken, !cut_off);
-        assert_int_equal(found.stage, cut_off ? FST_STAGE_PARKED : FST_STAGE_ALONE);
+        assert_int_equal(found.station, cut_off ? FST_STATION_PARKED : FST_STATION_ALONE);
         assert_int_equal(to.flow->accepted, steps);
         assert_ptr_equal(to.params, &other);
         assert_ptr_equal(to.model, begun.model);
@@ -308,6 +343,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bits),
+        cmocka_unit_test(test_any_answer_ends_the_rows),
         cmocka_unit_test(test_what_is_no_image),
         cmocka_unit_test(test_exponents_hear),
         cmocka_unit_test(test_what_a_run_takes_up),

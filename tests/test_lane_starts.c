@@ -66,12 +66,6 @@ static int done(void *user, fst_row_job *job, fst_status status, const fst_run_r
     return 1;
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 static void test_rows_begin_where_they_are_told(void **unused)
 {
     (void)unused;
@@ -80,12 +74,8 @@ static void test_rows_begin_where_they_are_told(void **unused)
     static const int lanes[] = {1, 4, 8, 4, 8};
     for (int i = 0; i < 5; ++i) {
         chains c = {.begun = 0, .tolerance = forms[i] == FST_ARITHMETIC_PORTABLE ? 0.0 : 1e-7};
-        const fst_row_work work = {.user = &c,
-                                   .arithmetic = forms[i],
-                                   .lanes = lanes[i],
-                                   .next = next,
-                                   .done = done,
-                                   .stopped = never};
+        const fst_row_work work = {
+            .user = &c, .arithmetic = forms[i], .lanes = lanes[i], .next = next, .done = done};
         fst_error error = {FST_OK, "", ""};
         const fst_status status = fst_rows(&work, &error);
         if (status == FST_UNAVAILABLE) /* this processor lacks the instructions */

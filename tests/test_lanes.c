@@ -64,12 +64,6 @@ static int job_done(void *user, fst_row_job *job, fst_status status, const fst_r
     return 0;
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 /* Does all jobs in the order of multiples of `stride`, which has no common factor with their number. */
 static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int stride)
 {
@@ -77,7 +71,7 @@ static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int stride)
     s->count = JOBS;
     for (int i = 0; i < JOBS; ++i)
         s->order[i] = i * stride % JOBS;
-    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, never};
+    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, NULL};
     fst_error error = {FST_OK, "", ""};
     if (fst_rows(&work, &error) != FST_OK)
         fail_msg("fst_rows: %s", error.sentence);
@@ -216,7 +210,7 @@ static void test_extremes_are_those_of_the_path(void **state)
         for (int form = FST_ARITHMETIC_PORTABLE; form <= FST_ARITHMETIC_AVX512; ++form) {
             if (!fst_lane_engine_of((fst_arithmetic)form, 0))
                 continue;
-            const fst_row_work work = {&s, (fst_arithmetic)form, 0, one_job, job_done, never};
+            const fst_row_work work = {&s, (fst_arithmetic)form, 0, one_job, job_done, NULL};
             s.next = 0;
             assert_int_equal(fst_rows(&work, NULL), FST_OK);
             const fst_run_result *row = &s.results[0];
@@ -266,7 +260,7 @@ static void test_exponents(void **state)
         if (!fst_lane_engine_of((fst_arithmetic)form, 0))
             continue;
         memset(&rows, 0, sizeof rows);
-        const fst_row_work work = {&rows, (fst_arithmetic)form, 0, librating_job, job_done, never};
+        const fst_row_work work = {&rows, (fst_arithmetic)form, 0, librating_job, job_done, NULL};
         assert_int_equal(fst_rows(&work, NULL), FST_OK);
         for (int i = 0; i < LIBRATING; ++i) {
             const fst_run_result *run = &runs.results[i], *row = &rows.results[i];
@@ -353,7 +347,7 @@ static void test_tangents(void **state)
 static void test_no_such_engine(void **state)
 {
     (void)state;
-    const fst_row_work work = {NULL, FST_ARITHMETIC_AVX512, 4, next_job, job_done, never};
+    const fst_row_work work = {NULL, FST_ARITHMETIC_AVX512, 4, next_job, job_done, NULL};
     fst_error error;
     assert_int_equal(fst_rows(&work, &error), FST_UNAVAILABLE);
     assert_string_equal(fst_arithmetic_name(FST_ARITHMETIC_AVX2), "avx2");
@@ -479,7 +473,7 @@ static void test_grazing_is_seen_in_lanes(void **state)
         if (!fst_lane_engine_of(FST_ARITHMETIC_PORTABLE, lanes))
             continue;
         g.next = 0;
-        const fst_row_work work = {&g, FST_ARITHMETIC_PORTABLE, lanes, next_grazing, grazing_done, never};
+        const fst_row_work work = {&g, FST_ARITHMETIC_PORTABLE, lanes, next_grazing, grazing_done, NULL};
         fst_error error;
         assert_int_equal(fst_rows(&work, &error), FST_OK);
         for (int i = 0; i < GRAZING; ++i) {

@@ -84,6 +84,34 @@ static void test_share_of_rare_moments(void **unused)
     take_down(s);
 }
 
+/* The paper's equations take V for the friction: of a motion under another law they are not measured. */
+static void test_equations_of_a_viscous_plate(void **unused)
+{
+    (void)unused;
+    static double (*const measures[])(const fst_paper_state *, fst_dynamics, char *, size_t) = {
+        fst_measure_friction_share,      fst_measure_third_balance,    fst_measure_second_balance,
+        fst_measure_dropped_part,        fst_measure_centre_equations, fst_measure_turning_equations,
+        fst_measure_appendix_theta,      fst_measure_appendix_phi,     fst_measure_appendix_psi,
+        fst_measure_asymptotic_frequency};
+    stage *s = set_up(0.3, 0.0);
+    s->paper.scans[FST_SCAN_ASYMPTOTIC][0] = s->paper.scans[FST_SCAN_FAST][0] = &s->runs[1];
+    s->paper.counts[FST_SCAN_ASYMPTOTIC] = s->paper.counts[FST_SCAN_FAST] = 1;
+    for (int viscous = 0; viscous < 2; ++viscous)
+        for (size_t i = 0; i < sizeof measures / sizeof *measures; ++i) {
+            char note[512] = "";
+            for (int k = 0; k < 2; ++k)
+                s->runs[k].params.friction_law = viscous ? FST_FRICTION_VISCOUS : FST_FRICTION_NONE;
+            const double value = measures[i](&s->paper, FST_DYNAMICS_RIGID, note, sizeof note);
+            if (viscous) {
+                assert_null(strstr(note, "not measured"));
+            } else {
+                assert_true(isnan(value));
+                CHECK_CONTAINS(note, "here it is none");
+            }
+        }
+    take_down(s);
+}
+
 /* Mean radial force on a circle where n turns at `rate` times the angle, for both phases. */
 static double mean_force(const fst_model *model, double r, int rate)
 {
@@ -128,6 +156,7 @@ int main(void)
         cmocka_unit_test(test_share_of_a_trochoid),
         cmocka_unit_test(test_share_of_rare_moments),
         cmocka_unit_test(test_the_resonance),
+        cmocka_unit_test(test_equations_of_a_viscous_plate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,6 +7,7 @@ Environment: SOURCE_DIR is the source tree, BUILD_DIR the build tree.
 import json
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -43,6 +44,10 @@ class OwnBuild(unittest.TestCase):
                                           folder))["mean_r"]
             self.assertIn(f"two charges: counter-rotating, r = {radius:.17g}\n", output_of("./field", PROGRAMS))
             self.assertEqual(json.loads(output_of(program + "friction.law=quadratic", folder))["regime"], "counter-rotating")
+            if shutil.which("gnuplot"):
+                output_of("build-own/festoon field --set magnet.shape=charges -o charges.svg", folder)
+                for name in ("charges.dat", "charges.gp"):  # where no bar of lines is marked
+                    self.assertNotIn("the magnet's lines", (folder / name).read_text(encoding="utf-8").replace("''", "'"))
             refused = subprocess.run([folder / "build-own/festoon", "run", "--set", "magnet.shape=charge"],
                                      capture_output=True, text=True, check=False)
             self.assertEqual(refused.returncode, 2)

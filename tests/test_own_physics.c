@@ -126,16 +126,10 @@ static int job_done(void *user, fst_row_job *job, fst_status status, const fst_r
     return 0;
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 static void do_all(store *s, fst_arithmetic arithmetic, int lanes)
 {
     memset(s, 0, sizeof *s);
-    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, never};
+    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, NULL};
     fst_error error = {FST_OK, "", ""};
     if (fst_rows(&work, &error) != FST_OK)
         fail_msg("fst_rows: %s", error.sentence);
@@ -346,12 +340,45 @@ static void test_locked(void **unused)
     fst_locked_free(&list);
 }
 
+/* A branch over the weight: friction that asks for the load moves the locked states with it; that of a viscous
+ * plate does not, and such a branch is refused. */
+static void test_weight(void **unused)
+{
+    (void)unused;
+    fst_params p = own_bead(0.1);
+    fst_branch_options options = fst_default_branch_options();
+    fst_branch branch;
+    fst_error error = {FST_OK, "", ""};
+    options.kind = FST_BRANCH_LOCKED;
+    options.key = "plate.gravity";
+    options.from = 9.0;
+    options.to = 10.0;
+    if (fst_branch_follow(&p, &options, &branch, &error) != FST_OK)
+        fail_msg("%s", error.sentence);
+    double least = INFINITY, greatest = 0.0;
+    for (size_t i = 0; i < branch.point_count; ++i)
+        if (branch.points[i].branch == 0) {
+            least = fmin(least, branch.points[i].bead_angle_deg);
+            greatest = fmax(greatest, branch.points[i].bead_angle_deg);
+        }
+    assert_true(branch.complete && greatest > least + 1e-6);
+    fst_branch_free(&branch);
+    p.friction_law = FST_FRICTION_VISCOUS;
+    assert_int_equal(fst_branch_follow(&p, &options, &branch, &error), FST_BAD_INPUT);
+    assert_string_equal(error.where, "fst_branch_options.key");
+    CHECK_CONTAINS(error.sentence, "with friction.law = viscous");
+    p.friction_law = FST_FRICTION_QUADRATIC;
+    options.key = "plate.radius";
+    assert_int_equal(fst_branch_follow(&p, &options, &branch, &error), FST_BAD_INPUT);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_names), cmocka_unit_test(test_same_magnet_same_motion),
-        cmocka_unit_test(test_run),   cmocka_unit_test(test_lanes),
-        cmocka_unit_test(test_orbit), cmocka_unit_test(test_locked),
+        cmocka_unit_test(test_names),  cmocka_unit_test(test_same_magnet_same_motion),
+        cmocka_unit_test(test_run),    cmocka_unit_test(test_lanes),
+        cmocka_unit_test(test_orbit),  cmocka_unit_test(test_locked),
+        cmocka_unit_test(test_weight),
     };
     return cmocka_run_group_tests_name("own_physics", tests, NULL, NULL);
 }

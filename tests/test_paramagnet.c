@@ -142,6 +142,19 @@ static void the_identities_hold_with_their_ends(void **unused)
     }
 }
 
+/* The identities take V for the friction force. */
+static void the_identities_are_those_of_a_viscous_plate(void **unused)
+{
+    (void)unused;
+    fst_params params = bead(FST_MATERIAL_PARAMAGNETIC, 0.0, 5e-3, 0.0);
+    params.friction_law = FST_FRICTION_NONE;
+    fst_balances balances;
+    fst_error error;
+    assert_int_equal(fst_paramagnet_balances(&params, 1.0, 1.0, &balances, &error), FST_BAD_INPUT);
+    assert_string_equal(error.where, "friction.law");
+    assert_int_equal(fst_paramagnet_means(&params, 1.0, 1.0, &balances, &error), FST_BAD_INPUT);
+}
+
 /* The equations of the centre are the same in both dynamics, and the term psi' n x n' that the printed dW/dt
  * lacks does no work: so three identities hold in both. The fourth needs the whole of dW/dt. */
 static void with_the_printed_equations_three_identities_hold(void **unused)
@@ -254,6 +267,7 @@ int main(void)
         cmocka_unit_test(force_and_torque_follow_from_the_energy),
         cmocka_unit_test(a_paramagnetic_bead_feels_no_torque),
         cmocka_unit_test(the_identities_hold_with_their_ends),
+        cmocka_unit_test(the_identities_are_those_of_a_viscous_plate),
         cmocka_unit_test(with_the_printed_equations_three_identities_hold),
         cmocka_unit_test(no_paramagnetic_bead_counter_rotates),
         cmocka_unit_test(remanence_lets_a_bead_counter_rotate),

@@ -1,16 +1,73 @@
-"""A sweep's file records the seed of its random values, and whether all rows are there.
+"""A sweep's file records its scene, the seed of its random values, and whether all rows are there.
 
-Environment: FESTOON is the program.
+Environment: FESTOON is the program, BUILD_DIR the build tree.
 """
 
 import ctypes
 import json
+import re
+import sqlite3
 import unittest
 
 from hdf5_reader import Hdf5
-from sweep_tools import SHORT, Case, festoon
+from sweep_tools import SHORT, Case, change, festoon
 
 DRAWN = SHORT + ["--over", "drive.frequency=9Hz:20Hz:random:4", "--over", "model.kappa=1:2:random:4"]
+
+
+class OtherPrograms(Case):
+    """Files of programs that knew fewer keys, or more."""
+    WORDS = SHORT + ["--over", "drive.frequency=9Hz:20Hz:4"]
+
+    def scene(self):
+        base = sqlite3.connect(self.path("a.db"))
+        (text,), = base.execute("SELECT value FROM festoon WHERE key = 'scene'")
+        base.close()
+        return text
+
+    def rewrite(self, before, after, *more, known=True):
+        text = self.scene()
+        self.assertIn(before, text)
+        change(self.path("a.db"), ("UPDATE festoon SET value = ? WHERE key = 'scene'", (text.replace(before, after),)),
+               *more, known=known)
+
+    def go_on(self, *words):
+        return ("sweep", *self.WORDS, *words, "-o", self.path("a.db"))
+
+    def test_a_key_that_the_file_lacks_has_its_default(self):
+        self.good(*self.go_on())
+        before = self.rows("a.db")
+        self.rewrite("  gravity: 9.81 m/s2\n", "", "DELETE FROM rows WHERE point = 2")
+        self.assertIn("plate.gravity = 9.81, not 5", self.refused(*self.go_on("--set", "plate.gravity=5")))
+        self.assertEqual(json.loads(self.good(*self.go_on("--json")))["added"], 1)
+        self.assertEqual(self.rows("a.db"), before)
+
+    def test_a_group_that_the_file_lacks_too(self):
+        self.good(*self.go_on("--set", "magnet.lines=7"))
+        self.rewrite(re.search(r"^friction:\n(?:  .*\n)*", self.scene(), re.M).group(), "")
+        self.assertEqual(json.loads(self.good(*self.go_on("--set", "magnet.lines=7", "--json")))["added"], 0)
+        self.rewrite("  lines: 7\n", "")
+        self.assertIn("magnet.lines = 5, not 7", self.refused(*self.go_on("--set", "magnet.lines=7")))
+
+    def test_the_same_value_in_other_words(self):
+        self.good(*self.go_on())
+        self.rewrite("mass: 0.5 g", "mass: 500 mg")
+        self.good(*self.go_on())
+
+    def test_an_unknown_key_is_named(self):
+        """Nothing tells what it did to the rows, whatever its value."""
+        self.good(*self.go_on())
+        self.rewrite("plate:\n", "plate:\n  roughness: 0\n", known=False)
+        for words in (self.go_on(), ("export", self.path("a.db"), "--csv")):
+            self.assertIn("plate.roughness", self.refused(*words))
+
+    def test_a_changed_scene_needs_its_checksum(self):
+        self.good(*self.go_on())
+        base = sqlite3.connect(self.path("a.db"))
+        base.execute("UPDATE festoon SET value = replace(value, '  mu: 0.2\n', '') WHERE key = 'scene'")
+        base.commit()
+        base.close()
+        self.assertIn("checksum", self.refused(*self.go_on()))
 
 
 class Identity(Case):

@@ -49,19 +49,10 @@ static int keep_result(void *user, fst_row_job *job, fst_status status, const fs
     return 0; /* no run is to follow this one at once */
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 static void *work(void *user)
 {
-    const fst_row_work rows = {.user = user,
-                               .arithmetic = fst_best_arithmetic(),
-                               .next = next_run,
-                               .done = keep_result,
-                               .stopped = never};
+    const fst_row_work rows = {
+        .user = user, .arithmetic = fst_best_arithmetic(), .next = next_run, .done = keep_result};
     fst_error error;
     if (fst_rows(&rows, &error) != FST_OK)
         (void)fprintf(stderr, "%s: %s\n", error.where, error.sentence);

@@ -255,6 +255,9 @@ FST_API void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE],
 FST_API void fst_jacobian(const fst_model *model, const double state[FST_STATE_SIZE],
                           double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], double by_omega[FST_STATE_SIZE]);
 
+/* The velocity V = v - eps W x e of the bead's contact point on the plate, along X and Y. */
+FST_API void fst_slip(const fst_model *model, const double state[FST_STATE_SIZE], double slip[2]);
+
 /* Quantities of a state (paper, section IV and appendix; vectors in local components r, alpha, z). */
 typedef struct fst_observation {
     double r, cos_bead_angle,
@@ -267,6 +270,9 @@ typedef struct fst_observation {
     double load;               /* normal load per mass, l gamma^2 */
     double energy;             /* kinetic and magnetic energy per mass, l^2 gamma^2 */
     double friction_power;     /* f.V */
+    double friction;           /* |f|, horizontal force between plate and bead per mass, l gamma^2 */
+    double friction_use;       /* |f|/(mu_s N), of what static friction could take; 0 where that is nothing */
+    int sticks;                /* the contact rolls without slipping, by its law */
     double drive_power;        /* dU/dt at fixed x, n, W */
 } fst_observation;
 FST_API fst_observation fst_observe(const fst_model *model, const double state[FST_STATE_SIZE]);
@@ -474,12 +480,13 @@ typedef struct fst_row_work {
      * that is to follow at once, otherwise 0. */
     int (*done)(void *user, fst_row_job *job, fst_status status, const fst_run_result *result,
                 const fst_error *error);
-    /* Whether to stop; asked often, and by every thread that works on this source. */
-    int (*stopped)(void *user);
+    /* Asked often, in each thread that works on this source, by a fraction of 0: only the source knows how much
+     * work there is.  NULL: nobody is asked. */
+    const fst_progress *progress;
 } fst_row_work;
 
 /* Do jobs in the calling thread until there are none.  Several threads may work on one source, each with a call
- * of its own.  FST_UNAVAILABLE: this processor cannot do the arithmetic; FST_INTERRUPTED: stopped() said so. */
+ * of its own.  FST_UNAVAILABLE: this processor cannot do the arithmetic; any other status: progress said so. */
 FST_API fst_status fst_rows(const fst_row_work *work, fst_error *error);
 
 /* Where images of unfinished runs are kept, so that another process can go on with them.  An image is bytes
@@ -487,8 +494,8 @@ FST_API fst_status fst_rows(const fst_row_work *work, fst_error *error);
  * one that was never broken off. */
 typedef struct fst_row_images {
     void *user;
-    double seconds; /* seconds of work after which a run is saved, again and again; all are saved when stopped()
-                       says so */
+    double seconds; /* seconds of work after which a run is saved, again and again; all are saved when the
+                       work is to end */
     /* Take a copy of the image of an unfinished job. */
     void (*save)(void *user, const fst_row_job *job, const void *image, size_t size);
     /* The image of a job that begins, from malloc(), or NULL.  An image that this build cannot read

@@ -1,12 +1,13 @@
-/* fields.c - by which option a field of the library's options is given. */
+/* fields.c - the library's names in its errors, and what a person types for them. */
 #include "cli/fields.h"
 
-#include <stddef.h>
+#include <stdio.h>
 #include <string.h>
 
 static const struct {
     const char *field, *option;
-} table[] = {
+} options[] = {
+    {"fst_figure_sweep", "plot"},
     {"fst_grid.axes", "--over"},
     {"fst_sweep_options.lanes", "--lanes"},
     {"fst_sweep_options.carry", "--carry"},
@@ -37,8 +38,36 @@ static const struct {
 
 const char *option_of_field(const char *field)
 {
-    for (size_t i = 0; i < sizeof table / sizeof *table; ++i)
-        if (strcmp(table[i].field, field) == 0)
-            return table[i].option;
+    for (size_t i = 0; i < sizeof options / sizeof *options; ++i)
+        if (strcmp(options[i].field, field) == 0)
+            return options[i].option;
     return field;
+}
+
+static const struct {
+    const char *function, *command;
+} commands[] = {
+    {"fst_param_at()", "festoon schema"},        {"fst_lyapunov_find()", "festoon lyapunov"},
+    {"fst_locked_find()", "festoon locked"},     {"fst_sweep_export()", "festoon export"},
+    {"fst_sweep()", "festoon sweep -o FILE.db"}, {"fst_branch_write()", "festoon branch -o FILE.json"},
+    {"fst_run_json()", "festoon run --json"},
+};
+
+void name_commands(const char *sentence, char *text, size_t size)
+{
+    size_t length = 0;
+    for (const char *at = sentence; *at && length + 1 < size;) {
+        size_t row = 0;
+        while (row < sizeof commands / sizeof *commands &&
+               strncmp(at, commands[row].function, strlen(commands[row].function)) != 0)
+            ++row;
+        if (row < sizeof commands / sizeof *commands) {
+            (void)snprintf(text + length, size - length, "%s", commands[row].command);
+            length += strlen(text + length);
+            at += strlen(commands[row].function);
+        } else {
+            text[length++] = *at++;
+        }
+    }
+    text[length] = '\0';
 }

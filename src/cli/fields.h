@@ -1,9 +1,15 @@
-/* fields.h - by which option a field of the library's options is given. */
+/* fields.h - the library's names in its errors, and what a person types for them. */
 #ifndef FST_CLI_FIELDS_H
 #define FST_CLI_FIELDS_H
+
+#include <stddef.h>
 
 /* The library says where a fault lies by the field, "fst_sweep_options.lanes"; a person typed --lanes.  The
  * option of a field; what is no field of the table comes back as it is. */
 const char *option_of_field(const char *field);
+
+/* The library says what would help by the function, "fst_locked_find() lists the states"; a person types
+ * festoon locked.  The sentence with the commands in the place of their functions; `size` is at least 1. */
+void name_commands(const char *sentence, char *text, size_t size);
 
 #endif

@@ -140,7 +140,9 @@ static void print_error(const fst_error *error)
     if (!error->sentence[0])
         return;
     const char *where = option_of_field(error->where);
-    (void)fprintf(stderr, "festoon: %s%s%s\n", where, where[0] ? ": " : "", error->sentence);
+    char sentence[2 * sizeof error->sentence];
+    name_commands(error->sentence, sentence, sizeof sentence);
+    (void)fprintf(stderr, "festoon: %s%s%s\n", where, where[0] ? ": " : "", sentence);
 }
 
 /* Standard output is written only if all went well.  Until then it waits in memory or, where there is much of

@@ -22,6 +22,7 @@ enum {
 typedef struct field_map {
     const fst_model *model;
     fst_groups groups;
+    int bar;                        /* whether the source is the bar of lines, which is marked */
     double half_width, half_height; /* of the map, in l */
     double maxima[MAXIMA][2];
     int maximum_count;
@@ -134,8 +135,9 @@ static void write_arrows(fst_figure_file *figure, const field_map *map)
 
 static void write_marks(fst_figure_file *figure, const field_map *map)
 {
-    fst_figure_block(figure, "lines", "X/l Y/l: the magnet's lines");
-    for (int line = 0; line < map->groups.lines; ++line) {
+    if (map->bar)
+        fst_figure_block(figure, "lines", "X/l Y/l: the magnet's lines");
+    for (int line = 0; map->bar && line < map->groups.lines; ++line) {
         double y = (line - 0.5 * (map->groups.lines - 1)) * map->groups.lambda;
         (void)fprintf(figure->data, "-1 %.6g\n1 %.6g\n\n", y, y);
     }
@@ -158,7 +160,7 @@ static void write_script(fst_figure_file *figure, const field_map *map)
         "set size ratio -1\n"
         "set xrange [%.6g:%.6g]\n"
         "set yrange [%.6g:%.6g]\n"
-        "set xlabel 'X (ℓ), along the magnet''s lines'\n"
+        "set xlabel 'X (ℓ)%s'\n"
         "set ylabel 'Y (ℓ)'\n"
         "set cblabel '|B| (B_0)'\n"
         "set cbrange [0:*]\n"
@@ -167,8 +169,8 @@ static void write_script(fst_figure_file *figure, const field_map *map)
         "set tmargin at screen %.4f\n"
         "set bmargin at screen %.4f\n"
         "set key at screen %.4f, screen 0.015 left bottom Left reverse maxrows 2 samplen 2 width 2\n",
-        millimetres, -map->half_width, map->half_width, -map->half_height, map->half_height, left, right, top,
-        bottom, left);
+        millimetres, -map->half_width, map->half_width, -map->half_height, map->half_height,
+        map->bar ? ", along the magnet''s lines" : "", left, right, top, bottom, left);
     fst_figure_palette(figure, FST_PALETTE_MAP);
     if (map->maximum_count == 2) {
         double distance =
@@ -191,10 +193,13 @@ static void write_script(fst_figure_file *figure, const field_map *map)
                 "unset contour\n"
                 "set surface\n"
                 "plot data index 'map' using 1:2:3 with image notitle, \\\n"
-                "     $contours using 1:2 with lines lc rgb '#6f8fae' lw 0.8 title 'lines of equal |B|', \\\n"
-                "     data index 'lines' using 1:2 with lines lc rgb '#50d55e00' lw 3 title 'the magnet''s "
-                "lines, below', \\\n"
-                "     data index 'arrows' using 1:2:3:4 with vectors head filled size screen 0.008,20 lc rgb "
+                "     $contours using 1:2 with lines lc rgb '#6f8fae' lw 0.8 title 'lines of equal |B|', \\\n",
+                script);
+    if (map->bar)
+        (void)fputs("     data index 'lines' using 1:2 with lines lc rgb '#50d55e00' lw 3 title 'the magnet''s "
+                    "lines, below', \\\n",
+                    script);
+    (void)fputs("     data index 'arrows' using 1:2:3:4 with vectors head filled size screen 0.008,20 lc rgb "
                 "'#333333' lw 1 title 'in-plane direction of B', \\\n"
                 "     data index 'maxima' using 1:2 with points pt 2 ps 1.4 lw 3 lc rgb '#000000' title "
                 "'maxima of |B|'\n",
@@ -207,11 +212,13 @@ fst_status fst_figure_field(const fst_params *params, const char *out, fst_error
     fst_status status = fst_model_new(params, &model, error);
     if (status != FST_OK)
         return status;
-    field_map map = {.model = model, .groups = fst_model_groups(model)};
-    /* The map shows the poles and the magnet's corners, with room about them, whatever the magnet's shape. */
+    field_map map = {
+        .model = model, .groups = fst_model_groups(model), .bar = params->magnet_shape == FST_MAGNET_LINES};
+    /* The map shows the poles and the corners of the bar of lines, with room about them, whatever its shape; of
+     * another source it shows a square of that width. */
     double half_lines = 0.5 * (map.groups.lines - 1) * map.groups.lambda;
     map.half_width = 1.0 + 0.9 * map.groups.h + 0.3;
-    map.half_height = half_lines + 0.9 * map.groups.h;
+    map.half_height = map.bar ? half_lines + 0.9 * map.groups.h : map.half_width;
     fst_figure_file figure;
     status = fst_figure_begin(&figure, out, WIDTH, HEIGHT, error);
     if (status == FST_OK) {

@@ -24,6 +24,8 @@ static const struct {
 } colour_labels[] = {
     {"n_z", "n_z"},
     {"slip", "slip |V| of the contact point (ℓγ), in proportion to friction"},
+    {"sticking", "contact: 1 sticks, 0 slips"},
+    {"friction_use", "friction over what static friction could take, |f|/(μ_s N)"},
     {"angle", "angle between n and B (degrees)"},
     {"B", "|B| (B_0)"},
     {"r", "r (ℓ)"},
@@ -91,8 +93,13 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
     return FST_OK;
 }
 
-/* Draw the magnet where it is when the path begins: a faint rectangle, its lines, and an arrow for
- * its turning. */
+/* Of a magnet that is another source than the bar of lines the figure does not know the outline. */
+static int has_outline(const fst_view *view)
+{
+    return view->table->params.magnet_shape == FST_MAGNET_LINES;
+}
+
+/* Draw the bar of lines where it is when the path begins: a faint rectangle. */
 static void draw_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
 {
     double turned = columns->alpha[view->first] - columns->bead_angle[view->first];
@@ -255,16 +262,19 @@ fst_status fst_figure_path(const fst_table *table, const char *out, const fst_fi
     if (status != FST_OK)
         return status;
 
-    draw_magnet(&figure, &view, &columns);
+    if (has_outline(&view))
+        draw_magnet(&figure, &view, &columns);
     write_path(&figure, &view, &columns);
     if (options->inset)
         (void)fputs("set multiplot\n", figure.script);
     write_frame(&figure, &view, box);
     write_colour(&figure, &view, &columns);
-    fputs("plot data index 'magnet' using 1:2 with filledcurves closed fc rgb '#f4f4f4' notitle, \\\n"
-          "     data index 'magnet' using 1:2 with lines lc rgb '#c4c4c4' lw 1 title 'magnet when the path "
-          "begins (turns anticlockwise)', \\\n",
-          figure.script);
+    fputs("plot \\\n", figure.script);
+    if (has_outline(&view))
+        fputs("     data index 'magnet' using 1:2 with filledcurves closed fc rgb '#f4f4f4' notitle, \\\n"
+              "     data index 'magnet' using 1:2 with lines lc rgb '#c4c4c4' lw 1 title 'magnet when the path "
+              "begins (turns anticlockwise)', \\\n",
+              figure.script);
     if (options->arrows) {
         write_arrows(&figure, &view, &columns, box);
         fputs("     data index 'moment' using 1:2:3:4 with vectors head filled size screen 0.007,18 lc rgb "

@@ -49,7 +49,10 @@ static fst_status draw(const fst_view *view, const char *out, const folded *curv
                              .curves = curves,
                              .curve_count = 2};
     fst_chart chart = {.title = view->title,
-                       .x_label = "Φ = α − ωt, the bead's angle against the magnet (0: over its lines' ends)",
+                       .x_label =
+                           view->table->params.magnet_shape == FST_MAGNET_LINES
+                               ? "Φ = α − ωt, the bead's angle against the magnet (0: over its lines' ends)"
+                               : "Φ = α − ωt, the bead's angle against the magnet",
                        .x_low = 0.0,
                        .x_high = FST_PI,
                        .x_tics = "('0' 0, 'π/4' 0.785398163, 'π/2' 1.570796327, '3π/4' 2.35619449, 'π' "

@@ -2,6 +2,7 @@
 #include "draw/figure_setup.h"
 
 #include "base/constants.h"
+#include "base/error.h"
 
 #include "draw/style.h"
 
@@ -118,6 +119,9 @@ static const char sketch_plots[] =
 fst_status fst_figure_sketch(const fst_params *params, const char *out, fst_error *error)
 {
     fst_figure_file figure;
+    if (params->magnet_shape != FST_MAGNET_LINES)
+        return fst_fail(error, FST_BAD_INPUT, "magnet.shape",
+                        "the sketch shows the bar of lines, and this magnet is another: expected lines");
     fst_status status = fst_figure_begin(&figure, out, SKETCH_WIDTH, SKETCH_HEIGHT, error);
     if (status != FST_OK)
         return status;

@@ -18,7 +18,7 @@ static fst_status axes_of(const fst_grid *grid, const char *path, fst_shown_unit
         }
     if (*varied < 1 || *varied > 2)
         return fst_fail(error, FST_BAD_INPUT, path,
-                        "a figure shows a sweep over one or two axes; this one has %d: use festoon export",
+                        "a figure shows a sweep over one or two axes; this one has %d: use fst_sweep_export()",
                         *varied);
     return FST_OK;
 }

@@ -74,7 +74,7 @@ static fst_status lay_side(side *s, const fst_grid *grid, const fst_sweep_axis *
     s->places = malloc((size_t)axis->count * sizeof *s->places);
     s->edges = malloc((size_t)(axis->count + 1) * sizeof *s->edges);
     if (!s->places || !s->edges)
-        return fst_fail(error, FST_NO_MEMORY, "festoon plot", "no memory for %lld values",
+        return fst_fail(error, FST_NO_MEMORY, "fst_figure_sweep", "no memory for %lld values",
                         (long long)axis->count);
     for (int64_t i = 0; i < axis->count; ++i)
         s->places[i] = (place){fst_sweep_axis_value(grid, axis, i * stride), i * stride};
@@ -247,7 +247,7 @@ fst_status fst_figure_sweep_map(const fst_sweep_table *table, const fst_sweep_qu
              .regimes = strcmp(quantity->key, "regime") == 0,
              .factor = quantity->factor};
     if (fst_grid_axis_stride(table->grid, axes[0].index) == fst_grid_axis_stride(table->grid, axes[1].index))
-        return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: use festoon export");
+        return fst_fail(error, FST_BAD_INPUT, out, "random points make no map: use fst_sweep_export()");
     const fst_status status = draw(&m, quantity, out, error);
     free(m.up.places);
     free(m.up.edges);

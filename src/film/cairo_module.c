@@ -24,6 +24,11 @@ static const double diverging_palette[][4] = {{0.0, 0.071, 0.247, 0.549},
                                               {1.0, 0.690, 0.188, 0.0}};
 static const double north[3] = {0.835, 0.369, 0.0}, south[3] = {0.0, 0.447, 0.698};
 
+/* The bead's rim, which tells whether its contact sticks or slips (fst_contact_shown), and the words for it. */
+static const double rims[][3] = {{0.2, 0.2, 0.2}, {0.0, 0.62, 0.45}, {0.90, 0.62, 0.0}};
+static const char *const contact_words[] = {"from the front", "from the front: it sticks",
+                                            "from the front: it slips"};
+
 static void set_shade(cairo_t *pen, int both_signs, double shade)
 {
     const double(*palette)[4] = both_signs ? diverging_palette : line_palette;
@@ -47,9 +52,9 @@ static void write_at(cairo_t *pen, double x, double y, double size, const char *
 /* ------------------------------------------------------------------ from above; the pen works in
  * mm, y upwards */
 
-static void paint_magnet(cairo_t *pen, const fst_film_stage *stage, double angle)
+static void paint_magnet(cairo_t *pen, const fst_film_layout *layout, double angle)
 {
-    double half = 0.5 * stage->magnet[0], across = 0.5 * stage->magnet[1];
+    double half = 0.5 * layout->magnet[0], across = 0.5 * layout->magnet[1];
     cairo_save(pen);
     cairo_rotate(pen, angle);
     cairo_rectangle(pen, 0.0, -across, half, 2.0 * across);
@@ -65,12 +70,12 @@ static void paint_magnet(cairo_t *pen, const fst_film_stage *stage, double angle
     cairo_restore(pen);
 }
 
-static void paint_trail(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame)
+static void paint_trail(cairo_t *pen, const fst_film_layout *layout, const fst_film_frame *frame)
 {
-    cairo_set_line_width(pen, stage->reach / 90.0);
+    cairo_set_line_width(pen, layout->reach / 90.0);
     cairo_set_line_cap(pen, CAIRO_LINE_CAP_ROUND);
     for (int i = 0; i + 1 < frame->trail; ++i) {
-        set_shade(pen, stage->both_signs, frame->trail_shade[i]);
+        set_shade(pen, layout->both_signs, frame->trail_shade[i]);
         cairo_move_to(pen, frame->trail_x[i], frame->trail_y[i]);
         cairo_line_to(pen, frame->trail_x[i + 1], frame->trail_y[i + 1]);
         cairo_stroke(pen);
@@ -136,9 +141,9 @@ static void paint_marks(cairo_t *pen, const double turn[3][3], double radius, in
     }
 }
 
-static void paint_bead(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame, int view)
+static void paint_bead(cairo_t *pen, const fst_film_layout *layout, const fst_film_frame *frame, int view)
 {
-    double radius = stage->radius;
+    double radius = layout->radius;
     cairo_pattern_t *shade = cairo_pattern_create_radial(-0.35 * radius, 0.35 * radius, 0.05 * radius,
                                                          -0.1 * radius, 0.1 * radius, 1.15 * radius);
     cairo_pattern_add_color_stop_rgb(shade, 0.0, 1.0, 1.0, 1.0);
@@ -152,35 +157,53 @@ static void paint_bead(cairo_t *pen, const fst_film_stage *stage, const fst_film
     cairo_clip(pen);
     paint_marks(pen, frame->turn, radius, view);
     cairo_restore(pen);
+    const double *rim = rims[frame->contact];
     cairo_arc(pen, 0.0, 0.0, radius, 0.0, 2.0 * FST_PI);
-    cairo_set_source_rgb(pen, 0.2, 0.2, 0.2);
-    cairo_set_line_width(pen, 0.05 * radius);
+    cairo_set_source_rgb(pen, rim[0], rim[1], rim[2]);
+    cairo_set_line_width(pen, (frame->contact == FST_CONTACT_UNTOLD ? 0.05 : 0.16) * radius);
     cairo_stroke(pen);
 }
 
-static void paint_plate(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame, double scale)
+static void paint_plate(cairo_t *pen, const fst_film_layout *layout, const fst_film_frame *frame, double scale)
 {
     cairo_save(pen);
-    cairo_translate(pen, 0.5 * stage->width, 0.5 * stage->height);
+    cairo_translate(pen, 0.5 * layout->width, 0.5 * layout->height);
     cairo_scale(pen, scale, -scale);
-    paint_magnet(pen, stage, frame->magnet_angle);
-    cairo_arc(pen, 0.0, 0.0, stage->reach / 120.0, 0.0, 2.0 * FST_PI);
+    if (layout->bar)
+        paint_magnet(pen, layout, frame->magnet_angle);
+    cairo_arc(pen, 0.0, 0.0, layout->reach / 120.0, 0.0, 2.0 * FST_PI);
     cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);
     cairo_fill(pen);
-    paint_trail(pen, stage, frame);
+    paint_trail(pen, layout, frame);
     cairo_translate(pen, frame->x, frame->y);
-    paint_bead(pen, stage, frame, 0);
+    paint_bead(pen, layout, frame, 0);
     cairo_restore(pen);
 }
 
 /* ------------------------------------------------------------------ around it, in pixels */
 
-/* The view from the front: the plate, the magnet's slab below it, and the bead on it. */
-static void paint_side(cairo_t *pen, const fst_film_stage *stage, const fst_film_frame *frame)
+/* The magnet's slab from the front, its poles the paler the more they point away. */
+static void paint_slab(cairo_t *pen, const fst_film_layout *layout, double angle)
 {
-    double width = 0.30 * stage->width, scale = width / (2.0 * stage->reach);
-    double left = 12.0, down = stage->depth + 0.8 * stage->magnet[2], up = 2.6 * stage->radius;
-    double height = scale * (up + down), top = stage->height - height - 12.0;
+    double c = cos(angle), s = sin(angle);
+    double half = 0.5 * (layout->magnet[0] * fabs(c) + layout->magnet[1] * fabs(s));
+    double bottom = -layout->depth - 0.5 * layout->magnet[2];
+    cairo_pattern_t *poles = cairo_pattern_create_linear(-half, 0.0, half, 0.0);
+    const double *right = c > 0.0 ? north : south, *other = c > 0.0 ? south : north;
+    cairo_pattern_add_color_stop_rgba(poles, 0.0, other[0], other[1], other[2], 0.15 + 0.4 * fabs(c));
+    cairo_pattern_add_color_stop_rgba(poles, 1.0, right[0], right[1], right[2], 0.15 + 0.4 * fabs(c));
+    cairo_rectangle(pen, -half, bottom, 2.0 * half, layout->magnet[2]);
+    cairo_set_source(pen, poles);
+    cairo_fill(pen);
+    cairo_pattern_destroy(poles);
+}
+
+/* The view from the front: the plate, the magnet's slab below it, and the bead on it. */
+static void paint_side(cairo_t *pen, const fst_film_layout *layout, const fst_film_frame *frame)
+{
+    double width = 0.30 * layout->width, scale = width / (2.0 * layout->reach);
+    double left = 12.0, down = layout->depth + 0.8 * layout->magnet[2], up = 2.6 * layout->radius;
+    double height = scale * (up + down), top = layout->height - height - 12.0;
     cairo_rectangle(pen, left, top, width, height);
     cairo_set_source_rgba(pen, 1.0, 1.0, 1.0, 0.9);
     cairo_fill_preserve(pen);
@@ -192,59 +215,51 @@ static void paint_side(cairo_t *pen, const fst_film_stage *stage, const fst_film
     cairo_clip(pen);
     cairo_translate(pen, left + 0.5 * width, top + scale * up);
     cairo_scale(pen, scale, -scale);
-    double c = cos(frame->magnet_angle), s = sin(frame->magnet_angle);
-    double half = 0.5 * (stage->magnet[0] * fabs(c) + stage->magnet[1] * fabs(s));
-    double bottom = -stage->depth - 0.5 * stage->magnet[2];
-    cairo_pattern_t *poles = cairo_pattern_create_linear(-half, 0.0, half, 0.0);
-    const double *right = c > 0.0 ? north : south, *other = c > 0.0 ? south : north;
-    cairo_pattern_add_color_stop_rgba(poles, 0.0, other[0], other[1], other[2], 0.15 + 0.4 * fabs(c));
-    cairo_pattern_add_color_stop_rgba(poles, 1.0, right[0], right[1], right[2], 0.15 + 0.4 * fabs(c));
-    cairo_rectangle(pen, -half, bottom, 2.0 * half, stage->magnet[2]);
-    cairo_set_source(pen, poles);
-    cairo_fill(pen);
-    cairo_pattern_destroy(poles);
-    cairo_move_to(pen, -stage->reach, 0.0);
-    cairo_line_to(pen, stage->reach, 0.0);
+    if (layout->bar)
+        paint_slab(pen, layout, frame->magnet_angle);
+    cairo_move_to(pen, -layout->reach, 0.0);
+    cairo_line_to(pen, layout->reach, 0.0);
     cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);
     cairo_set_line_width(pen, 0.4);
     cairo_stroke(pen);
-    cairo_translate(pen, frame->x, stage->radius);
-    paint_bead(pen, stage, frame, 1);
+    cairo_translate(pen, frame->x, layout->radius);
+    paint_bead(pen, layout, frame, 1);
     cairo_restore(pen);
     cairo_set_source_rgb(pen, 0.35, 0.35, 0.35);
-    write_at(pen, left + 6.0, top - 6.0, 0.018 * stage->height, "from the front");
+    write_at(pen, left + 6.0, top - 6.0, 0.018 * layout->height, contact_words[frame->contact]);
 }
 
-static void paint_scale_bar(cairo_t *pen, const fst_film_stage *stage, double scale)
+static void paint_scale_bar(cairo_t *pen, const fst_film_layout *layout, double scale)
 {
-    double length = 10.0 * scale, x = stage->width - 24.0 - length, y = stage->height - 24.0;
+    double length = 10.0 * scale, x = layout->width - 24.0 - length, y = layout->height - 24.0;
     cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
     cairo_set_line_width(pen, 3.0);
     cairo_move_to(pen, x, y);
     cairo_line_to(pen, x + length, y);
     cairo_stroke(pen);
-    write_at(pen, x, y - 8.0, 0.022 * stage->height, "10 mm");
+    write_at(pen, x, y - 8.0, 0.022 * layout->height, "10 mm");
 }
 
-static void paint_colour_bar(cairo_t *pen, const fst_film_stage *stage)
+static void paint_colour_bar(cairo_t *pen, const fst_film_layout *layout)
 {
     enum { STEPS = 64 };
-    double width = 0.3 * stage->width, x = stage->width - width - 24.0, y = 16.0, size = 0.020 * stage->height;
+    double width = 0.3 * layout->width, x = layout->width - width - 24.0, y = 16.0,
+           size = 0.020 * layout->height;
     for (int i = 0; i < STEPS; ++i) {
-        set_shade(pen, stage->both_signs, (i + 0.5) / STEPS);
+        set_shade(pen, layout->both_signs, (i + 0.5) / STEPS);
         cairo_rectangle(pen, x + i * width / STEPS, y, width / STEPS + 1.0, 10.0);
         cairo_fill(pen);
     }
     char low[32], high[32];
     cairo_text_extents_t extents;
-    (void)snprintf(low, sizeof low, "%.3g", stage->colour_low);
-    (void)snprintf(high, sizeof high, "%.3g", stage->colour_high);
+    (void)snprintf(low, sizeof low, "%.3g", layout->colour_low);
+    (void)snprintf(high, sizeof high, "%.3g", layout->colour_high);
     cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
     write_at(pen, x, y + 14.0 + size, size, low);
     cairo_text_extents(pen, high, &extents);
     write_at(pen, x + width - extents.x_advance, y + 14.0 + size, size, high);
-    cairo_text_extents(pen, stage->colour_label, &extents);
-    write_at(pen, x + 0.5 * (width - extents.x_advance), y + 14.0 + size, size, stage->colour_label);
+    cairo_text_extents(pen, layout->colour_label, &extents);
+    write_at(pen, x + 0.5 * (width - extents.x_advance), y + 14.0 + size, size, layout->colour_label);
 }
 
 /* ------------------------------------------------------------------ the table */
@@ -258,38 +273,38 @@ static void close_canvas(fst_film_canvas *canvas)
     free(canvas);
 }
 
-static fst_status open_canvas(const fst_film_stage *stage, fst_film_canvas **out, fst_error *error)
+static fst_status open_canvas(const fst_film_layout *layout, fst_film_canvas **out, fst_error *error)
 {
     fst_film_canvas *canvas = malloc(sizeof *canvas);
     if (!canvas)
         return fst_fail(error, FST_NO_MEMORY, "film", "no memory for a frame");
-    canvas->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, stage->width, stage->height);
+    canvas->surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, layout->width, layout->height);
     canvas->pen = cairo_create(canvas->surface);
     if (cairo_status(canvas->pen) != CAIRO_STATUS_SUCCESS) {
         close_canvas(canvas);
-        return fst_fail(error, FST_NO_MEMORY, "film", "no memory for frames of %d x %d pixels", stage->width,
-                        stage->height);
+        return fst_fail(error, FST_NO_MEMORY, "film", "no memory for frames of %d x %d pixels", layout->width,
+                        layout->height);
     }
     cairo_select_font_face(canvas->pen, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
     *out = canvas;
     return FST_OK;
 }
 
-static void paint(fst_film_canvas *canvas, const fst_film_stage *stage, const fst_film_frame *frame)
+static void paint(fst_film_canvas *canvas, const fst_film_layout *layout, const fst_film_frame *frame)
 {
     cairo_t *pen = canvas->pen;
-    int side = stage->width < stage->height ? stage->width : stage->height;
+    int side = layout->width < layout->height ? layout->width : layout->height;
     /* It is small enough for the bead to pass it without being hidden. */
-    double scale = 0.84 * side / (2.0 * stage->reach);
+    double scale = 0.84 * side / (2.0 * layout->reach);
     cairo_set_source_rgb(pen, 1.0, 1.0, 1.0);
     cairo_paint(pen);
-    paint_plate(pen, stage, frame, scale);
-    paint_side(pen, stage, frame);
-    paint_scale_bar(pen, stage, scale);
-    paint_colour_bar(pen, stage);
+    paint_plate(pen, layout, frame, scale);
+    paint_side(pen, layout, frame);
+    paint_scale_bar(pen, layout, scale);
+    paint_colour_bar(pen, layout);
     cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
-    write_at(pen, 16.0, 14.0 + 0.026 * stage->height, 0.026 * stage->height, stage->title);
-    write_at(pen, 16.0, 22.0 + 0.050 * stage->height, 0.022 * stage->height, frame->clock);
+    write_at(pen, 16.0, 14.0 + 0.026 * layout->height, 0.026 * layout->height, layout->title);
+    write_at(pen, 16.0, 22.0 + 0.050 * layout->height, 0.022 * layout->height, frame->clock);
 }
 
 static const unsigned char *pixels(fst_film_canvas *canvas, int *stride)

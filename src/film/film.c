@@ -55,7 +55,7 @@ typedef struct film {
     const fst_film_options *options;
     const fst_film_module_table *module;
     fst_film_canvas *canvas;
-    fst_film_stage stage;
+    fst_film_layout layout;
     fst_film_motion motion;
     fst_ffmpeg process;
     char folder[4096]; /* the folder for the frames; "": they go to ffmpeg */
@@ -103,9 +103,9 @@ static fst_status check(const fst_film_options *options, fst_error *error)
     return FST_OK;
 }
 
-/* ------------------------------------------------------------------ the stage */
+/* ------------------------------------------------------------------ the layout */
 
-static void set_stage(film *f, const fst_table *table)
+static void set_layout(film *f, const fst_table *table)
 {
     const fst_params *p = &table->params;
     const fst_film_motion *m = &f->motion;
@@ -119,10 +119,11 @@ static void set_stage(film *f, const fst_table *table)
     char unit[32];
     fst_unit_symbols(m->colour_info->unit, unit, sizeof unit);
     (void)snprintf(f->label, sizeof f->label, "%s (%s)", m->colour_info->name, unit);
-    f->stage = (fst_film_stage){
+    f->layout = (fst_film_layout){
         .width = f->options->width,
         .height = f->options->height,
         .reach = fmax(1.25 * reach, 1.35) * m->millimetres,
+        .bar = p->magnet_shape == FST_MAGNET_LINES,
         .magnet = {2e3 * p->magnet_half_length, 1e3 * p->magnet_width, MAGNET_THICKNESS},
         .depth = 1e3 * p->magnet_depth,
         .radius = 1e3 * p->bead_radius,
@@ -146,7 +147,7 @@ static void set_trail(film *f, fst_film_frame *frame)
         --from;
     /* Skip samples closer than a pixel or so.  The skipped ones are the same in every frame, so the trail does
      * not flicker. */
-    double least = 1.5 * 2.0 * f->stage.reach / f->stage.height;
+    double least = 1.5 * 2.0 * f->layout.reach / f->layout.height;
     double *x = f->trail, *y = x + f->trail_room, *shade = y + f->trail_room;
     int count = 0;
     for (size_t row = from; row <= m->row; ++row) {
@@ -188,10 +189,10 @@ static fst_status give_frame(film *f, int index, fst_error *error)
     int stride;
     const unsigned char *pixels = f->module->pixels(f->canvas, &stride);
     fst_status status = FST_OK;
-    size_t row = 4 * (size_t)f->stage.width;
+    size_t row = 4 * (size_t)f->layout.width;
     if ((size_t)stride == row)
-        return fst_ffmpeg_frame(&f->process, pixels, row * (size_t)f->stage.height, error);
-    for (int y = 0; y < f->stage.height && status == FST_OK; ++y)
+        return fst_ffmpeg_frame(&f->process, pixels, row * (size_t)f->layout.height, error);
+    for (int y = 0; y < f->layout.height && status == FST_OK; ++y)
         status = fst_ffmpeg_frame(&f->process, pixels + (size_t)y * (size_t)stride, row, error);
     return status;
 }
@@ -217,7 +218,7 @@ static fst_status make_frames(film *f, fst_error *error)
         (void)snprintf(clock, sizeof clock, "t = %.1f ms, turn %.2f, %.3g times slower",
                        1e3 * t / m->table->params.friction_gamma, now, f->slower);
         frame.clock = clock;
-        f->module->paint(f->canvas, &f->stage, &frame);
+        f->module->paint(f->canvas, &f->layout, &frame);
         fst_status status = give_frame(f, i, error);
         if (status == FST_OK)
             status = fst_tell(o->progress, (i + 1.0) / f->frames, "frames", error);
@@ -262,7 +263,7 @@ static fst_status frames_into_process(film *f, const char *out, const char *form
     fst_status status = fst_whole_file_open(&file, out, error);
     if (status != FST_OK)
         return status;
-    status = fst_ffmpeg_start(&f->process, f->stage.width, f->stage.height, f->options->fps, format,
+    status = fst_ffmpeg_start(&f->process, f->layout.width, f->layout.height, f->options->fps, format,
                               file.temporary, out, error);
     if (status == FST_OK) {
         status = make_frames(f, error);
@@ -327,10 +328,10 @@ fst_status fst_film(const fst_table *table, const char *out, const fst_film_opti
         status =
             fst_film_motion_begin(&f.motion, table, f.options->from, f.options->to, f.options->colour, error);
     if (status == FST_OK) {
-        set_stage(&f, table);
+        set_layout(&f, table);
         f.trail_room = f.motion.last - f.motion.first + 3;
         f.trail = malloc(3 * f.trail_room * sizeof *f.trail);
-        status = f.trail ? f.module->open(&f.stage, &f.canvas, error)
+        status = f.trail ? f.module->open(&f.layout, &f.canvas, error)
                          : fst_fail(error, FST_NO_MEMORY, "film", "no memory for the trail");
     }
     if (status == FST_OK)

@@ -8,17 +8,21 @@
 #include <stdio.h>
 
 /* What is the same in all frames of a film.  Lengths are in mm. */
-typedef struct fst_film_stage {
+typedef struct fst_film_layout {
     int width, height;        /* pixels, both even */
     double reach;             /* half the side of the square of plate that is shown */
-    double magnet[3];         /* length, width, thickness */
+    int bar;                  /* whether the magnet is the bar of lines; another source is not painted */
+    double magnet[3];         /* length, width, thickness of the bar */
     double depth;             /* of the magnet's middle plane below the plate */
     double radius;            /* of the bead */
     const char *title;        /* frequency and dynamics */
     const char *colour_label; /* of the trail */
     double colour_low, colour_high;
     int both_signs; /* use the palette for both signs */
-} fst_film_stage;
+} fst_film_layout;
+
+/* Whether the contact slips; under a law by which it may do both. */
+typedef enum { FST_CONTACT_UNTOLD, FST_CONTACT_STICKS, FST_CONTACT_SLIPS } fst_contact_shown;
 
 /* What changes from frame to frame.  The trail runs from its oldest point to the bead; `shade`, from 0 to 1,
  * picks a colour of the palette. */
@@ -27,6 +31,7 @@ typedef struct fst_film_frame {
     double magnet_angle; /* rad */
     double turn[3][3]; /* rotation of the bead, from body to laboratory; the moment is the body's third axis */
     const char *clock; /* "t = 12.3 ms" */
+    fst_contact_shown contact;
     const double *trail_x, *trail_y, *trail_shade;
     int trail;
 } fst_film_frame;
@@ -37,8 +42,8 @@ typedef struct fst_film_canvas fst_film_canvas;
 #define FST_FILM_MODULE_SYMBOL "fst_film_module"
 typedef struct fst_film_module_table {
     const char *version; /* FST_VERSION_STRING at the module's build; a module of another version is refused */
-    fst_status (*open)(const fst_film_stage *stage, fst_film_canvas **canvas, fst_error *error);
-    void (*paint)(fst_film_canvas *canvas, const fst_film_stage *stage, const fst_film_frame *frame);
+    fst_status (*open)(const fst_film_layout *layout, fst_film_canvas **canvas, fst_error *error);
+    void (*paint)(fst_film_canvas *canvas, const fst_film_layout *layout, const fst_film_frame *frame);
     /* Rows of pixels from the top, four bytes a pixel in the order blue, green, red, unused, and `*stride`
      * bytes a row. */
     const unsigned char *(*pixels)(fst_film_canvas *canvas, int *stride);

@@ -374,7 +374,8 @@ static json_t *load(reader *r)
                              fst_quote(why.text, quoted));
     } else if (!json_is_object(document) || !json_object_get(document, "points") ||
                !json_object_get(document, "parameter")) {
-        r->status = fst_fail(r->error, FST_BAD_INPUT, r->path, "this is no branch: festoon branch makes one");
+        r->status =
+            fst_fail(r->error, FST_BAD_INPUT, r->path, "this is no branch: fst_branch_write() makes one");
     }
     return document;
 }

@@ -287,7 +287,7 @@ fst_status fst_run_dots_read(const char *path, const char *key, const char *obse
     free(text);
     if (status == FST_OK && *count == 0)
         status = fst_fail(error, FST_BAD_INPUT, path,
-                          "it contains no document of festoon run that has %s and %s", key, observable);
+                          "it contains no document of fst_run_json() that has %s and %s", key, observable);
     if (status != FST_OK) {
         free(*dots);
         *dots = NULL;

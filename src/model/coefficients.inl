@@ -15,6 +15,7 @@ typedef struct FN(coefficients) {
     FN(source_numbers) source;
     FN(law_numbers) law;
     FN(resistance) resistance;
+    REAL holding; /* coefficient of static friction, which says how much of it a motion uses */
 } FN(coefficients);
 
 static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, const fst_groups *g)
@@ -39,5 +40,6 @@ static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, c
     c.source = FN(make_source_numbers)(&c.kinds, params, g);
     c.law = FN(make_law_numbers)(&c.kinds, params, g);
     c.resistance = FN(make_resistance)(params, g);
+    c.holding = REAL_OF(isnan(params->friction_mu_static) ? params->friction_mu : params->friction_mu_static);
     return c;
 }

@@ -77,6 +77,17 @@ static inline void FN(gradient_along)(const FN(coefficients) * c, REAL x, REAL y
 #endif
 }
 
+/* s of the bead's dipole u = s n + 2 a B. */
+static inline REAL FN(strength)(const FN(coefficients) * c, const REAL n[3], const REAL b[3])
+{
+    if (!c->kinds.magnetisable)
+        return c->hard;
+    return c->hard + c->twice_b * SUM_3(n[0], b[0], n[1], b[1], n[2], b[2]);
+}
+
+/* The force is G u = s G n + 2 a G B, taken in the second form, because a source can give G along a known
+ * direction in one pass, and s is not known before B.  (tangent.inl has the whole gradient, and takes the
+ * first.) */
 static inline void FN(magnetic_pull)(const FN(coefficients) * c, const REAL *state, FN(pull) * p)
 {
 #ifdef FST_COUNT_EVALUATION
@@ -94,13 +105,12 @@ static inline void FN(magnetic_pull)(const FN(coefficients) * c, const REAL *sta
 #else
     FN(field_along)(c, x, y, n, p->b, gn);
 #endif
-    p->strength = c->hard;
+    p->strength = FN(strength)(c, n, p->b);
     if (!c->kinds.magnetisable) {
         for (int i = 0; i < 3; ++i)
             p->force[i] = p->strength * gn[i];
         return;
     }
-    p->strength = p->strength + c->twice_b * SUM_3(n[0], p->b[0], n[1], p->b[1], n[2], p->b[2]);
     REAL gb[3];
     FN(gradient_along)(c, x, y, p, p->b, gb);
     for (int i = 0; i < 3; ++i)

@@ -113,16 +113,41 @@ void fst_field(const fst_model *model, double x, double y, double b[3], double g
     memcpy(grad, all, sizeof all);
 }
 
+void fst_slip(const fst_model *model, const double state[FST_STATE_SIZE], double slip[2])
+{
+    fst_slip_double(&model->coefficients, state, slip);
+}
+
+/* The coefficients, in the mode of a contact that is in this state: without slip, under a push that static
+ * friction takes, it sticks. */
+static fst_coefficients_double in_mode_of(const fst_model *model, const double *state)
+{
+    static const double no_slip = 1e-12;
+    fst_coefficients_double c = model->coefficients;
+    if (!c.kinds.paced)
+        return c;
+    fst_pull_double p;
+    fst_magnetic_pull_double(&c, state, &p);
+    const fst_contact_double at = fst_contact_of_double(&c, state, &p);
+    const double slip = sqrt(at.slip[0] * at.slip[0] + at.slip[1] * at.slip[1]);
+    const double push = sqrt(at.push[0] * at.push[0] + at.push[1] * at.push[1]);
+    if (slip < no_slip && push <= 3.5 * c.holding * at.load)
+        c.law.coulomb.mode = FST_MODE_STICK;
+    return c;
+}
+
 void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE], double derivative[FST_STATE_SIZE])
 {
+    const fst_coefficients_double c = in_mode_of(model, state);
     fst_pull_double p;
-    fst_rhs_double(&model->coefficients, model->coefficients.omega, state, derivative, &p);
+    fst_rhs_double(&c, c.omega, state, derivative, &p);
 }
 
 void fst_jacobian(const fst_model *model, const double state[FST_STATE_SIZE],
                   double jacobian[FST_STATE_SIZE][FST_STATE_SIZE], double by_omega[FST_STATE_SIZE])
 {
-    fst_jacobian_double(&model->coefficients, model->coefficients.omega, state, jacobian);
+    const fst_coefficients_double c = in_mode_of(model, state);
+    fst_jacobian_double(&c, c.omega, state, jacobian);
     if (by_omega)
         fst_rhs_by_omega_double(state, by_omega);
 }
@@ -150,6 +175,13 @@ fst_observation fst_observe_double(const fst_coefficients_double *c, double omeg
     out.energy = fst_energy_double(c, state, &p);
     out.friction_power = o.friction_power;
     out.drive_power = o.drive_power;
+    out.sticks = o.sticking > 0.5;
+    double force[2];
+    const fst_contact_double contact = fst_contact_of_double(c, state, &p);
+    fst_friction_double(&c->law, &c->kinds, &contact, force);
+    out.friction = sqrt(force[0] * force[0] + force[1] * force[1]);
+    const double most = c->holding * contact.load;
+    out.friction_use = most > 0 ? out.friction / most : 0.0;
     return out;
 }
 
@@ -161,7 +193,8 @@ double fst_angle_of_gap(double gap2)
 
 fst_observation fst_observe(const fst_model *model, const double state[FST_STATE_SIZE])
 {
-    return fst_observe_double(&model->coefficients, model->coefficients.omega, state);
+    const fst_coefficients_double c = in_mode_of(model, state);
+    return fst_observe_double(&c, c.omega, state);
 }
 
 void fst_apply_s2(const double state[FST_STATE_SIZE], double image[FST_STATE_SIZE])

@@ -177,7 +177,7 @@ static fst_status unknown_key(const char *key, fst_error *error)
     if (!nearest[0])
         fst_nearest_name(key, names, nearest, sizeof nearest);
     return fst_fail(error, FST_BAD_INPUT, key,
-                    "unknown key %s; the nearest is %s (festoon schema lists them all)", fst_quote(key, quoted),
+                    "unknown key %s; the nearest is %s (fst_param_at() lists them all)", fst_quote(key, quoted),
                     nearest);
 }
 

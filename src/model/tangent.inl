@@ -26,20 +26,15 @@ static inline __attribute__((always_inline)) void FN(linearise)(const FN(coeffic
 #endif
     const REAL *n = y + FST_NX, *b = l->at.b;
     FN(source_look)(&c->source, &c->kinds, y[FST_X], y[FST_Y], &l->at);
-    REAL s = c->hard;
-    if (c->kinds.magnetisable) {
-        s = s + c->twice_b * SUM_3(n[0], b[0], n[1], b[1], n[2], b[2]);
-        for (int i = 0; i < 3; ++i)
+    FN(pull) p;
+    const REAL s = p.strength = l->strength = FN(strength)(c, n, b);
+    for (int i = 0; i < 3; ++i) {
+        p.b[i] = b[i];
+        if (c->kinds.magnetisable)
             l->dipole[i] = REAL_MULADD(s, n[i], c->twice_a * b[i]);
-    } else {
-        for (int i = 0; i < 3; ++i)
+        else
             l->dipole[i] = s * n[i];
     }
-    l->strength = s;
-    FN(pull) p;
-    for (int i = 0; i < 3; ++i)
-        p.b[i] = b[i];
-    p.strength = s;
     FN(times_gradient)(&l->at.gradient, l->dipole, p.force);
     l->contact = FN(contact_of)(c, y, &p);
     FN(kinematics)(omega, y, dy);

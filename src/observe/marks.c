@@ -60,8 +60,8 @@ void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, 
         return;
     fst_quadrature_at(q, flow, x, mark->integrals, &mark->moment_angle);
     mark->captures = flow->contact.captures;
-    const fst_winding phi = fst_flow_bead_angle(flow, x);
-    mark->bead_angle = fst_winding_angle(&phi);
+    const fst_winding angle = fst_flow_bead_angle(flow, x);
+    mark->bead_angle = fst_winding_angle(&angle);
     fst_pull_double p;
     fst_magnetic_pull_double(&flow->step.context.coefficients, mark->state, &p);
     mark->energy = fst_energy_double(&flow->step.context.coefficients, mark->state, &p);

@@ -69,12 +69,31 @@ void fst_branch_free(fst_branch *branch)
 /* The field `name` of the options is wrong. */
 #define WRONG(name, ...) return fst_fail(error, FST_BAD_INPUT, "fst_branch_options." name, __VA_ARGS__)
 
-/* The motion must depend on the parameter, and both ends must be values that it can have.  (What is no
- * parameter at all, fst_family_begin() refuses.) */
-static fst_status check_key(const char *field, const char *key, double from, double to, fst_error *error)
+/* Whether the friction force is another one under another load: asked of the model, with two weights that are
+ * far beyond the magnet's pull, at a bead that slips. */
+static fst_status ask_load(const fst_params *params, int *matters, fst_error *error)
 {
-    static const char *const apart[] = {"start.", "run.", "plate."};
-    const int row = fst_param_find(key);
+    static const double slipping[FST_STATE_SIZE] = {1.0, 0.5, 0.3, -0.2, 1.0, 0.0, 0.0, 0.5, 0.7, 0.1};
+    const double greatest = fst_param_at(fst_param_find("plate.gravity"))->greatest;
+    double rates[2][FST_STATE_SIZE];
+    for (int i = 0; i < 2; ++i) {
+        fst_params weighed = *params;
+        fst_model *model = NULL;
+        weighed.plate_gravity = i ? greatest : 0.5 * greatest;
+        const fst_status status = fst_model_new(&weighed, &model, error);
+        if (status != FST_OK)
+            return status;
+        fst_rhs(model, slipping, rates[i]);
+        fst_model_free(model);
+    }
+    *matters = memcmp(rates[0], rates[1], sizeof rates[0]) != 0;
+    return FST_OK;
+}
+
+/* The motion must depend on the parameter. */
+static fst_status check_effect(const char *field, const char *key, const fst_params *params, fst_error *error)
+{
+    static const char *const apart[] = {"start.", "run.", "plate.radius"};
     for (size_t i = 0; i < sizeof apart / sizeof *apart; ++i)
         if (strncmp(key, apart[i], strlen(apart[i])) == 0)
             return fst_fail(
@@ -82,6 +101,30 @@ static fst_status check_key(const char *field, const char *key, double from, dou
                 "no orbit and no locked state depends on %s: expected a parameter of the magnet, the "
                 "bead, the drive or the model",
                 key);
+    if (strcmp(key, "plate.gravity") != 0)
+        return FST_OK;
+    int matters;
+    const fst_status status = ask_load(params, &matters, error);
+    if (status != FST_OK || matters)
+        return status;
+    char law[64];
+    (void)fst_params_get(params, fst_param_find("friction.law"), law, sizeof law);
+    return fst_fail(
+        error, FST_BAD_INPUT, field,
+        "with friction.law = %s no orbit and no locked state depends on plate.gravity: this friction is "
+        "the same under every load; expected another parameter, or a law that asks for the load",
+        law);
+}
+
+/* The motion must depend on the parameter, and both ends must be values that it can have.  (What is no
+ * parameter at all, fst_family_begin() refuses.) */
+static fst_status check_key(const char *field, const char *key, double from, double to,
+                            const fst_params *params, fst_error *error)
+{
+    const int row = fst_param_find(key);
+    const fst_status status = check_effect(field, key, params, error);
+    if (status != FST_OK)
+        return status;
     for (int end = 0; row >= 0 && fst_param_at(row)->kind == FST_KIND_REAL && end < 2; ++end) {
         fst_params scratch = fst_default_params();
         fst_error why;
@@ -93,7 +136,7 @@ static fst_status check_key(const char *field, const char *key, double from, dou
     return FST_OK;
 }
 
-static fst_status check_second(const fst_branch_options *o, fst_error *error)
+static fst_status check_second(const fst_branch_options *o, const fst_params *params, fst_error *error)
 {
     if (!isfinite(o->second_from) || !isfinite(o->second_to) || o->second_from == o->second_to)
         WRONG("second_from", "the second parameter needs a range with two different ends, not %g to %g",
@@ -103,10 +146,11 @@ static fst_status check_second(const fst_branch_options *o, fst_error *error)
               fst_special_name(o->special));
     if (strcmp(o->second_key, o->key) == 0)
         WRONG("second_key", "the second parameter must not be %s again", o->key);
-    return check_key("fst_branch_options.second_key", o->second_key, o->second_from, o->second_to, error);
+    return check_key("fst_branch_options.second_key", o->second_key, o->second_from, o->second_to, params,
+                     error);
 }
 
-static fst_status check(const fst_branch_options *o, fst_error *error)
+static fst_status check(const fst_branch_options *o, const fst_params *params, fst_error *error)
 {
     if (o->cookie != FST_BRANCH_OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_branch_follow",
@@ -117,8 +161,8 @@ static fst_status check(const fst_branch_options *o, fst_error *error)
         WRONG("tolerance", "%g is out of range: 1e-14 to 1e-6", o->tolerance);
     if (!(o->longest_step > 1e-5))
         WRONG("longest_step", "%g is out of range: it must be greater than 1e-5", o->longest_step);
-    const fst_status status = check_key("fst_branch_options.key", o->key, o->from, o->to, error);
-    return status == FST_OK && o->second_key ? check_second(o, error) : status;
+    const fst_status status = check_key("fst_branch_options.key", o->key, o->from, o->to, params, error);
+    return status == FST_OK && o->second_key ? check_second(o, params, error) : status;
 }
 
 /* Over two parameters the branches over the first are followed for their special points alone: of these, which
@@ -184,7 +228,7 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
 {
     memset(branch, 0, sizeof *branch);
     double second_at;
-    fst_status status = check(options, error);
+    fst_status status = check(options, params, error);
     if (status == FST_OK)
         status = begin_second(params, options, &second_at, error);
     if (status != FST_OK)

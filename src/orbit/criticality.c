@@ -54,13 +54,14 @@ static fst_status field_at(void *user, const double *x, double *out, fst_error *
  * by Newton's method on the time. */
 static fst_status return_at(void *user, const double *x, double *out, fst_error *error)
 {
+    enum { MOST_LANDINGS = 12 };
     const beside *b = user;
     const fst_solution *s = b->s;
     double y[FST_STATE_SIZE], rate[FST_STATE_SIZE], end[FST_STATE_SIZE];
     double time = s->period, off = 1.0;
     fst_status status = FST_OK;
     state_at(b, x, y);
-    for (int i = 0; i < 12 && fabs(off) > 1e-14; ++i) {
+    for (int i = 0; i < MOST_LANDINGS && fabs(off) > 1e-14; ++i) {
         fst_model *model;
         fst_flow *flow;
         status = fst_solution_flow(b->family, s->value, y, 1e-14, &model, &flow, error);

@@ -24,9 +24,7 @@
 #include "base/error.h"
 
 #define SHORTEST_STEP 1e-7
-#define LONGEST_PERIOD 400.0
 #define LARGEST_SPIN 60.0
-#define LARGEST_RADIUS 8.0 /* the field is a ten-thousandth of that under the bead there */
 enum { MOST_NODES = 4000 };
 
 /* ------------------------------------------------------------------ steps along the curve */
@@ -128,11 +126,11 @@ static int is_closed(const fst_curve *curve, const fst_node *start, const fst_no
 /* Whether the curve is at its end; curve->end then says why. */
 static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *here, int nodes, double h)
 {
-    if (here->s.segments > 0 && here->s.period > LONGEST_PERIOD)
+    if (here->s.segments > 0 && here->s.period > FST_LONGEST_PERIOD)
         fst_curve_end_set(&curve->end, FST_END_PERIOD,
                           "the period grows without bound (%.4g): the orbit runs into an equilibrium",
                           here->s.period);
-    else if (here->seen.mean_r > LARGEST_RADIUS)
+    else if (here->seen.mean_r > FST_LARGEST_RADIUS)
         fst_curve_end_set(&curve->end, FST_END_RADIUS, "it has left the magnet's field: <r> = %.4g",
                           here->seen.mean_r);
     else if (here->s.segments == 0 && fabs(here->s.y[0][FST_WZ] - here->seen.omega) > LARGEST_SPIN)

@@ -24,8 +24,8 @@
 #define LEAST_AMPLITUDE 1e-3
 #define GREATEST_AMPLITUDE 1.0
 
-/* Swings that are let pass, and over which the growth is taken. */
-enum { PASSED = 4, MEASURED = 3 };
+/* Swings that are let pass, and over which the growth is taken; steps by which the zero is narrowed down. */
+enum { PASSED = 4, MEASURED = 3, MOST_NARROWINGS = 12 };
 
 typedef struct departure {
     const fst_family *family;
@@ -148,7 +148,7 @@ int fst_departure_guess(const fst_family *family, const double *near, double rea
     } while (growth > 0.0);
     z.hi = amplitude * amplitude;
     z.f_hi = growth;
-    for (int i = 0; i < 12 && fabs(growth) > 0.01 * least; ++i) {
+    for (int i = 0; i < MOST_NARROWINGS && fabs(growth) > 0.01 * least; ++i) {
         const double x = fst_bracket_next(&z);
         if (!growth_at(&d, sqrt(x), &growth))
             return 0;

@@ -32,7 +32,7 @@
 #include "base/error.h"
 #include "orbit/branch_list.h"
 
-enum { STARTS = 3000, MOST = 256, LARGEST_RADIUS = 8 };
+enum { STARTS = 3000, MOST = 256 };
 
 /* Element `index` of the van der Corput sequence in base `base`. */
 static double radical_inverse(int index, int base)
@@ -54,7 +54,7 @@ static void start_at(const fst_setup *setup, int index, double y[FST_STATE_SIZE]
     const double omega = setup->model.groups.omega;
     const double eps = setup->model.groups.eps, choice = radical_inverse(index, 7);
     const double u = radical_inverse(index, 2), angle = FST_TWO_PI * radical_inverse(index, 3);
-    const double r = (index % 3 == 2 ? 0.4 : 1.0) * LARGEST_RADIUS * (u * u);
+    const double r = (index % 3 == 2 ? 0.4 : 1.0) * FST_LARGEST_RADIUS * (u * u);
     double nz = 2.0 * radical_inverse(index, 5) - 1.0, across = sqrt(1.0 - nz * nz), turn = FST_TWO_PI * choice;
     if (index % 3 != 0)
         turn = angle + (choice < 0.5 ? 0.0 : 0.5 * FST_TWO_PI);
@@ -115,11 +115,11 @@ static int settle(finder *f, fst_solution *s)
 {
     fst_error ignored;
     return fst_solution_correct(f->family, s, NULL, &ignored) == FST_OK &&
-           hypot(s->y[0][FST_X], s->y[0][FST_Y]) < 4.0 * LARGEST_RADIUS;
+           hypot(s->y[0][FST_X], s->y[0][FST_Y]) < 4.0 * FST_LARGEST_RADIUS;
 }
 
 /* Every start, every state's image under S2 as well. */
-static fst_status search(finder *f, int starts, fst_error *error)
+static fst_status try_starts(finder *f, int starts, fst_error *error)
 {
     fst_setup setup;
     fst_status status = fst_family_setup(f->family, f->value, &setup, error);
@@ -151,7 +151,7 @@ static fst_status find_all(const fst_family *family, double value, int starts, d
     f->found = calloc(MOST, sizeof *f->found);
     if (!f->found)
         return fst_fail(error, FST_NO_MEMORY, "locked", "out of memory");
-    return search(f, starts, error);
+    return try_starts(f, starts, error);
 }
 
 /* Stable ones first, then from the axis outwards. */

@@ -284,9 +284,10 @@ static int is_locked(const search *s)
 static const char *advice(fst_orbit_outcome outcome)
 {
     return outcome == FST_ORBIT_UNSETTLED
-               ? "Try a longer run.periods or another start; festoon lyapunov tells whether the motion is "
+               ? "Try a longer run.periods or another start; fst_lyapunov_find() tells whether the motion is "
                  "chaotic"
-               : "Try another start.r, start.phi or omega; festoon locked lists the states in which the bead "
+               : "Try another start.r, start.phi or omega; fst_locked_find() lists the states in which the "
+                 "bead "
                  "follows the magnet";
 }
 

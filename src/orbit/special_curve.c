@@ -35,11 +35,9 @@
 #include "orbit/special_test.h"
 #include "orbit/surface.h"
 
-#define LONGEST_PERIOD 400.0
-#define LARGEST_RADIUS 8.0
 #define SHORTEST_STEP 1e-6
 #define LEAST_FREQUENCY 2e-3
-enum { HISTORY = 3, MOST_PLACES = 1000 };
+enum { HISTORY = 3, MOST_PLACES = 1000, MOST_SECANTS = 12 };
 
 typedef struct walk {
     const fst_branch_options *options;
@@ -163,7 +161,7 @@ static fst_status close_in(walk *w, fst_place *place, double test, const fst_hea
                            int *tries, fst_error *error)
 {
     double off = 0.0, before = INFINITY, slope = w->slope;
-    for (*tries = 1; *tries <= 12; ++*tries) {
+    for (*tries = 1; *tries <= MOST_SECANTS; ++*tries) {
         const double step = slope != 0.0 ? -test / slope : 1e-4;
         if (!(fabs(off + step) <= reach))
             return fst_fail(error, FST_NO_CONVERGENCE, "special curve", "a step was too long at %.10g, %.10g",
@@ -353,7 +351,7 @@ static int land(walk *w, double h, fst_place *next)
     double length[2] = {0.0, h}, off[2] = {excess(w, &w->past[0], &key), excess(w, next, &key)};
     int tries;
     fst_curve_end_set(&w->end, FST_END_RANGE, "the end of the range of %s", key);
-    for (int i = 0; i < 12 && fabs(off[1]) > 1e-10; ++i) {
+    for (int i = 0; i < MOST_SECANTS && fabs(off[1]) > 1e-10; ++i) {
         const double shorter = length[1] - off[1] * (length[1] - length[0]) / (off[1] - off[0]);
         length[0] = length[1];
         off[0] = off[1];
@@ -371,9 +369,9 @@ static int has_ended(walk *w, const fst_place *start, int places, double h)
     const int pair = is_pair(w);
     fst_heading way;
     fst_heading_between(start, here, &way);
-    if (here->s.segments > 0 && here->s.period > LONGEST_PERIOD)
+    if (here->s.segments > 0 && here->s.period > FST_LONGEST_PERIOD)
         fst_curve_end_set(&w->end, FST_END_PERIOD, "the period grows without bound (%.4g)", here->s.period);
-    else if (hypot(here->s.y[0][FST_X], here->s.y[0][FST_Y]) > LARGEST_RADIUS)
+    else if (hypot(here->s.y[0][FST_X], here->s.y[0][FST_Y]) > FST_LARGEST_RADIUS)
         fst_curve_end_set(&w->end, FST_END_RADIUS, "it has left the magnet's field");
     else if (pair &&
              (w->angle < LEAST_FREQUENCY || (here->s.segments > 0 && w->angle > FST_PI - LEAST_FREQUENCY)))

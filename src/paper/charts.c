@@ -323,7 +323,10 @@ fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_fig
 REGULAR(centrifugal, run->result.eq21_centrifugal / (eps_of(run) * eps_of(run)))
 REGULAR(magnetic, run->result.eq21_magnetic / (eps_of(run) * eps_of(run)))
 REGULAR(magnetic_printed, run->result.eq21_magnetic_printed / (eps_of(run) * eps_of(run)))
-REGULAR(friction, run->result.eq21_friction / (eps_of(run) * eps_of(run)))
+/* -<V_r> is the friction of Eq. (12) on a viscous plate alone; under another law the curve stays empty. */
+REGULAR(friction, run->params.friction_law == FST_FRICTION_VISCOUS
+                      ? run->result.eq21_friction / (eps_of(run) * eps_of(run))
+                      : NAN)
 REGULAR(spin, run->result.eq21_spin / (eps_of(run) * eps_of(run)))
 
 fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_paper_figure *figure,

@@ -184,16 +184,16 @@ MEASURE(fold15_roundness)
 
 /* The mean angle Phi, modulo pi, of the local extremes of r (sign +1: maxima, -1: minima), in degrees from -90
  * to 90.  A parabola through three samples places each extreme. */
-static double extreme_phi(const fst_table *table, double sign)
+static double extreme_bead_angle(const fst_table *table, double sign)
 {
-    const double *r = fst_collected(table, "r"), *phi = fst_collected(table, "Phi");
+    const double *r = fst_collected(table, "r"), *bead_angle = fst_collected(table, "Phi");
     double complex sum = 0.0;
     for (size_t row = 1; row + 1 < table->rows; ++row) {
         double before = sign * (r[row] - r[row - 1]), after = sign * (r[row + 1] - r[row]);
         if (!(before >= 0.0 && after < 0.0))
             continue;
         double shift = 0.5 * (before + after) / (before - after);
-        double place = phi[row] + shift * 0.5 * (phi[row + 1] - phi[row - 1]);
+        double place = bead_angle[row] + shift * 0.5 * (bead_angle[row + 1] - bead_angle[row - 1]);
         sum += cexp(2.0 * I * place);
     }
     return cabs(sum) > 0.0 ? 0.5 * carg(sum) * FST_DEGREES : NAN;
@@ -209,13 +209,13 @@ MEASURE(least_radius)
 MEASURE(least_radius_phi)
 {
     NO_NOTE;
-    return extreme_phi(&fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory, -1.0);
+    return extreme_bead_angle(&fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory, -1.0);
 }
 
 MEASURE(greatest_radius_phi)
 {
     NO_NOTE;
-    double degrees = extreme_phi(&fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory, 1.0);
+    double degrees = extreme_bead_angle(&fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory, 1.0);
     return degrees < 0.0 ? degrees + 180.0 : degrees;
 }
 
@@ -438,6 +438,8 @@ MEASURE(rolling_phi)
 MEASURE(friction_share)
 {
     const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
+    if (!is_viscous(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), note, size))
+        return NAN;
     const fst_run_result *fast =
         &paper->scans[FST_SCAN_FAST][dynamics][paper->counts[FST_SCAN_FAST] - 1].result;
     (void)snprintf(note, size, "at the drive 0.4; %.0f %% at the drive %.3g",

@@ -60,7 +60,8 @@ static void newton_and_euler(const fst_model *model, const double y[FST_STATE_SI
     laboratory_rate(y, rates, g.omega, FST_VX, 2, v_rate);
     laboratory_rate(y, rates, g.omega, FST_WX, 3, w_rate);
     cross(y + FST_NX, b, n_cross_b);
-    const double slip[2] = {y[FST_VX] - g.eps * y[FST_WY], y[FST_VY] + g.eps * y[FST_WX]};
+    double slip[2];
+    fst_slip(model, y, slip);
     const double friction[3] = {-slip[1], slip[0], 0.0}; /* e x V */
     for (int i = 0; i < 2; ++i) {
         double pull = y[FST_NX] * grad[0][i] + y[FST_NY] * grad[1][i] + y[FST_NZ] * grad[2][i];
@@ -87,8 +88,9 @@ static void along_path(const fst_paper_state *paper, fst_dynamics dynamics, left
 
 MEASURE(centre_equations)
 {
-    NO_NOTE;
     leftover centre, turning;
+    if (!is_viscous(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), note, size))
+        return NAN;
     along_path(paper, dynamics, &centre, &turning);
     return share(centre);
 }
@@ -96,6 +98,8 @@ MEASURE(centre_equations)
 MEASURE(turning_equations)
 {
     leftover centre, turning;
+    if (!is_viscous(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), note, size))
+        return NAN;
     along_path(paper, dynamics, &centre, &turning);
     (void)snprintf(note, size,
                    "along the motion at the drive 0.4; Eq. (7) as printed lacks ψ′ n × n′: ψ′ is no rate "
@@ -192,10 +196,13 @@ static void put_appendix(const angles *a, const fst_observation *seen, const fst
 }
 
 /* The error of the equation along the motion at the drive 0.215. */
-static double appendix(const fst_paper_state *paper, fst_dynamics dynamics, equation which)
+static double appendix(const fst_paper_state *paper, fst_dynamics dynamics, equation which, char *note,
+                       size_t size)
 {
     static const double POLE = 0.95; /* where |n_r| is greater the angles lose their meaning */
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD4, dynamics);
+    if (which != SLIP && !is_viscous(run, note, size))
+        return NAN;
     leftover sums[EQUATION_COUNT] = {{0.0, 0.0}};
     fst_model *model = model_of(paper, FST_SCAN_FOLD4, dynamics);
     if (!model)
@@ -216,8 +223,7 @@ static double appendix(const fst_paper_state *paper, fst_dynamics dynamics, equa
 
 MEASURE(appendix_slip)
 {
-    NO_NOTE;
-    return appendix(paper, dynamics, SLIP);
+    return appendix(paper, dynamics, SLIP, note, size);
 }
 
 MEASURE(appendix_theta)
@@ -225,7 +231,7 @@ MEASURE(appendix_theta)
     (void)snprintf(note, size,
                    "the printed + α′² sin θ cos θ sin² φ should read − α′² sin θ cos θ cos² φ, and the "
                    "gyroscopic term is missing");
-    return appendix(paper, dynamics, THETA);
+    return appendix(paper, dynamics, THETA, note, size);
 }
 
 MEASURE(appendix_phi)
@@ -233,13 +239,12 @@ MEASURE(appendix_phi)
     (void)snprintf(note, size,
                    "the printed factor 5κ/(2ε) of the friction should read 5/(2ε), and the gyroscopic term is "
                    "missing");
-    return appendix(paper, dynamics, PHI);
+    return appendix(paper, dynamics, PHI, note, size);
 }
 
 MEASURE(appendix_psi)
 {
-    NO_NOTE;
-    return appendix(paper, dynamics, PSI);
+    return appendix(paper, dynamics, PSI, note, size);
 }
 
 /* ------------------------------------------------------------------ section VI */
@@ -250,6 +255,8 @@ MEASURE(second_balance)
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics);
     const fst_table *table = &run->trajectory;
     double sum = 0.0;
+    if (!is_viscous(run, note, size))
+        return NAN;
     fst_model *model = model_of(paper, FST_SCAN_FOLD15, dynamics);
     if (!model)
         return NAN;

@@ -197,10 +197,10 @@ static double complex mean_phase(const fst_paper_state *paper, fst_dynamics dyna
 {
     const fst_table *table = &fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->trajectory;
     const double *a = fst_collected(table, "n_alpha"), *z = fst_collected(table, "n_z");
-    const double *phi = fst_collected(table, "Phi");
+    const double *bead_angle = fst_collected(table, "Phi");
     double complex sum = 0.0;
     for (size_t row = 0; row < table->rows; ++row)
-        sum += cexp(I * (atan2(a[row], -z[row]) + phi[row]));
+        sum += cexp(I * (atan2(a[row], -z[row]) + bead_angle[row]));
     return sum / (double)table->rows;
 }
 
@@ -240,6 +240,8 @@ MEASURE(slip_formula)
 MEASURE(third_balance)
 {
     const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
+    if (!is_viscous(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), note, size))
+        return NAN;
     (void)snprintf(note, size, "magnetic %+.2e, ⟨V_α⟩ = %+.2e", result->eq23_magnetic, result->mean_v_alpha);
     return 100.0 * fabs(result->eq23_magnetic / result->mean_v_alpha - 1.0);
 }
@@ -264,6 +266,8 @@ MEASURE(spin_share)
 MEASURE(dropped_part)
 {
     const fst_run_result *result = single(paper, FST_SCAN_FOLD15, dynamics);
+    if (!is_viscous(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), note, size))
+        return NAN;
     (void)snprintf(note, size, "as printed %+.2e, exact %+.2e; the exact terms sum to %.0e",
                    result->eq21_magnetic_printed, result->eq21_magnetic,
                    fabs(result->eq21_centrifugal + result->eq21_magnetic + result->eq21_friction));
@@ -304,6 +308,8 @@ static double friction_part(const fst_paper_run *run)
 MEASURE(asymptotic_frequency)
 {
     static const fst_scan beyond[2] = {FST_SCAN_ASYMPTOTIC, FST_SCAN_FAST};
+    if (!is_viscous(fst_paper_single(paper, FST_SCAN_ASYMPTOTIC, dynamics), note, size))
+        return NAN;
     double from = NAN, first = NAN;
     int negligible = 1; /* whether friction is negligible from this drive upwards */
     for (int s = 0; s < 2; ++s) {

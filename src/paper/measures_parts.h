@@ -20,6 +20,19 @@ static inline const fst_run_result *single(const fst_paper_state *paper, fst_sca
     return &fst_paper_single(paper, scan, dynamics)->result;
 }
 
+/* Whether friction was -m gamma V in that run.  The paper's equations and balances take V for it, and say
+ * nothing of another law: a measure of theirs then has no value, and the note tells why. */
+static inline int is_viscous(const fst_paper_run *run, char *note, size_t size)
+{
+    if (run->params.friction_law == FST_FRICTION_VISCOUS)
+        return 1;
+    char law[64];
+    (void)fst_params_get(&run->params, fst_param_find("friction.law"), law, sizeof law);
+    (void)snprintf(note, size, "not measured: the equation takes −mγV for the friction, and here it is %s",
+                   law);
+    return 0;
+}
+
 static inline double eps_of(const fst_paper_run *run)
 {
     return run->params.bead_radius / run->params.magnet_half_length;

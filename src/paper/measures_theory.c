@@ -37,7 +37,7 @@ MEASURE(orthoradial)
     if (!model)
         return NAN;
     for (int i = 0; i < 360; ++i) {
-        double phi = FST_PI * i / 180.0, c = cos(phi), s = sin(phi), b[3], gradient[3][3];
+        double bead_angle = FST_PI * i / 180.0, c = cos(bead_angle), s = sin(bead_angle), b[3], gradient[3][3];
         fst_field(model, 0.9 * c, 0.9 * s, b, gradient);
         double radial = b[0] * c + b[1] * s;
         along += radial * radial;

@@ -1,11 +1,11 @@
 /* paper.c - fst_paper(): everything that the paper shows, computed again.
  *
- *  1. runs         runs.c      all scans, both dynamics                         --+
- *  2. orbits       exact.c     what branches tell without runs                    |
- *  3. thresholds   runs.c      by bisection, where the orbits do not tell         +--> fst_paper_state
- *  4. probes       stages.c    period halving, ansatz, paramagnetic beads       --+        (state.h)
- *  5. statements   verdicts.c  each number against the paper's                             |
- *  6. figures      figures.c   drawn as soon as their step is done                         v
+ *  1. runs         runs.c         all scans, both dynamics                      --+
+ *  2. orbits       exact.c        what branches tell without runs                 |
+ *  3. thresholds   runs.c         by bisection, where the orbits do not tell      +--> fst_paper_state
+ *  4. probes       probe_parts.c  period halving, ansatz, paramagnetic beads    --+        (state.h)
+ *  5. statements   verdicts.c     each number against the paper's                          |
+ *  6. figures      figures.c      drawn as soon as their step is done                      v
  *  7. report       json.c, report.c                                        paper.json, report.html
  *
  * After an interruption or a failure, what was done so far is written all the same, marked as incomplete.

@@ -147,18 +147,19 @@ static void look(const followed *bead, moment_in_time *now)
         b2 += b[i] * b[i];
         along += 2.0 * b[i] * (g[i][1] * x - g[i][0] * y);
     }
-    double slip_x = s[FST_VX] - eps * s[FST_WY], slip_y = s[FST_VY] + eps * s[FST_WX];
+    double slip[2];
+    fst_slip(bead->model, s, slip);
     double v2 = s[FST_VX] * s[FST_VX] + s[FST_VY] * s[FST_VY];
     double w2 = s[FST_WX] * s[FST_WX] + s[FST_WY] * s[FST_WY] + s[FST_WZ] * s[FST_WZ];
     now->alpha = info.alpha;
-    now->slip2 = slip_x * slip_x + slip_y * slip_y;
+    now->slip2 = slip[0] * slip[0] + slip[1] * slip[1];
     now->field_moment = a * along;
-    now->friction_moment = x * slip_y - y * slip_x;
-    now->friction_on_centre = s[FST_VX] * slip_x + s[FST_VY] * slip_y;
+    now->friction_moment = x * slip[1] - y * slip[0];
+    now->friction_on_centre = s[FST_VX] * slip[0] + s[FST_VY] * slip[1];
     now->energy = 0.5 * v2 + 0.2 * eps * eps * w2 - a * b2;
     now->angular_momentum = x * s[FST_VY] - y * s[FST_VX];
     now->kinetic_less_field = 0.5 * v2 - a * b2;
-    now->crossed = 0.4 * (s[FST_VX] * slip_y - s[FST_VY] * slip_x);
+    now->crossed = 0.4 * (s[FST_VX] * slip[1] - s[FST_VY] * slip[0]);
     /* Friction does not change p = v - (2 eps/5) e x W: dp/dt is the magnet's force. */
     double p_x = s[FST_VX] + 0.4 * eps * s[FST_WY], p_y = s[FST_VY] - 0.4 * eps * s[FST_WX];
     now->rolling_momentum = x * p_y - y * p_x;
@@ -207,6 +208,10 @@ static fst_status average(followed *bead, double t0, int panels, double panel, m
 static fst_status balances_over(const fst_params *params, double discard, double periods, int panels_per_period,
                                 fst_balances *balances, fst_error *error)
 {
+    if (params->friction_law != FST_FRICTION_VISCOUS)
+        return fst_fail(error, FST_BAD_INPUT, "friction.law",
+                        "the balances of a paramagnetic bead take V for the friction force, which it is on a "
+                        "viscous plate alone: expected friction.law = viscous");
     followed bead;
     moment_in_time first = {0}, mean = {0}, last = {0};
     int panels = (int)ceil(periods * panels_per_period);

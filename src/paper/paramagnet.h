@@ -38,8 +38,9 @@ fst_status fst_search_one(int index, fst_dynamics dynamics, fst_search_entry *en
 /* ------------------------------------------------------------------ the identities */
 
 /* The time means of the paper's three identities and of a fourth, over a window of the motion of a paramagnetic
- * bead.  Over a finite window each identity has one more term, from the change of the state; with it only the
- * error of the integration remains. */
+ * bead on a viscous plate, where V is the friction force (another law: FST_BAD_INPUT).  Over a finite window
+ * each identity has one more term, from the change of the state; with it only the error of the integration
+ * remains. */
 typedef enum {
     FST_BALANCE_ENERGY,  /* Eq. (16): <V_r^2 + V_alpha^2> = a omega <dB^2/dalpha> */
     FST_BALANCE_MOMENT,  /* Eq. (17): <r V_alpha> = a <dB^2/dalpha> */

@@ -125,7 +125,7 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
                             fst_error *error)
 {
     enum { COUNT = FST_HALVING_PARTS * LOOKED_AT };
-    double r[COUNT], nz_sum = 0.0, step = p->period / FST_HALVING_PARTS, phi_first = 0.0;
+    double r[COUNT], nz_sum = 0.0, step = p->period / FST_HALVING_PARTS, first_bead_angle = 0.0;
     double partial = 0.0, weight = 0.0, nz_before = 0.0;
     fst_status status = FST_OK;
     for (int i = 0; i < COUNT && status == FST_OK; ++i) {
@@ -134,12 +134,12 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
         fst_flow_info info = fst_flow_get(p->flow);
         r[i] = hypot(info.state[FST_X], info.state[FST_Y]);
         if (i == 0)
-            phi_first = info.bead_angle;
+            first_bead_angle = info.bead_angle;
         else
             partial += 0.5 * (nz_before + info.state[FST_NZ]);
         nz_before = info.state[FST_NZ];
         /* Only whole turns of Phi count; the last complete one is kept. */
-        double turns = fabs(info.bead_angle - phi_first) / (2.0 * FST_PI);
+        double turns = fabs(info.bead_angle - first_bead_angle) / (2.0 * FST_PI);
         if (i > 0 && floor(turns) > weight) {
             weight = floor(turns);
             nz_sum = partial / i;
@@ -225,10 +225,11 @@ double fst_ansatz_force(const fst_model *model, double r, int sense)
     fst_groups g = fst_model_groups(model);
     double sum = 0.0;
     for (int i = 0; i < ANGLES; ++i) {
-        double phi = 2.0 * FST_PI * i / ANGLES, c = cos(phi), s = sin(phi), b[3], gradient[3][3];
+        double bead_angle = 2.0 * FST_PI * i / ANGLES, c = cos(bead_angle), s = sin(bead_angle), b[3],
+               gradient[3][3];
         fst_field(model, r * c, r * s, b, gradient);
-        double moment = sense * phi + FST_PI;
-        double n[3] = {-sin(moment) * s, sin(moment) * c, -cos(moment)}, e[3] = {c, s, 0.0};
+        double moment_angle = sense * bead_angle + FST_PI;
+        double n[3] = {-sin(moment_angle) * s, sin(moment_angle) * c, -cos(moment_angle)}, e[3] = {c, s, 0.0};
         for (int k = 0; k < 3; ++k)
             for (int j = 0; j < 3; ++j)
                 sum += n[k] * gradient[k][j] * e[j];
@@ -236,25 +237,27 @@ double fst_ansatz_force(const fst_model *model, double r, int sense)
     return g.kappa * g.eps * g.eps * sum / ANGLES;
 }
 
-void fst_ansatz_state(const fst_model *model, double r, double phi, double state[FST_STATE_SIZE])
+void fst_ansatz_state(const fst_model *model, double r, double bead_angle, double state[FST_STATE_SIZE])
 {
     fst_groups g = fst_model_groups(model);
-    double c = cos(phi), s = sin(phi), moment = phi + FST_PI, rate = g.omega / (r + g.eps);
+    double c = cos(bead_angle), s = sin(bead_angle), moment_angle = bead_angle + FST_PI,
+           rate = g.omega / (r + g.eps);
     double v = r * g.eps * rate, w = -r * rate; /* v_alpha + eps W_r = 0 */
-    const double start[FST_STATE_SIZE] = {r * c,           r * s,        -v * s, v * c, -sin(moment) * s,
-                                          sin(moment) * c, -cos(moment), w * c,  w * s, 0.0};
+    const double start[FST_STATE_SIZE] = {
+        r * c, r * s, -v * s, v * c, -sin(moment_angle) * s, sin(moment_angle) * c, -cos(moment_angle),
+        w * c, w * s, 0.0};
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         state[i] = start[i];
 }
 
-fst_status fst_probe_ansatz(const fst_params *params, double r, double phi, double periods, double *speed,
-                            double *survived, fst_error *error)
+fst_status fst_probe_ansatz(const fst_params *params, double r, double bead_angle, double periods,
+                            double *speed, double *survived, fst_error *error)
 {
     probe p;
     double state[FST_STATE_SIZE], before = 0.0, middle = 0.0;
     fst_status status = probe_begin(&p, params, error);
     if (status == FST_OK) {
-        fst_ansatz_state(p.model, r, phi, state);
+        fst_ansatz_state(p.model, r, bead_angle, state);
         status = probe_start(&p, params, state, error);
     }
     double wanted = p.groups.eps * p.groups.omega / (r + p.groups.eps) * p.period;

@@ -38,12 +38,12 @@ double fst_ansatz_force(const fst_model *model, double r, int sense);
 
 /* The state of the Appendix's corotating bead: alpha' = eps omega/(r + eps), phi = Phi + pi, the contact at
  * rest. */
-void fst_ansatz_state(const fst_model *model, double r, double phi, double state[FST_STATE_SIZE]);
+void fst_ansatz_state(const fst_model *model, double r, double bead_angle, double state[FST_STATE_SIZE]);
 
 /* Follow that bead for `periods` drive periods.  `speed` is its mean alpha' over the second half, in units of
  * the corotating motion's (1: still on it).  `survived` is when r first left [r/2, 2r], or alpha' over a drive
  * period fell under half of the corotating one, in drive periods (`periods`: never). */
-fst_status fst_probe_ansatz(const fst_params *params, double r, double phi, double periods, double *speed,
-                            double *survived, fst_error *error);
+fst_status fst_probe_ansatz(const fst_params *params, double r, double bead_angle, double periods,
+                            double *speed, double *survived, fst_error *error);
 
 #endif

@@ -273,22 +273,22 @@ fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error)
 
 fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error)
 {
-    fst_paper_stage runs = {"runs", 0.0, 0.45, piece_count(paper), FST_PAPER_STEP_RUNS, scan_piece};
+    fst_paper_pieces runs = {"runs", 0.0, 0.45, piece_count(paper), FST_PAPER_STEP_RUNS, scan_piece};
     return fst_paper_do(paper, &runs, error);
 }
 
 fst_status fst_paper_find_orbits(fst_paper_state *paper, fst_error *error)
 {
-    fst_paper_stage exact = {"periodic orbits",   0.5, 0.6, FST_PAPER_DYNAMICS, FST_PAPER_STEP_EXACT,
-                             fst_paper_find_exact};
+    fst_paper_pieces exact = {"periodic orbits",   0.5, 0.6, FST_PAPER_DYNAMICS, FST_PAPER_STEP_EXACT,
+                              fst_paper_find_exact};
     return fst_paper_do(paper, &exact, error);
 }
 
 fst_status fst_paper_find_thresholds(fst_paper_state *paper, fst_error *error)
 {
-    fst_paper_stage changes_stage = {
+    fst_paper_pieces changes_part = {
         "thresholds", 0.6, 0.65, FST_CHANGE_COUNT * FST_PAPER_DYNAMICS, FST_PAPER_STEP_THRESHOLDS, find_change};
-    return fst_paper_do(paper, &changes_stage, error);
+    return fst_paper_do(paper, &changes_part, error);
 }
 
 int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan scan)

@@ -44,7 +44,7 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
 /* All undefined, as before the search. */
 void fst_paper_exact_begin(fst_paper_exact *exact);
 
-/* ------------------------------------------------------------------ probes: stages.c */
+/* ------------------------------------------------------------------ probes: probe_parts.c */
 
 /* Make the probes: all of them (NULL), or those of one step.  The probe of the period halving needs the
  * thresholds. */

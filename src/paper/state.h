@@ -1,8 +1,8 @@
 /* state.h - the repetition of the paper while it is computed: what is asked for and what was found so far.
  *
- *     runs.c ----.
- *     exact.c ---+--> fst_paper_state --> measures --> statements --> verdicts --> report
- *     stages.c --'                    `-> figures, films -----------------------'
+ *     runs.c ---------.
+ *     exact.c --------+--> fst_paper_state --> measures --> statements --> verdicts --> report
+ *     probe_parts.c --'                    `-> figures, films -----------------------'
  *
  * The files on the left fill the state in; everything on the right only reads it.
  */

@@ -1,4 +1,4 @@
-/* work.c - doing a stage of the paper on all processors and noting its time; names of files; the machine in
+/* work.c - doing a part of the paper on all processors and noting its time; names of files; the machine in
  * words. */
 #include "paper/work.h"
 
@@ -21,24 +21,24 @@ char *fst_paper_path(const fst_paper_state *paper, const char *name, const char 
     return path;
 }
 
-typedef struct stage_in_work {
+typedef struct part_in_work {
     fst_paper_state *paper;
-    const fst_paper_stage *stage;
-} stage_in_work;
+    const fst_paper_pieces *part;
+} part_in_work;
 
-static fst_status piece_of_stage(void *user, int index, fst_error *error)
+static fst_status piece_of_part(void *user, int index, fst_error *error)
 {
-    const stage_in_work *work = user;
-    return work->stage->piece(work->paper, index, error);
+    const part_in_work *work = user;
+    return work->part->piece(work->paper, index, error);
 }
 
-static fst_status tell_of_stage(void *user, double fraction, const char *what, fst_error *error)
+static fst_status tell_of_part(void *user, double fraction, const char *what, fst_error *error)
 {
-    const stage_in_work *work = user;
-    const fst_paper_stage *stage = work->stage;
+    const part_in_work *work = user;
+    const fst_paper_pieces *part = work->part;
     const double share = fst_paper_share(work->paper);
-    fst_part part = {work->paper->options->progress, share * stage->from, share * stage->to, stage->what};
-    const fst_status status = fst_part_tell(&part, fraction, what, error);
+    fst_part share_of_all = {work->paper->options->progress, share * part->from, share * part->to, part->what};
+    const fst_status status = fst_part_tell(&share_of_all, fraction, what, error);
     if (status != FST_OK)
         atomic_store(&work->paper->refused, 1);
     return status;
@@ -72,15 +72,15 @@ void fst_paper_machine(char *text, size_t size)
         fst_tools_components());
 }
 
-fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_stage *stage, fst_error *error)
+fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_pieces *part, fst_error *error)
 {
     double began = fst_clock_seconds();
-    stage_in_work in_work = {paper, stage};
-    const fst_progress progress = {&in_work, tell_of_stage};
-    fst_work work = {.user = &in_work, .count = stage->count, .piece = piece_of_stage, .progress = &progress};
+    part_in_work in_work = {paper, part};
+    const fst_progress progress = {&in_work, tell_of_part};
+    fst_work work = {.user = &in_work, .count = part->count, .piece = piece_of_part, .progress = &progress};
     fst_status status = fst_parallel(&work, error);
-    fst_paper_note_time(paper, stage->what, began);
-    if (status == FST_OK && stage->step < FST_PAPER_STEP_COUNT)
-        paper->done[stage->step] = 1;
+    fst_paper_note_time(paper, part->what, began);
+    if (status == FST_OK && part->step < FST_PAPER_STEP_COUNT)
+        paper->done[part->step] = 1;
     return status;
 }

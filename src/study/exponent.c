@@ -45,6 +45,9 @@ static const double TURNING = 1.0;
 static const double OF_TOLERANCE = 10.0;
 static const double FIRST_SIZE = 0.1; /* of a step; the controller mends it within a few */
 enum { STEPS_UNTOLD = 64 };
+/* Evaluations of a try: stages 2 to 12, and the first one of what follows, which accept() makes after every try
+ * because other lanes may need it. */
+enum { CALLS_A_TRY = 12 };
 
 /* One bead and its vector. */
 typedef struct follower {
@@ -164,7 +167,7 @@ static void begin(batch *b, int l, fst_exponent *asked)
 /* Accept or reject a try: 1 or 0. */
 static int judge(follower *f, double error, double factor)
 {
-    f->asked->rhs_calls += 12;
+    f->asked->rhs_calls += CALLS_A_TRY;
     if (!(error <= 1.0)) {
         f->over = f->asked->failed =
             fst_reject_step_double(&f->control, REAL_EVERYWHERE, error, factor, f->t) > 0;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/clock.h"
+#include "base/watch.h"
 #include "study/lane_worker.h"
 
 /* Make a run the one of its image; a parked one is given the exponent that it waits for. */
@@ -12,7 +13,7 @@ static int take(const fst_row_worker *w, fst_lane *at)
     fst_exponent *exponent = malloc(sizeof *exponent);
     const int taken = exponent && fst_run_image_take(at->image, at->image_size, w->engine->numbers, at->run,
                                                      exponent, &at->place, &at->numbers);
-    if (taken && at->place.stage == FST_STAGE_PARKED)
+    if (taken && at->place.station == FST_STATION_PARKED)
         at->exponent = exponent;
     else
         free(exponent);
@@ -51,7 +52,7 @@ void fst_worker_restore(fst_row_worker *w, fst_lane_batch *b, int l)
 }
 
 /* The image of a run, if it is due. */
-static void save(fst_row_worker *w, fst_lane *at, const fst_lane_batch *b, int l, fst_run_stage stage,
+static void save(fst_row_worker *w, fst_lane *at, const fst_lane_batch *b, int l, fst_run_station station,
                  double time)
 {
     const fst_row_images *images = w->images;
@@ -65,8 +66,8 @@ static void save(fst_row_worker *w, fst_lane *at, const fst_lane_batch *b, int l
     if (w->pending_count > 0)
         fst_worker_locate(w); /* an image holds the extremes found so far */
     const unsigned bit = fst_lane_bit(l);
-    const int observed = stage == FST_STAGE_OBSERVED;
-    const fst_run_place place = {stage, observed && w->in_window & bit, observed && w->tracked & bit,
+    const int observed = station == FST_STATION_OBSERVED;
+    const fst_run_place place = {station, observed && w->in_window & bit, observed && w->tracked & bit,
                                  observed && w->turning & bit};
     double *numbers;
     size_t size;
@@ -80,19 +81,19 @@ static void save(fst_row_worker *w, fst_lane *at, const fst_lane_batch *b, int l
     free(image);
 }
 
-int fst_worker_stopped(fst_row_worker *w)
+fst_status fst_worker_ask(fst_row_worker *w, fst_error *error)
 {
-    const int stop = w->work->stopped(w->work->user);
+    const fst_status answer = fst_tell(w->work->progress, 0.0, NULL, error);
     if (!w->images)
-        return stop;
-    const double time = stop ? INFINITY : fst_clock_seconds();
+        return answer;
+    const double time = answer == FST_OK ? fst_clock_seconds() : INFINITY;
     for (int l = 0; l < w->engine->width; ++l) {
-        save(w, &w->run_up.lanes[l], &w->run_up, l, FST_STAGE_RUN_UP, time);
-        save(w, &w->observed.lanes[l], &w->observed, l, FST_STAGE_OBSERVED, time);
+        save(w, &w->run_up.lanes[l], &w->run_up, l, FST_STATION_RUN_UP, time);
+        save(w, &w->observed.lanes[l], &w->observed, l, FST_STATION_OBSERVED, time);
     }
     for (int i = 0; i < w->ready_count; ++i)
-        save(w, &w->ready[i], NULL, 0, FST_STAGE_READY, time);
+        save(w, &w->ready[i], NULL, 0, FST_STATION_READY, time);
     for (int i = 0; i < w->parked_count; ++i)
-        save(w, &w->parked[i], NULL, 0, FST_STAGE_PARKED, time);
-    return stop;
+        save(w, &w->parked[i], NULL, 0, FST_STATION_PARKED, time);
+    return answer;
 }

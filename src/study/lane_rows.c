@@ -173,16 +173,16 @@ static void enter_run_up(fst_row_worker *w, int l, fst_lane *from)
 static void place(fst_row_worker *w, fst_lane *fresh)
 {
     const int runs_up = w->engine->fused && fresh->run->window.span.from > 0;
-    const fst_run_stage stage = fresh->image ? fresh->place.stage
-                                : runs_up    ? FST_STAGE_RUN_UP
-                                             : FST_STAGE_READY;
-    if (stage == FST_STAGE_RUN_UP) {
+    const fst_run_station station = fresh->image ? fresh->place.station
+                                    : runs_up    ? FST_STATION_RUN_UP
+                                                 : FST_STATION_READY;
+    if (station == FST_STATION_RUN_UP) {
         enter_run_up(w, idle_lane(w, &w->run_up), fresh);
         return;
     }
-    fst_lane *to = stage == FST_STAGE_PARKED ? &w->parked[w->parked_count++] : &w->ready[w->ready_count++];
+    fst_lane *to = station == FST_STATION_PARKED ? &w->parked[w->parked_count++] : &w->ready[w->ready_count++];
     move_run(to, fresh);
-    if (stage == FST_STAGE_OBSERVED)
+    if (station == FST_STATION_OBSERVED)
         return; /* the image is wanted when there is a lane */
     free(to->image);
     to->image = NULL;
@@ -203,8 +203,9 @@ static int admit(fst_row_worker *w)
         fst_error error = {FST_OK, "", ""};
         const beginning begun = begin(w, &fresh, &status, &error);
         if (begun == ALONE) {
-            w->no_more = w->stopped = fst_row_alone(w->work, w->images, &fresh.job, &has_job, &error) != FST_OK;
-            if (w->stopped)
+            w->answer = fst_row_alone(w->work, w->images, &fresh.job, &has_job, &w->said);
+            w->no_more = w->no_more || w->answer != FST_OK;
+            if (w->answer != FST_OK)
                 return 0;
             continue;
         }
@@ -273,7 +274,7 @@ static void finish(fst_row_worker *w, fst_lane_batch *b, int l, fst_status statu
 static fst_status watch_exponents(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)fraction, (void)what;
-    return fst_worker_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+    return fst_worker_ask(user, error);
 }
 
 /* The exponents of runs that are parked, side by side too: the last ones, as many as there are lanes. */
@@ -455,11 +456,14 @@ fst_status fst_lane_rows(const fst_row_work *work, const fst_row_images *images,
             status = conclude_parked(w, error);
             occupy_idle(w);
         }
-        if (status == FST_OK && (steps % 64 == 0 || w->stopped) && fst_worker_stopped(w))
-            status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+        if (status == FST_OK && steps % 64 == 0)
+            status = fst_worker_ask(w, error);
     }
-    if (status == FST_OK && w->stopped)
-        status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+    if (status == FST_OK && w->answer != FST_OK) {
+        if (error)
+            *error = w->said;
+        status = w->answer;
+    }
     free_worker(w);
     return status;
 }

@@ -56,7 +56,8 @@ typedef struct fst_row_worker {
     int waiting_count, deferred_count;
     fst_coefficients_double kind; /* of the runs at work, which share its integers */
     int no_more;
-    int stopped; /* a run that was done alone was told to stop */
+    fst_status answer; /* of the caller during a run that was done alone, whether to go on, */
+    fst_error said;    /* and what it said */
 } fst_row_worker;
 
 static inline unsigned fst_lane_bit(int l)
@@ -87,7 +88,7 @@ void fst_worker_take_up(const fst_row_worker *w, fst_lane *at);
 /* Put what the image of a run knows of its lane into the lane, which was loaded; the image is done with. */
 void fst_worker_restore(fst_row_worker *w, fst_lane_batch *b, int l);
 
-/* Whether to stop; before that, make the images that are due: of all runs if so. */
-int fst_worker_stopped(fst_row_worker *w);
+/* Ask the caller whether to go on, and make the images that are due: of all runs if not. */
+fst_status fst_worker_ask(fst_row_worker *w, fst_error *error);
 
 #endif

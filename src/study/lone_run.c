@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/clock.h"
+#include "base/watch.h"
 #include "base/error.h"
 #include "study/conclude.h"
 #include "study/run_image.h"
@@ -13,39 +14,40 @@ typedef struct lone_run {
     const fst_row_images *images;
     const fst_row_job *job;
     fst_watched_run *run;
-    fst_run_stage stage;
+    fst_run_station station;
     fst_exponent exponent; /* what a parked run waits for */
     double saved;
+    fst_status answer; /* of the caller, whether to go on */
 } lone_run;
 
-/* Whether to stop; before that, save the image if it is due. */
-static int is_stopped(lone_run *l)
+/* Ask whether to go on; save the image if it is due, or if not. */
+static fst_status ask(lone_run *l, fst_error *error)
 {
-    const int stop = l->work->stopped(l->work->user);
+    l->answer = fst_tell(l->work->progress, 0.0, NULL, error);
     const double time = l->images ? fst_clock_seconds() : 0.0;
-    if (!l->images || (!stop && time - l->saved < l->images->seconds))
-        return stop;
-    const fst_run_place place = {.stage = l->stage};
+    if (!l->images || (l->answer == FST_OK && time - l->saved < l->images->seconds))
+        return l->answer;
+    const fst_run_place place = {.station = l->station};
     double *none;
     size_t size;
-    void *image =
-        fst_run_image_make(l->run, l->stage == FST_STAGE_PARKED ? &l->exponent : NULL, &place, 0, &none, &size);
+    void *image = fst_run_image_make(l->run, l->station == FST_STATION_PARKED ? &l->exponent : NULL, &place, 0,
+                                     &none, &size);
     if (image)
         l->images->save(l->images->user, l->job, image, size);
     free(image);
     l->saved = time;
-    return stop;
+    return l->answer;
 }
 
 static fst_status watch_exponent(void *user, double fraction, const char *what, fst_error *error)
 {
     (void)fraction, (void)what;
-    return is_stopped(user) ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
+    return ask(user, error);
 }
 
 static fst_status begin(lone_run *l, fst_error *error)
 {
-    l->stage = FST_STAGE_ALONE;
+    l->station = FST_STATION_ALONE;
     l->run = calloc(1, sizeof *l->run);
     if (!l->run)
         return fst_fail(error, FST_NO_MEMORY, "fst_rows", "out of memory");
@@ -58,7 +60,7 @@ static fst_status begin(lone_run *l, fst_error *error)
     const double *none;
     void *image = l->images->find(l->images->user, l->job, &size);
     if (fst_run_image_take(image, size, 0, l->run, &l->exponent, &place, &none))
-        l->stage = place.stage;
+        l->station = place.station;
     free(image);
     l->saved = fst_clock_seconds();
     return FST_OK;
@@ -69,11 +71,11 @@ static fst_status go_on(lone_run *l, fst_run_result *result, fst_error *error)
 {
     enum { STEPS = 64 }; /* between two looks whether to stop */
     fst_status status = FST_OK;
-    int needs_exponent = l->stage == FST_STAGE_PARKED;
+    int needs_exponent = l->station == FST_STATION_PARKED;
     for (int over = needs_exponent; status == FST_OK && !over;) {
         status = fst_watched_run_go_on(l->run, STEPS, &over, error);
-        if (status == FST_OK && !over && is_stopped(l))
-            status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+        if (status == FST_OK && !over)
+            status = ask(l, error);
     }
     if (status == FST_OK && !needs_exponent) {
         status = fst_conclude(l->run, NULL, result, &needs_exponent, error);
@@ -84,7 +86,7 @@ static fst_status go_on(lone_run *l, fst_run_result *result, fst_error *error)
         return status;
     const fst_progress progress = {l, watch_exponent};
     fst_exponent *asked = &l->exponent;
-    l->stage = FST_STAGE_PARKED;
+    l->station = FST_STATION_PARKED;
     status = fst_largest_exponents(&fst_tangents_scalar, &asked, 1, &progress, error);
     fst_result_clear(result);
     return status == FST_OK ? fst_conclude(l->run, asked, result, &needs_exponent, error) : status;
@@ -103,8 +105,11 @@ fst_status fst_row_alone(const fst_row_work *work, const fst_row_images *images,
     if (l.run)
         fst_watched_run_free(l.run);
     free(l.run);
-    if (status == FST_INTERRUPTED)
-        return fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+    if (l.answer != FST_OK) {
+        if (error)
+            *error = own;
+        return l.answer;
+    }
     *follows = work->done(work->user, job, status, &result, &own);
     return FST_OK;
 }

@@ -4,8 +4,9 @@
 
 #include <festoon/festoon.h>
 
-/* Do one job and hand its result over.  *follows: `job` is now another one, which is to follow at once.
- * FST_INTERRUPTED: stopped() said so, and nothing was handed over; other failures belong to the row. */
+/* Do one job and hand its result over.  *follows: `job` is now another one, which is to follow at once.  Any
+ * status other than FST_OK is the answer of work->progress: nothing was handed over then.  A run that fails
+ * hands over its failure. */
 fst_status fst_row_alone(const fst_row_work *work, const fst_row_images *images, fst_row_job *job, int *follows,
                          fst_error *error);
 

@@ -25,14 +25,14 @@ static uint64_t add_bytes(uint64_t hash, const void *bytes, size_t size) /* FNV-
     return hash;
 }
 
-typedef struct search {
+typedef struct build_notes {
     uintptr_t address; /* of something in the object that is looked for */
     uint64_t hash;
     int found;
-} search;
+} build_notes;
 
 /* Take the build's identity, which the linker made of all of its content, out of a segment of notes. */
-static void read_notes(search *s, const unsigned char *notes, size_t size)
+static void read_notes(build_notes *s, const unsigned char *notes, size_t size)
 {
     enum { HEAD = 3 * sizeof(uint32_t) };
     for (size_t at = 0; at + HEAD <= size && !s->found;) {
@@ -52,7 +52,7 @@ static void read_notes(search *s, const unsigned char *notes, size_t size)
 static int look_at_object(struct dl_phdr_info *object, size_t size, void *user)
 {
     (void)size;
-    search *s = user;
+    build_notes *s = user;
     int here = 0;
     for (int i = 0; i < object->dlpi_phnum; ++i) {
         const uintptr_t from = object->dlpi_addr + object->dlpi_phdr[i].p_vaddr;
@@ -71,7 +71,7 @@ static int look_at_object(struct dl_phdr_info *object, size_t size, void *user)
 static uint64_t layout(int numbers)
 {
     static const char here = 0;
-    search s = {.address = (uintptr_t)&here, .hash = 0xcbf29ce484222325u};
+    build_notes s = {.address = (uintptr_t)&here, .hash = 0xcbf29ce484222325u};
     (void)dl_iterate_phdr(look_at_object, &s);
     const size_t sizes[] = {sizeof(image), sizeof(fst_window), sizeof(fst_flow), (size_t)numbers};
     const uint64_t hash = add_bytes(s.hash, sizes, sizeof sizes);
@@ -113,10 +113,13 @@ static int is_sound_series(const fst_mark_series *s)
 
 static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
 {
-    const int count = i->place.stage == FST_STAGE_RUN_UP || i->place.stage == FST_STAGE_OBSERVED ? numbers : 0;
+    const int count =
+        i->place.station == FST_STATION_RUN_UP || i->place.station == FST_STATION_OBSERVED ? numbers : 0;
     return expected != 0 && i->layout == expected && i->numbers == count &&
-           size == sizeof *i + (size_t)count * sizeof(double) && (unsigned)i->place.stage < FST_STAGE_COUNT &&
-           (i->place.stage == FST_STAGE_ALONE) == (numbers == 0 && i->place.stage != FST_STAGE_PARKED) &&
+           size == sizeof *i + (size_t)count * sizeof(double) &&
+           (unsigned)i->place.station < FST_STATION_COUNT &&
+           (i->place.station == FST_STATION_ALONE) ==
+               (numbers == 0 && i->place.station != FST_STATION_PARKED) &&
            is_sound_series(&i->window.returns.marks) && is_sound_series(&i->window.periods);
 }
 
@@ -137,7 +140,7 @@ int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_
     run->flow->step.context.coefficients = coefficients;
     run->flow->groups = groups;
     *place = from->place;
-    if (place->stage == FST_STAGE_PARKED) {
+    if (place->station == FST_STATION_PARKED) {
         *exponent = from->exponent;
         exponent->coefficients = &run->flow->step.context.coefficients;
     }

@@ -15,17 +15,17 @@
 #include "study/watched_run.h"
 
 /* Where a run is between its beginning and its end. */
-typedef enum fst_run_stage {
-    FST_STAGE_RUN_UP,   /* in a lane before its window */
-    FST_STAGE_READY,    /* waiting for a lane in which it is observed */
-    FST_STAGE_OBSERVED, /* in such a lane */
-    FST_STAGE_PARKED,   /* finished, waiting for a Lyapunov exponent */
-    FST_STAGE_ALONE,    /* without lanes, on its way */
-    FST_STAGE_COUNT
-} fst_run_stage;
+typedef enum fst_run_station {
+    FST_STATION_RUN_UP,   /* in a lane before its window */
+    FST_STATION_READY,    /* waiting for a lane in which it is observed */
+    FST_STATION_OBSERVED, /* in such a lane */
+    FST_STATION_PARKED,   /* finished, waiting for a Lyapunov exponent */
+    FST_STATION_ALONE,    /* without lanes, on its way */
+    FST_STATION_COUNT
+} fst_run_station;
 
 typedef struct fst_run_place {
-    fst_run_stage stage;
+    fst_run_station station;
     int in_window, tracked, turning; /* of a lane that is observed */
 } fst_run_place;
 

@@ -18,11 +18,11 @@ static void fill_sample(fst_flow *flow, double x, fst_twofold t, fst_sample *sam
         fst_flow_at(flow, x, sample->state);
     double whole, rest;
     fst_flow_drive_turns(flow, t, &whole, &rest);
-    const fst_winding phi = fst_flow_bead_angle(flow, x);
+    const fst_winding angle = fst_flow_bead_angle(flow, x);
     sample->t = t.high;
     sample->drive_turns = whole + rest;
     sample->omega = fst_flow_omega(flow, t);
-    sample->bead_angle = fst_winding_angle(&phi);
+    sample->bead_angle = fst_winding_angle(&angle);
     sample->alpha = sample->bead_angle + FST_TWO_PI * (whole + rest);
     const double c = cos(FST_TWO_PI * rest), s = sin(FST_TWO_PI * rest), *y = sample->state;
     sample->x = c * y[FST_X] - s * y[FST_Y];

@@ -161,7 +161,7 @@ fst_status fst_database_head(int descriptor, const char *path, int writable, cha
     enum { USER_VERSION = 60, APPLICATION = 68, HEAD = 100 };
     unsigned char page[4096] = {0};
     const char *advice = writable ? "it was left untouched: choose another name"
-                                  : "give the name of a file that festoon sweep -o FILE.db made";
+                                  : "give the name of a file that fst_sweep() made";
     const ssize_t have = fst_read_at(descriptor, page, sizeof page, 0);
     if (have < 0)
         return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(errno));

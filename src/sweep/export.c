@@ -14,14 +14,14 @@
 #include "sweep/file.h"
 #include "sweep/lock.h"
 
-typedef struct export_job {
+typedef struct exporter {
     const char *path;
     fst_sweep_file file;
     fst_sweep_rows rows;
     sqlite3_stmt *row;
     int columns; /* all except the checksum */
     FILE *stream;
-} export_job;
+} exporter;
 
 /* ------------------------------------------------------------------ CSV */
 
@@ -58,38 +58,38 @@ static void write_quoted(FILE *out, char *tame)
     free(tame);
 }
 
-static void csv_head(export_job *job)
+static void csv_head(exporter *e)
 {
-    for (int i = 0; i < job->columns; ++i) {
+    for (int i = 0; i < e->columns; ++i) {
         char name[COLUMN_SIZE];
-        (void)fprintf(job->stream, "%s%s", i ? "," : "", tame_name(job->row, i, name));
+        (void)fprintf(e->stream, "%s%s", i ? "," : "", tame_name(e->row, i, name));
     }
-    (void)fputc('\n', job->stream);
+    (void)fputc('\n', e->stream);
 }
 
-static fst_status csv_row(export_job *job, fst_error *error)
+static fst_status csv_row(exporter *e, fst_error *error)
 {
     (void)error;
-    for (int i = 0; i < job->columns; ++i) {
+    for (int i = 0; i < e->columns; ++i) {
         char number[40];
         if (i)
-            (void)fputc(',', job->stream);
-        switch (sqlite3_column_type(job->row, i)) {
+            (void)fputc(',', e->stream);
+        switch (sqlite3_column_type(e->row, i)) {
         case SQLITE_INTEGER:
-            (void)fprintf(job->stream, "%lld", (long long)sqlite3_column_int64(job->row, i));
+            (void)fprintf(e->stream, "%lld", (long long)sqlite3_column_int64(e->row, i));
             break;
         case SQLITE_FLOAT:
-            (void)fst_number_write(number, sizeof number, sqlite3_column_double(job->row, i));
-            (void)fputs(number, job->stream);
+            (void)fst_number_write(number, sizeof number, sqlite3_column_double(e->row, i));
+            (void)fputs(number, e->stream);
             break;
         case SQLITE_TEXT:
-            write_quoted(job->stream, tame_text(job->row, i));
+            write_quoted(e->stream, tame_text(e->row, i));
             break;
         default: /* an undefined value stays empty */
             break;
         }
     }
-    (void)fputc('\n', job->stream);
+    (void)fputc('\n', e->stream);
     return FST_OK;
 }
 
@@ -114,13 +114,13 @@ static json_t *json_value(sqlite3_stmt *rows, int column)
 }
 
 /* One object a line.  The components of the final state are gathered into one list, as `run` prints them. */
-static fst_status json_row(export_job *job, fst_error *error)
+static fst_status json_row(exporter *e, fst_error *error)
 {
     json_t *object = json_object(), *state = json_array();
-    for (int i = 0; i < job->columns; ++i) {
+    for (int i = 0; i < e->columns; ++i) {
         char column[COLUMN_SIZE];
-        const char *name = tame_name(job->row, i, column);
-        json_t *value = json_value(job->row, i);
+        const char *name = tame_name(e->row, i, column);
+        json_t *value = json_value(e->row, i);
         if (strncmp(name, "final_", 6) == 0)
             (void)json_array_append_new(state, value);
         else
@@ -130,46 +130,46 @@ static fst_status json_row(export_job *job, fst_error *error)
     char *text = json_dumps(object, JSON_COMPACT | JSON_REAL_PRECISION(17));
     json_decref(object);
     if (!text)
-        return fst_fail(error, FST_NO_MEMORY, job->path, "out of memory");
-    (void)fputs(text, job->stream);
+        return fst_fail(error, FST_NO_MEMORY, e->path, "out of memory");
+    (void)fputs(text, e->stream);
     free(text);
     return FST_OK;
 }
 
 /* ------------------------------------------------------------------ all rows, as text */
 
-static fst_status write_text(export_job *job, fst_export_format format, fst_error *error)
+static fst_status write_text(exporter *e, fst_export_format format, fst_error *error)
 {
     fst_status status = FST_OK;
     int more, first = 1;
     if (format == FST_EXPORT_CSV)
-        csv_head(job);
+        csv_head(e);
     else
-        (void)fputc('[', job->stream);
-    while (status == FST_OK && (status = fst_sweep_rows_next(&job->rows, &more, error)) == FST_OK && more) {
+        (void)fputc('[', e->stream);
+    while (status == FST_OK && (status = fst_sweep_rows_next(&e->rows, &more, error)) == FST_OK && more) {
         if (format == FST_EXPORT_JSON)
-            (void)fputs(first ? "\n" : ",\n", job->stream);
+            (void)fputs(first ? "\n" : ",\n", e->stream);
         first = 0;
-        status = format == FST_EXPORT_CSV ? csv_row(job, error) : json_row(job, error);
+        status = format == FST_EXPORT_CSV ? csv_row(e, error) : json_row(e, error);
     }
     if (format == FST_EXPORT_JSON)
-        (void)fputs(first ? "]\n" : "\n]\n", job->stream);
+        (void)fputs(first ? "]\n" : "\n]\n", e->stream);
     return status;
 }
 
-static fst_status export_text(export_job *job, fst_export_format format, const char *out, FILE *stream,
+static fst_status export_text(exporter *e, fst_export_format format, const char *out, FILE *stream,
                               fst_error *error)
 {
     if (!out) {
-        job->stream = stream;
-        return write_text(job, format, error);
+        e->stream = stream;
+        return write_text(e, format, error);
     }
     fst_whole_file file;
     fst_status status = fst_whole_file_open(&file, out, error);
     if (status != FST_OK)
         return status;
-    job->stream = file.stream;
-    status = write_text(job, format, error);
+    e->stream = file.stream;
+    status = write_text(e, format, error);
     if (status == FST_OK)
         return fst_whole_file_commit(&file, error);
     fst_whole_file_discard(&file);
@@ -233,18 +233,18 @@ static void describe(const char *name, fst_column_info *info)
         info->doc = codes_of(name); /* the texts in the order of their codes 0, 1, ... */
 }
 
-static int list_columns(export_job *job, hdf5_columns *c)
+static int list_columns(exporter *e, hdf5_columns *c)
 {
-    const size_t most = (size_t)job->columns;
+    const size_t most = (size_t)e->columns;
     c->infos = calloc(most, sizeof *c->infos);
     c->pointers = calloc(most, sizeof *c->pointers);
     c->places = calloc(most, sizeof *c->places);
     c->values = calloc(most, sizeof *c->values);
     if (!c->infos || !c->pointers || !c->places || !c->values)
         return 0;
-    for (int i = 0; i < job->columns; ++i) {
-        const char *name = sqlite3_column_name(job->row, i);
-        const char *type = sqlite3_column_decltype(job->row, i);
+    for (int i = 0; i < e->columns; ++i) {
+        const char *name = sqlite3_column_name(e->row, i);
+        const char *type = sqlite3_column_decltype(e->row, i);
         if (type && strcmp(type, "TEXT") == 0 && !codes_of(name))
             continue; /* the reason is free text */
         describe(name, &c->infos[c->count]);
@@ -267,27 +267,27 @@ static double hdf5_value(sqlite3_stmt *rows, int place)
     }
 }
 
-static fst_status fill_hdf5(export_job *job, const fst_hdf5_module_table *module, fst_whole_file *file,
+static fst_status fill_hdf5(exporter *e, const fst_hdf5_module_table *module, fst_whole_file *file,
                             const hdf5_columns *c, fst_error *error)
 {
-    const char *scene = fst_identity_text(&job->file.lines, "scene");
+    const char *scene = fst_identity_text(&e->file.lines, "scene");
     fst_hdf5_writer *writer = NULL;
     fst_status status =
         module->create(file->temporary, file->path, c->pointers, c->count, scene ? scene : "", &writer, error);
     int more;
-    while (status == FST_OK && (status = fst_sweep_rows_next(&job->rows, &more, error)) == FST_OK && more) {
+    while (status == FST_OK && (status = fst_sweep_rows_next(&e->rows, &more, error)) == FST_OK && more) {
         for (int i = 0; i < c->count; ++i)
-            c->values[i] = hdf5_value(job->row, c->places[i]);
+            c->values[i] = hdf5_value(e->row, c->places[i]);
         status = module->row(writer, c->values, error);
     }
     if (writer && status == FST_OK)
-        status = module->finish(writer, NULL, job->rows.sound == fst_grid_points(job->file.grid), error);
+        status = module->finish(writer, NULL, e->rows.sound == fst_grid_points(e->file.grid), error);
     else if (writer)
         module->abandon(writer);
     return status;
 }
 
-static fst_status export_hdf5(export_job *job, const char *out, fst_error *error)
+static fst_status export_hdf5(exporter *e, const char *out, fst_error *error)
 {
     if (!out)
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_export.out",
@@ -298,12 +298,12 @@ static fst_status export_hdf5(export_job *job, const char *out, fst_error *error
         return status;
     hdf5_columns c = {NULL, NULL, NULL, NULL, 0};
     fst_whole_file file = {.path = NULL};
-    status = list_columns(job, &c) ? fst_whole_file_open(&file, out, error)
-                                   : fst_fail(error, FST_NO_MEMORY, out, "out of memory");
+    status = list_columns(e, &c) ? fst_whole_file_open(&file, out, error)
+                                 : fst_fail(error, FST_NO_MEMORY, out, "out of memory");
     if (status == FST_OK) {
         (void)fclose(file.stream); /* HDF5 opens the file by its name */
         file.stream = NULL;
-        status = fill_hdf5(job, module, &file, &c, error);
+        status = fill_hdf5(e, module, &file, &c, error);
         if (status == FST_OK)
             status = fst_whole_file_commit(&file, error);
         else
@@ -318,34 +318,34 @@ static fst_status export_hdf5(export_job *job, const char *out, fst_error *error
 
 /* ------------------------------------------------------------------ */
 
-static fst_status export_rows(export_job *job, fst_export_format format, const char *out, FILE *stream,
+static fst_status export_rows(exporter *e, fst_export_format format, const char *out, FILE *stream,
                               fst_error *error)
 {
-    fst_status status = fst_sweep_rows_begin(&job->rows, &job->file, error);
+    fst_status status = fst_sweep_rows_begin(&e->rows, &e->file, error);
     if (status == FST_OK) {
-        job->row = job->rows.row;
-        job->columns = fst_sweep_column_count(job->file.grid);
-        status = format == FST_EXPORT_HDF5 ? export_hdf5(job, out, error)
-                                           : export_text(job, format, out, stream, error);
+        e->row = e->rows.row;
+        e->columns = fst_sweep_column_count(e->file.grid);
+        status =
+            format == FST_EXPORT_HDF5 ? export_hdf5(e, out, error) : export_text(e, format, out, stream, error);
     }
     /* The sound rows have been written; the status says that others are missing. */
-    if (status == FST_OK && !fst_sweep_rows_are_whole(&job->rows))
-        status = fst_sweep_rows_fail(&job->rows,
+    if (status == FST_OK && !fst_sweep_rows_are_whole(&e->rows))
+        status = fst_sweep_rows_fail(&e->rows,
                                      out ? "The other rows were exported. "
                                          : "An export into a file (-o FILE) has the other rows. ",
                                      error);
-    fst_sweep_rows_end(&job->rows);
+    fst_sweep_rows_end(&e->rows);
     return status;
 }
 
 fst_status fst_sweep_export(const char *path, fst_export_format format, const char *out, FILE *stream,
                             fst_error *error)
 {
-    export_job job = {.path = path};
-    fst_status status = fst_sweep_file_open(path, 0, &job.file, error);
+    exporter e = {.path = path};
+    fst_status status = fst_sweep_file_open(path, 0, &e.file, error);
     if (status == FST_OK)
-        status = export_rows(&job, format, out, stream, error);
-    fst_sweep_file_close(&job.file);
+        status = export_rows(&e, format, out, stream, error);
+    fst_sweep_file_close(&e.file);
     return status;
 }
 

@@ -52,22 +52,12 @@ static int probe_done(void *user, fst_row_job *job, fst_status status, const fst
     return 0;
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 fst_status fst_arithmetic_fingerprint(fst_arithmetic arithmetic, int lanes, uint64_t *fingerprint,
                                       fst_error *error)
 {
     probe p = {0, FST_OK, error, 0xcbf29ce484222325u};
-    const fst_row_work work = {.user = &p,
-                               .arithmetic = arithmetic,
-                               .lanes = lanes,
-                               .next = next_probe,
-                               .done = probe_done,
-                               .stopped = never};
+    const fst_row_work work = {
+        .user = &p, .arithmetic = arithmetic, .lanes = lanes, .next = next_probe, .done = probe_done};
     const fst_status status = fst_rows(&work, error);
     *fingerprint = p.hash;
     return status == FST_OK ? p.status : status;

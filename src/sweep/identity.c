@@ -25,7 +25,7 @@ static void add_line(fst_identity_lines *lines, const char *key, char *value)
     lines->values[lines->count++] = value;
 }
 
-/* All lines that must be the same for a sweep to go on; the first is the scene. */
+/* All lines that must be the same for a sweep to go on.  Of the scene the parameters must be, not the text. */
 static void wanted_lines(const fst_sweep_identity *identity, fst_identity_lines *lines)
 {
     static const char *const carry[] = {"no", "up", "down"};
@@ -61,24 +61,46 @@ const char *fst_identity_text(const fst_identity_lines *lines, const char *key)
 
 /* ------------------------------------------------------------------ comparing */
 
-/* Say which parameter differs between the scene of the file and the wanted one. */
-static fst_status fail_scene(const char *path, const char *there, const fst_params *wanted, fst_error *error)
+/* The parameters from which the sweep was made.  A key that its scene lacks has its default: an older program,
+ * which did not know the key, did what the default says. */
+static fst_status read_scene(const fst_identity_lines *lines, const char *path, fst_params *params,
+                             fst_error *error)
 {
-    fst_params made = fst_default_params();
-    if (fst_scene_parse(there, strlen(there), path, &made, NULL) == FST_OK)
-        for (int i = 0; i < fst_param_count(); ++i) {
-            char before[64], now[64];
-            (void)fst_params_get(&made, i, before, sizeof before);
-            (void)fst_params_get(wanted, i, now, sizeof now);
-            if (strcmp(before, now) != 0)
-                return fst_fail(
-                    error, FST_BAD_INPUT, path,
-                    "this sweep was made with %s = %s, not %s; it was left untouched: choose another file, "
-                    "or the same parameters to go on with it",
-                    fst_param_at(i)->key, before[0] ? before : "(not given)", now[0] ? now : "(not given)");
-        }
-    return fst_fail(error, FST_BAD_INPUT, path,
-                    "this sweep was made from another scene; it was left untouched");
+    const char *scene = fst_identity_text(lines, "scene"), *version = fst_identity_text(lines, "version");
+    fst_error why = {FST_OK, "", ""};
+    *params = fst_default_params();
+    const fst_status status = fst_scene_parse(scene, strlen(scene), path, params, &why);
+    if (status == FST_OK)
+        return FST_OK;
+    if (status != FST_BAD_INPUT)
+        return fst_fail(error, status, path, "%s", why.sentence);
+    return fst_fail(
+        error, FST_BAD_INPUT, path,
+        "the scene of this sweep, which festoon %.40s made, means nothing to festoon %s (%s); it was "
+        "left untouched: use the festoon that made it",
+        version ? version : "(not told)", fst_version(), why.sentence);
+}
+
+/* Compare the parameters, whatever text they were written in, and say which one differs. */
+static fst_status compare_scene(const fst_identity_lines *lines, const char *path, const fst_params *wanted,
+                                fst_error *error)
+{
+    fst_params made;
+    const fst_status status = read_scene(lines, path, &made, error);
+    if (status != FST_OK)
+        return status;
+    for (int i = 0; i < fst_param_count(); ++i) {
+        char before[64], now[64];
+        (void)fst_params_get(&made, i, before, sizeof before);
+        (void)fst_params_get(wanted, i, now, sizeof now);
+        if (strcmp(before, now) != 0)
+            return fst_fail(
+                error, FST_BAD_INPUT, path,
+                "this sweep was made with %s = %s, not %s; it was left untouched: choose another file, "
+                "or the same parameters to go on with it",
+                fst_param_at(i)->key, before[0] ? before : "(not given)", now[0] ? now : "(not given)");
+    }
+    return FST_OK;
 }
 
 fst_status fst_identity_compare(const fst_identity_lines *lines, const char *path,
@@ -95,8 +117,8 @@ fst_status fst_identity_compare(const fst_identity_lines *lines, const char *pat
             status = fst_fail(error, FST_BAD_INPUT, path,
                               "this sweep does not say its %s; it was left untouched: choose another file",
                               wanted.keys[i]);
-        else if (strcmp(there, wanted.values[i]) != 0 && i == 0)
-            status = fail_scene(path, there, fst_grid_base(identity->grid), error);
+        else if (strcmp(wanted.keys[i], "scene") == 0)
+            status = compare_scene(lines, path, fst_grid_base(identity->grid), error);
         else if (strcmp(there, wanted.values[i]) != 0)
             status = fst_fail(
                 error, FST_BAD_INPUT, path,
@@ -236,10 +258,10 @@ fst_status fst_identity_grid(const fst_identity_lines *lines, const char *path, 
         texts[i] = fst_identity_text(lines, key);
         good = texts[i] != NULL;
     }
-    fst_params params = fst_default_params();
+    fst_params params;
     if (!good)
         return fail_damaged(path, error);
-    const fst_status status = fst_scene_parse(scene, strlen(scene), path, &params, error);
+    const fst_status status = read_scene(lines, path, &params, error);
     return status == FST_OK ? fst_grid_new(&params, texts, count, strtoull(seed, NULL, 10), grid, error)
                             : status;
 }

@@ -37,7 +37,9 @@ fst_status fst_identity_grid(const fst_identity_lines *lines, const char *path, 
 fst_status fst_identity_write(sqlite3 *database, const char *path, const fst_sweep_identity *identity,
                               const char *mark, fst_error *error);
 
-/* Compare with a wanted sweep.  FST_BAD_INPUT: another one; the sentence says what differs. */
+/* Compare with a wanted sweep.  FST_BAD_INPUT: another one; the sentence says what differs.  Scenes are
+ * compared by their parameters, so a program that knows more keys goes on with an older sweep if these have
+ * their defaults. */
 fst_status fst_identity_compare(const fst_identity_lines *lines, const char *path,
                                 const fst_sweep_identity *identity, fst_error *error);
 

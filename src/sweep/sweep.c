@@ -1,4 +1,4 @@
-/* sweep.c - a sweep as a job: threads compute rows, and one thread of one process keeps the journal.
+/* sweep.c - a sweep: threads compute rows, and one thread of one process keeps the journal.
  *
  *  grid --> points without a row --> tasks queue --> workers --> rows queue --> journal --> FILE.db
  *           look_for_tasks()         workers.c       workers.c   workers.c      journal.c
@@ -31,7 +31,7 @@ static const double WAIT_SECONDS = 0.05;
 static const double WAIT_SECONDS_RANKS = 0.002;
 static const double FAREWELL_SECONDS = 10.0; /* how long to wait for followers that were told to stop */
 
-typedef struct job {
+typedef struct sweep {
     fst_sweep_identity identity;
     fst_journal *journal;
     fst_checkpoints *checkpoints;
@@ -46,7 +46,7 @@ typedef struct job {
     int uncommitted; /* rows and images added since the last commit */
     int stopping;    /* the sweep is ending: commit whatever comes at once */
     int no_answer;   /* a follower was told to stop and did not answer */
-} job;
+} sweep;
 
 fst_sweep_options fst_default_sweep_options(void)
 {
@@ -65,32 +65,32 @@ static double read_clock(clockid_t clock)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* Note how much time the job has taken so far. */
-static void read_clocks(job *j)
+/* Note how much time the sweep has taken so far. */
+static void read_clocks(sweep *s)
 {
-    j->counts->seconds = fst_clock_seconds() - j->started;
-    j->counts->processor_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - j->processor_started;
-    j->counts->journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - j->journal_started;
+    s->counts->seconds = fst_clock_seconds() - s->started;
+    s->counts->processor_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - s->processor_started;
+    s->counts->journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - s->journal_started;
 }
 
-static double fraction_done(const job *j)
+static double fraction_done(const sweep *s)
 {
-    return (double)j->counts->there / (double)j->counts->points;
+    return (double)s->counts->there / (double)s->counts->points;
 }
 
 /* ------------------------------------------------------------------ tasks */
 
 /* The task that goes on with a chain; *found is 0 where the chain is finished. */
-static fst_status resume_chain(job *j, int64_t chain, fst_sweep_task *t, int *found, fst_error *error)
+static fst_status resume_chain(sweep *s, int64_t chain, fst_sweep_task *t, int *found, fst_error *error)
 {
-    const int64_t count = fst_chain_length(&j->identity);
+    const int64_t count = fst_chain_length(&s->identity);
     int there = 1, usable = 0;
     *found = 0;
     t->has_start = 0;
     for (int64_t place = 0; place < count; ++place) {
-        t->point = fst_chain_point(&j->identity, chain, place);
+        t->point = fst_chain_point(&s->identity, chain, place);
         double end[FST_STATE_SIZE];
-        const fst_status status = fst_journal_end_state(j->journal, t->point, &there, &usable, end, error);
+        const fst_status status = fst_journal_end_state(s->journal, t->point, &there, &usable, end, error);
         if (status != FST_OK)
             return status;
         if (!there) {
@@ -104,54 +104,54 @@ static fst_status resume_chain(job *j, int64_t chain, fst_sweep_task *t, int *fo
 }
 
 /* Find tasks for points without a row; *found is 0 when there are no more. */
-static fst_status look_for_tasks(job *j, fst_sweep_task *fresh, int room, int *found, fst_error *error)
+static fst_status look_for_tasks(sweep *s, fst_sweep_task *fresh, int room, int *found, fst_error *error)
 {
     fst_status status = FST_OK;
     *found = 0;
-    if (j->identity.carry == FST_CARRY_NO) {
+    if (s->identity.carry == FST_CARRY_NO) {
         int64_t points[FST_WORKERS_TASKS];
-        status = fst_journal_missing(j->journal, &j->next, points, room, found, error);
+        status = fst_journal_missing(s->journal, &s->next, points, room, found, error);
         for (int i = 0; i < *found; ++i) {
             fresh[i].point = points[i];
             fresh[i].has_start = 0;
         }
         return status;
     }
-    for (; j->next < fst_chain_count(&j->identity) && *found < room && status == FST_OK; ++j->next) {
+    for (; s->next < fst_chain_count(&s->identity) && *found < room && status == FST_OK; ++s->next) {
         int is_open;
-        status = resume_chain(j, j->next, &fresh[*found], &is_open, error);
+        status = resume_chain(s, s->next, &fresh[*found], &is_open, error);
         *found += status == FST_OK && is_open;
     }
     return status;
 }
 
 /* Give the workers the images of unfinished runs, before the tasks that go on from them. */
-static void find_images(job *j, const fst_sweep_task *tasks, int count)
+static void find_images(sweep *s, const fst_sweep_task *tasks, int count)
 {
     for (int i = 0; i < count; ++i) {
         size_t size;
-        void *bytes = fst_checkpoints_get(j->checkpoints, tasks[i].point, &size);
+        void *bytes = fst_checkpoints_get(s->checkpoints, tasks[i].point, &size);
         fst_image *image = bytes ? fst_image_new(tasks[i].point, bytes, size) : NULL;
         if (image)
-            fst_workers_give_image(j->workers, image);
+            fst_workers_give_image(s->workers, image);
         free(bytes);
     }
 }
 
 /* Fill up the workers' queue of tasks. */
-static fst_status refill(job *j, fst_error *error)
+static fst_status refill(sweep *s, fst_error *error)
 {
-    const int room = fst_workers_room(j->workers);
+    const int room = fst_workers_room(s->workers);
     if (room == 0)
         return FST_OK;
     fst_sweep_task *fresh = malloc((size_t)room * sizeof *fresh);
     if (!fresh)
         return fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
     int found;
-    const fst_status status = look_for_tasks(j, fresh, room, &found, error);
+    const fst_status status = look_for_tasks(s, fresh, room, &found, error);
     if (status == FST_OK) {
-        find_images(j, fresh, found);
-        fst_workers_give(j->workers, fresh, found);
+        find_images(s, fresh, found);
+        fst_workers_give(s->workers, fresh, found);
     }
     free(fresh);
     return status;
@@ -159,43 +159,43 @@ static fst_status refill(job *j, fst_error *error)
 
 /* ------------------------------------------------------------------ rows */
 
-static fst_status commit(job *j, fst_error *error)
+static fst_status commit(sweep *s, fst_error *error)
 {
-    const fst_status status = fst_journal_commit(j->journal, error);
-    j->committed = fst_clock_seconds();
-    j->uncommitted = 0;
+    const fst_status status = fst_journal_commit(s->journal, error);
+    s->committed = fst_clock_seconds();
+    s->uncommitted = 0;
     return status;
 }
 
 /* Write rows, and commit now and then. */
-static fst_status write_rows(job *j, const fst_sweep_record *rows, int count, fst_error *error)
+static fst_status write_rows(sweep *s, const fst_sweep_record *rows, int count, fst_error *error)
 {
     fst_status status = FST_OK;
     for (int i = 0; i < count && status == FST_OK; ++i) {
-        status = fst_journal_add(j->journal, &rows[i], error);
+        status = fst_journal_add(s->journal, &rows[i], error);
         if (status == FST_OK)
-            status = fst_checkpoints_drop(j->checkpoints, rows[i].point, error);
+            status = fst_checkpoints_drop(s->checkpoints, rows[i].point, error);
     }
     for (int i = 0; i < count; ++i)
-        j->counts->failed += rows[i].status != FST_OK;
-    j->uncommitted += count;
-    if (status == FST_OK && j->uncommitted > 0 &&
-        (j->stopping || j->uncommitted >= COMMIT_ROWS || fst_clock_seconds() - j->committed > COMMIT_SECONDS))
-        status = commit(j, error);
+        s->counts->failed += rows[i].status != FST_OK;
+    s->uncommitted += count;
+    if (status == FST_OK && s->uncommitted > 0 &&
+        (s->stopping || s->uncommitted >= COMMIT_ROWS || fst_clock_seconds() - s->committed > COMMIT_SECONDS))
+        status = commit(s, error);
     if (status == FST_OK) {
-        j->counts->added += count;
-        j->counts->there += count;
+        s->counts->added += count;
+        s->counts->there += count;
     }
     return status;
 }
 
 /* Write images of unfinished runs, and free the list. */
-static fst_status write_images(job *j, fst_image *images, fst_error *error)
+static fst_status write_images(sweep *s, fst_image *images, fst_error *error)
 {
     fst_status status = FST_OK;
     for (const fst_image *i = images; i && status == FST_OK; i = i->next) {
-        status = fst_checkpoints_put(j->checkpoints, i->point, i->bytes, i->size, error);
-        j->uncommitted += 1;
+        status = fst_checkpoints_put(s->checkpoints, i->point, i->bytes, i->size, error);
+        s->uncommitted += 1;
     }
     fst_images_free(images);
     return status;
@@ -203,15 +203,15 @@ static fst_status write_images(job *j, fst_image *images, fst_error *error)
 
 /* Write the rows of the other ranks.  A failure there is put into *outcome: rows that have come are written all
  * the same, unless the journal itself has failed. */
-static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, fst_status *outcome,
+static fst_status hear_followers(sweep *s, fst_sweep_record *rows, int abandoned, fst_status *outcome,
                                  fst_error *error)
 {
     fst_status status = FST_OK;
-    int count = j->leader != NULL;
+    int count = s->leader != NULL;
     while (count > 0 && status == FST_OK) {
         fst_error trouble;
         fst_image *images = NULL;
-        const fst_status heard = fst_leader_attend(j->leader, j->workers, rows, &count, &images, &trouble);
+        const fst_status heard = fst_leader_attend(s->leader, s->workers, rows, &count, &images, &trouble);
         if (*outcome == FST_OK && heard != FST_OK) {
             *outcome = heard;
             if (error)
@@ -221,128 +221,128 @@ static fst_status hear_followers(job *j, fst_sweep_record *rows, int abandoned, 
             fst_images_free(images);
             continue;
         }
-        status = write_images(j, images, error);
+        status = write_images(s, images, error);
         if (status == FST_OK)
-            status = write_rows(j, rows, count, error);
+            status = write_rows(s, rows, count, error);
     }
     return status;
 }
 
 /* Write the rows and images of our own workers; wait up to `seconds` for rows. */
-static fst_status hear_workers(job *j, fst_sweep_record *rows, double seconds, int abandoned, int *busy,
+static fst_status hear_workers(sweep *s, fst_sweep_record *rows, double seconds, int abandoned, int *busy,
                                fst_error *error)
 {
-    const int count = fst_workers_take(j->workers, rows, seconds, busy);
-    fst_image *images = fst_workers_take_images(j->workers);
+    const int count = fst_workers_take(s->workers, rows, seconds, busy);
+    fst_image *images = fst_workers_take_images(s->workers);
     if (abandoned) {
         fst_images_free(images);
         return FST_OK;
     }
-    const fst_status status = write_images(j, images, error);
-    return status == FST_OK ? write_rows(j, rows, count, error) : status;
+    const fst_status status = write_images(s, images, error);
+    return status == FST_OK ? write_rows(s, rows, count, error) : status;
 }
 
 /* Begin no more runs.  First commit what is there: the program that ends the other ranks may soon
  * end this one. */
-static fst_status stop(job *j, fst_sweep_record *rows, fst_status status, fst_error *error)
+static fst_status stop(sweep *s, fst_sweep_record *rows, fst_status status, fst_error *error)
 {
     int busy;
-    fst_workers_stop(j->workers, status != FST_OK);
-    if (j->leader)
-        fst_leader_stop(j->leader);
-    j->stopping = 1;
+    fst_workers_stop(s->workers, status != FST_OK);
+    if (s->leader)
+        fst_leader_stop(s->leader);
+    s->stopping = 1;
     if (status == FST_OK)
-        status = hear_workers(j, rows, 0.0, 0, &busy, error);
-    return status == FST_OK ? commit(j, error) : status;
+        status = hear_workers(s, rows, 0.0, 0, &busy, error);
+    return status == FST_OK ? commit(s, error) : status;
 }
 
-static int followers(const job *j)
+static int followers(const sweep *s)
 {
-    return j->leader ? fst_leader_followers(j->leader) : 0;
+    return s->leader ? fst_leader_followers(s->leader) : 0;
 }
 
-static void wait_for_messages(const job *j, int busy)
+static void wait_for_messages(const sweep *s, int busy)
 {
     const struct timespec time = {0, (long)(1e9 * WAIT_SECONDS_RANKS)};
-    if (!busy && followers(j) > 0)
+    if (!busy && followers(s) > 0)
         (void)nanosleep(&time, NULL);
 }
 
 /* Keep the journal until no worker works any more.  After an interruption this still writes what was done. */
-static fst_status keep_journal(job *j, fst_sweep_record *rows, fst_error *error)
+static fst_status keep_journal(sweep *s, fst_sweep_record *rows, fst_error *error)
 {
-    const double seconds = j->leader ? WAIT_SECONDS_RANKS : WAIT_SECONDS;
+    const double seconds = s->leader ? WAIT_SECONDS_RANKS : WAIT_SECONDS;
     fst_status status = FST_OK, outcome = FST_OK; /* of the journal; of everything else */
     double stopped = 0.0;
     int busy = 1;
-    while (busy || followers(j) > 0) {
+    while (busy || followers(s) > 0) {
         if (status == FST_OK && outcome == FST_OK)
-            status = refill(j, error);
+            status = refill(s, error);
         const int failed = status != FST_OK;
-        const fst_status heard = hear_followers(j, rows, failed, &outcome, failed ? NULL : error);
+        const fst_status heard = hear_followers(s, rows, failed, &outcome, failed ? NULL : error);
         status = failed ? status : heard;
-        const fst_status taken = hear_workers(j, rows, seconds, status != FST_OK, &busy, error);
+        const fst_status taken = hear_workers(s, rows, seconds, status != FST_OK, &busy, error);
         status = status == FST_OK ? taken : status;
-        read_clocks(j);
+        read_clocks(s);
         if (status == FST_OK && outcome == FST_OK)
-            outcome = fst_tell(j->options->progress, fraction_done(j), NULL, error);
+            outcome = fst_tell(s->options->progress, fraction_done(s), NULL, error);
         if (stopped == 0.0 && (status != FST_OK || outcome != FST_OK)) {
-            status = stop(j, rows, status, error);
+            status = stop(s, rows, status, error);
             stopped = fst_clock_seconds();
         }
-        j->no_answer = stopped > 0.0 && followers(j) > 0 && fst_clock_seconds() - stopped > FAREWELL_SECONDS;
-        if (j->no_answer && !busy)
+        s->no_answer = stopped > 0.0 && followers(s) > 0 && fst_clock_seconds() - stopped > FAREWELL_SECONDS;
+        if (s->no_answer && !busy)
             break;
-        wait_for_messages(j, busy);
+        wait_for_messages(s, busy);
     }
     return status != FST_OK ? status : outcome;
 }
 
-/* ------------------------------------------------------------------ the job */
+/* ------------------------------------------------------------------ the sweep */
 
 /* As many threads as this process has processors, or its share of them where it has neighbours. */
-static int thread_count(const job *j)
+static int thread_count(const sweep *s)
 {
-    const int asked = j->options->threads, wanted = asked > 0 ? asked : fst_processors(j->ranks.neighbours);
-    const int64_t tasks = fst_sweep_task_count(&j->identity);
+    const int asked = s->options->threads, wanted = asked > 0 ? asked : fst_processors(s->ranks.neighbours);
+    const int64_t tasks = fst_sweep_task_count(&s->identity);
     return wanted > tasks ? (int)tasks : wanted;
 }
 
 /* One process writes all images.  So the more runs there are, the more rarely each is saved. */
-static fst_workers_plan workers_plan(const job *j)
+static fst_workers_plan workers_plan(const sweep *s)
 {
     enum { THREADS_AT_FULL_RATE = 8 };
-    const int threads = thread_count(j), all = threads * j->ranks.count;
+    const int threads = thread_count(s), all = threads * s->ranks.count;
     const double share = 1.0 + (double)((all - 1) / THREADS_AT_FULL_RATE);
     return (fst_workers_plan){.threads = threads,
                               .depth = FST_WORKERS_TASKS,
-                              .lanes = j->options->lanes,
-                              .checkpoint_seconds = share * j->options->checkpoint_seconds};
+                              .lanes = s->options->lanes,
+                              .checkpoint_seconds = share * s->options->checkpoint_seconds};
 }
 
-static fst_status work(job *j, fst_error *error)
+static fst_status work(sweep *s, fst_error *error)
 {
-    const fst_workers_plan plan = workers_plan(j);
+    const fst_workers_plan plan = workers_plan(s);
     fst_sweep_record *rows = malloc(FST_WORKERS_ROWS * sizeof *rows);
     fst_status status = rows ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
-    if (status == FST_OK && j->ranks.link)
-        status = fst_leader_new(&j->ranks, &j->leader, error);
+    if (status == FST_OK && s->ranks.link)
+        status = fst_leader_new(&s->ranks, &s->leader, error);
     if (status == FST_OK)
-        status = fst_workers_new(&j->identity, &plan, &j->workers, error);
+        status = fst_workers_new(&s->identity, &plan, &s->workers, error);
     if (status == FST_OK) {
-        status = keep_journal(j, rows, error);
+        status = keep_journal(s, rows, error);
         fst_error own = {FST_OK, "", ""};
-        const fst_status computed = fst_workers_end(j->workers, &own);
+        const fst_status computed = fst_workers_end(s->workers, &own);
         if (status == FST_OK && computed != FST_OK) {
             status = computed;
             if (error)
                 *error = own;
         }
     } else {
-        j->no_answer =
-            j->ranks.link != NULL; /* the followers wait in vain; the end of this process ends them */
+        s->no_answer =
+            s->ranks.link != NULL; /* the followers wait in vain; the end of this process ends them */
     }
-    fst_leader_free(j->leader);
+    fst_leader_free(s->leader);
     free(rows);
     return status;
 }
@@ -364,30 +364,30 @@ static fst_status check_options(const fst_sweep_options *o, const fst_grid *grid
 }
 
 /* The part of rank 0, or of the only process: it has the journal. */
-static fst_status lead(job *j, const char *path, fst_error *error)
+static fst_status lead(sweep *s, const char *path, fst_error *error)
 {
     fst_status status =
-        fst_arithmetic_fingerprint(j->identity.arithmetic, j->options->lanes, &j->identity.fingerprint, error);
+        fst_arithmetic_fingerprint(s->identity.arithmetic, s->options->lanes, &s->identity.fingerprint, error);
     if (status == FST_OK)
-        status = fst_journal_open(path, &j->identity, &j->journal, error);
+        status = fst_journal_open(path, &s->identity, &s->journal, error);
     if (status == FST_OK)
-        j->counts->repaired = fst_journal_repaired(j->journal, &j->counts->lost);
+        s->counts->repaired = fst_journal_repaired(s->journal, &s->counts->lost);
     if (status == FST_OK)
-        status = fst_journal_count(j->journal, &j->counts->there, error);
+        status = fst_journal_count(s->journal, &s->counts->there, error);
     if (status == FST_OK)
         status =
-            fst_checkpoints_open(j->journal, fst_journal_identity_hash(&j->identity), &j->checkpoints, error);
-    fst_ranks_start start = {status, j->identity.arithmetic, fst_journal_identity_hash(&j->identity)};
+            fst_checkpoints_open(s->journal, fst_journal_identity_hash(&s->identity), &s->checkpoints, error);
+    fst_ranks_start start = {status, s->identity.arithmetic, fst_journal_identity_hash(&s->identity)};
     fst_error silence;
-    const fst_status shared = fst_ranks_share_start(&j->ranks, &start, status == FST_OK ? error : &silence);
+    const fst_status shared = fst_ranks_share_start(&s->ranks, &start, status == FST_OK ? error : &silence);
     status = status == FST_OK ? shared : status;
-    if (status == FST_OK && (j->counts->there < j->counts->points || j->ranks.link))
-        status = work(j, error);
-    if (status == FST_OK && j->checkpoints)
-        status = fst_checkpoints_drop_all(j->checkpoints, error);
-    fst_checkpoints_close(j->checkpoints);
+    if (status == FST_OK && (s->counts->there < s->counts->points || s->ranks.link))
+        status = work(s, error);
+    if (status == FST_OK && s->checkpoints)
+        status = fst_checkpoints_drop_all(s->checkpoints, error);
+    fst_checkpoints_close(s->checkpoints);
     fst_error closing;
-    const fst_status closed = fst_journal_close(j->journal, &closing);
+    const fst_status closed = fst_journal_close(s->journal, &closing);
     if (closed != FST_OK && (status == FST_OK || status == FST_INTERRUPTED)) {
         status = closed;
         if (error)
@@ -397,37 +397,37 @@ static fst_status lead(job *j, const char *path, fst_error *error)
 }
 
 /* The part of any other rank: it computes what the leader computes, or says that it cannot. */
-static fst_status follow(job *j, fst_error *error)
+static fst_status follow(sweep *s, fst_error *error)
 {
     fst_ranks_start start;
-    fst_status status = fst_ranks_share_start(&j->ranks, &start, error);
+    fst_status status = fst_ranks_share_start(&s->ranks, &start, error);
     if (status != FST_OK || start.status != FST_OK)
         return status == FST_OK ? start.status : status;
-    j->identity.arithmetic = start.arithmetic;
-    status = fst_arithmetic_fingerprint(start.arithmetic, j->options->lanes, &j->identity.fingerprint, error);
-    if (status == FST_OK && fst_journal_identity_hash(&j->identity) != start.identity)
+    s->identity.arithmetic = start.arithmetic;
+    status = fst_arithmetic_fingerprint(start.arithmetic, s->options->lanes, &s->identity.fingerprint, error);
+    if (status == FST_OK && fst_journal_identity_hash(&s->identity) != start.identity)
         status =
             fst_fail(error, FST_BAD_INPUT, "fst_sweep",
                      "this rank would compute other rows than rank 0: its processor, its festoon, its scene or "
                      "its options differ");
-    const fst_workers_plan plan = workers_plan(j);
-    return fst_follow(&j->ranks, &j->identity, j->options, &plan, status, error);
+    const fst_workers_plan plan = workers_plan(s);
+    return fst_follow(&s->ranks, &s->identity, s->options, &plan, status, error);
 }
 
 /* Lead, follow, or work alone.  The leader reports what happened to followers. */
-static fst_status run_job(job *j, const char *path, fst_error *error)
+static fst_status run_sweep(sweep *s, const char *path, fst_error *error)
 {
-    fst_status status = j->options->with_ranks ? fst_ranks_open(&j->ranks, error) : FST_OK;
+    fst_status status = s->options->with_ranks ? fst_ranks_open(&s->ranks, error) : FST_OK;
     if (status != FST_OK) {
-        fst_ranks_close(&j->ranks, 0);
+        fst_ranks_close(&s->ranks, 0);
         return status;
     }
-    j->counts->rank = j->ranks.rank;
-    j->counts->ranks = j->ranks.count;
-    status = j->ranks.rank == 0 ? lead(j, path, error) : follow(j, error);
-    if (j->ranks.rank != 0 && error)
+    s->counts->rank = s->ranks.rank;
+    s->counts->ranks = s->ranks.count;
+    status = s->ranks.rank == 0 ? lead(s, path, error) : follow(s, error);
+    if (s->ranks.rank != 0 && error)
         *error = (fst_error){status, "", ""};
-    fst_ranks_close(&j->ranks, !j->no_answer);
+    fst_ranks_close(&s->ranks, !s->no_answer);
     return status;
 }
 
@@ -444,17 +444,17 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
         return status;
     status = check_options(options, grid, error);
     if (status == FST_OK) {
-        job j = {.identity = {grid, options->seed, options->carry, options->arithmetic, 0},
-                 .options = options,
-                 .counts = counts,
-                 .ranks = {.count = 1, .neighbours = 1}};
+        sweep s = {.identity = {grid, options->seed, options->carry, options->arithmetic, 0},
+                   .options = options,
+                   .counts = counts,
+                   .ranks = {.count = 1, .neighbours = 1}};
         counts->points = fst_grid_points(grid);
-        j.started = fst_clock_seconds();
-        j.committed = j.started - COMMIT_SECONDS; /* the first row is committed at once */
-        j.processor_started = read_clock(CLOCK_PROCESS_CPUTIME_ID);
-        j.journal_started = read_clock(CLOCK_THREAD_CPUTIME_ID);
-        status = run_job(&j, path, error);
-        read_clocks(&j);
+        s.started = fst_clock_seconds();
+        s.committed = s.started - COMMIT_SECONDS; /* the first row is committed at once */
+        s.processor_started = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+        s.journal_started = read_clock(CLOCK_THREAD_CPUTIME_ID);
+        status = run_sweep(&s, path, error);
+        read_clocks(&s);
     }
     fst_grid_free(grid);
     return status;

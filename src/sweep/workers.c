@@ -102,13 +102,15 @@ static int row_done(void *user, fst_row_job *row, fst_status status, const fst_r
     return 1;
 }
 
-static int stopped(void *user)
+/* The library's question whether to go on, in any of the threads. */
+static fst_status answer(void *user, double fraction, const char *what, fst_error *error)
 {
     fst_workers *w = user;
+    (void)fraction, (void)what;
     pthread_mutex_lock(&w->lock);
     const int stop = w->stopping;
     pthread_mutex_unlock(&w->lock);
-    return stop;
+    return stop ? fst_fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
 }
 
 static void save_image(void *user, const fst_row_job *job, const void *bytes, size_t size)
@@ -141,12 +143,13 @@ static void *labour(void *user)
 {
     fst_workers *w = user;
     fst_error error = {FST_OK, "", ""};
+    const fst_progress progress = {w, answer};
     const fst_row_work work = {.user = w,
                                .arithmetic = w->identity->arithmetic,
                                .lanes = w->plan.lanes,
                                .next = next_task,
                                .done = row_done,
-                               .stopped = stopped};
+                               .progress = &progress};
     const fst_row_images images = {
         .user = w, .seconds = w->plan.checkpoint_seconds, .save = save_image, .find = find_image};
     const fst_status status = fst_rows_with_images(&work, &images, &error);

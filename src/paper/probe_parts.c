@@ -1,5 +1,5 @@
-/* stages.c - the stages of the paper that make its probes: near the period halving, on the corotating motion,
- * and of beads that the field magnetises. */
+/* probe_parts.c - the parts of the paper's work that make its probes: near the period halving, on the
+ * corotating motion, and of beads that the field magnetises. */
 #include "paper/runs.h"
 #include "paper/work.h"
 
@@ -149,7 +149,7 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *o
         if (!paper->search[dynamics])
             return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d starts", paper->search_count);
     }
-    const fst_paper_stage stages[] = {
+    const fst_paper_pieces parts[] = {
         {"period halving", 0.65, 0.72, FST_HALVING_POINTS * FST_PAPER_DYNAMICS, FST_PAPER_STEP_HALVING,
          halving_piece},
         {"rapid corotation", 0.72, 0.75, FST_PAPER_DYNAMICS * FST_ANSATZ_DRIVES * FST_ANSATZ_STARTS,
@@ -164,8 +164,8 @@ fst_status fst_paper_make_probes(fst_paper_state *paper, const fst_paper_step *o
          FST_PAPER_STEP_REMANENCE, remanence_piece},
     };
     fst_status status = FST_OK;
-    for (size_t i = 0; i < sizeof stages / sizeof stages[0] && status == FST_OK; ++i)
-        if (!only || *only == stages[i].step)
-            status = fst_paper_do(paper, &stages[i], error);
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0] && status == FST_OK; ++i)
+        if (!only || *only == parts[i].step)
+            status = fst_paper_do(paper, &parts[i], error);
     return status;
 }
