@@ -115,23 +115,13 @@ static int take(void *user, fst_row_job *job, fst_status status, const fst_run_r
     return 0;
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 static void in_lanes(double exact, fst_arithmetic arithmetic, int lanes)
 {
     basin b = {.params = dry_bead(), .exact = exact};
     b.params.run_method = FST_METHOD_SPLITTING;
     b.params.run_step = 0.0125;
-    const fst_row_work work = {.user = &b,
-                               .arithmetic = arithmetic,
-                               .lanes = lanes,
-                               .next = next_start,
-                               .done = take,
-                               .stopped = never};
+    const fst_row_work work = {
+        .user = &b, .arithmetic = arithmetic, .lanes = lanes, .next = next_start, .done = take};
     fst_error error = {FST_OK, "", ""};
     const double began = seconds();
     if (fst_rows(&work, &error) != FST_OK) {

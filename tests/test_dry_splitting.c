@@ -58,20 +58,10 @@ static int job_done(void *user, fst_row_job *job, fst_status status, const fst_r
     return 1;
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 static void do_jobs(jobs *j, fst_arithmetic arithmetic, int lanes)
 {
-    const fst_row_work work = {.user = j,
-                               .arithmetic = arithmetic,
-                               .lanes = lanes,
-                               .next = next_job,
-                               .done = job_done,
-                               .stopped = never};
+    const fst_row_work work = {
+        .user = j, .arithmetic = arithmetic, .lanes = lanes, .next = next_job, .done = job_done};
     fst_error error = {FST_OK, "", ""};
     j->next = 0;
     memset(j->done, 0, sizeof j->done);

@@ -52,12 +52,6 @@ static int job_done(void *user, fst_row_job *job, fst_status status, const fst_r
     return 0;
 }
 
-static int never(void *user)
-{
-    (void)user;
-    return 0;
-}
-
 static const struct {
     const char *name;
     size_t offset;
@@ -83,11 +77,8 @@ static void test_means_agree(void **unused)
 {
     (void)unused;
     static rows split;
-    const fst_row_work work = {.user = &split,
-                               .arithmetic = fst_best_arithmetic(),
-                               .next = next_job,
-                               .done = job_done,
-                               .stopped = never};
+    const fst_row_work work = {
+        .user = &split, .arithmetic = fst_best_arithmetic(), .next = next_job, .done = job_done};
     fst_error error = {FST_OK, "", ""};
     if (fst_rows(&work, &error) != FST_OK)
         fail_msg("%s", error.sentence);

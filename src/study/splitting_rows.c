@@ -18,6 +18,7 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "base/watch.h"
 #include "study/conclude.h"
 #include "study/splitting_run.h"
 
@@ -29,7 +30,6 @@ typedef struct source {
     fst_row_job left[MOST_LEFT]; /* jobs that were taken but are of the other side, or could not begin yet */
     int left_count;
     int exhausted; /* the work has no more jobs */
-    int stopped;   /* stopped() has said so */
 } source;
 
 /* Take a job of the present side from the queue. */
@@ -72,13 +72,6 @@ static int job_done(void *user, fst_row_job *job, fst_status status, const fst_r
         return 1;
     s->left[s->left_count++] = *job;
     return 0;
-}
-
-static int is_stopped(void *user)
-{
-    source *s = user;
-    s->stopped = s->stopped || s->work->stopped(s->work->user);
-    return s->stopped;
 }
 
 /* ------------------------------------------------------------------ lanes */
@@ -184,8 +177,8 @@ static fst_status splitting_side(source *from, const fst_splitting_engine *engin
             if (b->lanes[i].busy && (over >> i & 1u))
                 finish(b, i);
         fill(b);
-        if (b->occupied > 0 && is_stopped(from))
-            status = fst_fail(error, FST_INTERRUPTED, "", "interrupted");
+        if (b->occupied > 0)
+            status = fst_tell(from->work->progress, 0.0, NULL, error);
     }
     for (int i = 0; b && i < engine->width; ++i)
         if (b->lanes[i].busy)
@@ -207,7 +200,6 @@ fst_status fst_rows_by_method(const fst_row_work *work, const fst_row_images *im
     side.user = s;
     side.next = next_job;
     side.done = job_done;
-    side.stopped = is_stopped;
     fst_status status = FST_OK;
     while (status == FST_OK && (s->left_count > 0 || !s->exhausted)) {
         s->method = FST_METHOD_EVENTS;
