@@ -33,8 +33,9 @@ static inline void FN(decay)(REAL rate, REAL sigma, REAL *integral, REAL *left)
         -1.0 / 5040.0,     1.0 / 40320.0,       -1.0 / 362880.0,    1.0 / 3628800.0, -1.0 / 39916800.0,
         1.0 / 479001600.0, -1.0 / 6227020800.0, 1.0 / 87178291200.0};
     REAL z = rate * sigma, part = sigma;
+    enum { MOST_HALVINGS = 1100 }; /* of any number that is finite */
     REAL_MASK large = REAL_LESS(R(0.5), REAL_ABS(z));
-    while (REAL_ANY(large)) {
+    for (int i = 0; REAL_ANY(large) && i < MOST_HALVINGS; ++i) {
         z = REAL_SELECT(large, R(0.5) * z, z);
         part = REAL_SELECT(large, R(0.5) * part, part);
         large = REAL_LESS(R(0.5), REAL_ABS(z));
@@ -45,7 +46,7 @@ static inline void FN(decay)(REAL rate, REAL sigma, REAL *integral, REAL *left)
     const REAL quotient = REAL_NEGMULADD(sum, z, R(1.0));
     REAL e = part * quotient, y = REAL_NEGMULADD(z, quotient, R(1.0));
     REAL_MASK halved = REAL_LESS(part, sigma);
-    while (REAL_ANY(halved)) {
+    for (int i = 0; REAL_ANY(halved) && i < MOST_HALVINGS; ++i) {
         e = REAL_SELECT(halved, REAL_MULADD(e, y, e), e);
         y = REAL_SELECT(halved, y * y, y);
         part = REAL_SELECT(halved, part + part, part);

@@ -2,7 +2,7 @@
  *
  * Such a run has no events and no dense output, so it tells less than a run by events: means, extremes among
  * the kicks, how the contact slips and sticks, and the motion's outcome by criteria of its own
- * (docs/dry-splitting.md). Numbers that need located returns, as the symmetry and with it the number of
+ * (docs/splitting.md). Numbers that need located returns, as the symmetry and with it the number of
  * festoons, stay NAN.
  */
 #include "study/splitting_run.h"
