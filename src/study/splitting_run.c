@@ -111,11 +111,18 @@ static double deviation(double mean_square, double mean)
     return sqrt(fmax(mean_square - mean * mean, 0.0));
 }
 
-/* Half the difference of a mean over the two halves of the window. */
-static double half_difference(const fst_splitting_sums *s, int quantity)
+/* The difference of a mean between the two halves of the window.  It is not reported as the error of the mean,
+ * because the error of the step may be greater. */
+static double difference(const fst_splitting_sums *s, int quantity)
 {
-    return 0.5 *
-           fabs(s->half_sum[1][quantity] / s->half_weight[1] - s->half_sum[0][quantity] / s->half_weight[0]);
+    return fabs(s->half_sum[1][quantity] / s->half_weight[1] - s->half_sum[0][quantity] / s->half_weight[0]);
+}
+
+/* The greatest of these, with rates in units of the drive. */
+static double change_of_means(const fst_splitting_run *run, const fst_splitting_sums *s)
+{
+    const double turning = difference(s, FST_MEAN_ALPHA_DOT) / run->model->groups.omega;
+    return fmax(fmax(difference(s, FST_MEAN_R), difference(s, FST_MEAN_NZ)), turning);
 }
 
 static void fill_contact(const fst_splitting_run *run, const fst_splitting_sums *s, fst_run_result *result)
@@ -149,9 +156,6 @@ static void fill_means(const fst_splitting_run *run, const fst_splitting_sums *s
     result->max_r = s->most[FST_SPAN_R];
     result->mean_alpha_dot = s->sum[FST_MEAN_ALPHA_DOT] / s->weight;
     result->mean_nz = s->sum[FST_MEAN_NZ] / s->weight;
-    result->mean_r_error = half_difference(s, FST_MEAN_R);
-    result->mean_alpha_dot_error = half_difference(s, FST_MEAN_ALPHA_DOT);
-    result->mean_nz_error = half_difference(s, FST_MEAN_NZ);
     result->mean_b = s->sum[FST_MEAN_B] / s->weight;
     result->std_b = deviation(s->sum[FST_MEAN_B2] / s->weight, result->mean_b - s->b_reference);
     result->min_b = s->least[FST_SPAN_B];
@@ -165,7 +169,7 @@ static void fill_means(const fst_splitting_run *run, const fst_splitting_sums *s
 /* ------------------------------------------------------------------ the outcome */
 
 /* Phi turns: regularly one way, and with the same means all the time? */
-static void decide_turning(const fst_splitting_sums *s, fst_run_result *result)
+static void decide_turning(const fst_splitting_sums *s, double change, fst_run_result *result)
 {
     const double back = fmin(s->rising, s->falling);
     if (back > 0 || s->rising + s->falling < LEAST_CROSSINGS) {
@@ -178,7 +182,7 @@ static void decide_turning(const fst_splitting_sums *s, fst_run_result *result)
     result->regime = result->mean_alpha_dot < 0 ? FST_REGIME_COUNTER_ROTATING : FST_REGIME_COROTATING;
     result->period = FST_TWO_PI / fabs(result->omega - result->mean_alpha_dot);
     REASON("Phi turns one way, %g half turns in the window, and the means over its halves agree to %.2g",
-           s->rising + s->falling, 2.0 * fmax(result->mean_r_error, result->mean_nz_error));
+           s->rising + s->falling, change);
 }
 
 static void decide(const fst_splitting_run *run, const fst_splitting_sums *s, fst_run_result *result)
@@ -196,8 +200,7 @@ static void decide(const fst_splitting_run *run, const fst_splitting_sums *s, fs
                speed);
         return;
     }
-    const double change = 2.0 * fmax(fmax(result->mean_r_error, result->mean_nz_error),
-                                     result->mean_alpha_dot_error / run->model->groups.omega);
+    const double change = change_of_means(run, s);
     if (turned <= 2 && speed < FALLING * early) {
         REASON("Phi is bounded and the motion is dying out (speed in the turning frame from %.2g to %.2g): run "
                "longer to see whether it locks",
@@ -212,7 +215,7 @@ static void decide(const fst_splitting_run *run, const fst_splitting_sums *s, fs
         return;
     }
     if (turned > 2) {
-        decide_turning(s, result);
+        decide_turning(s, change, result);
         return;
     }
     result->regime = FST_REGIME_LIBRATING;
