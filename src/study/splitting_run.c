@@ -136,6 +136,8 @@ static void fill_contact(const fst_splitting_run *run, const fst_splitting_sums 
     result->mean_rolling_power = result->mean_pivoting_power = 0.0;
     result->sticking = s->sum[FST_MEAN_STICKING] / s->weight;
     result->never_slips = s->captures == 0 && result->sticking > 1.0 - 1e-6;
+    if (result->never_slips)
+        result->sticking = 1.0; /* without the time that a slip of rounding lasts */
     if (!result->never_slips && slip2 > 0)
         result->effective_rate = result->mean_friction_power / slip2;
     if (s->rising + s->falling >= 2)
