@@ -239,6 +239,13 @@ static void test_refusals(void **unused)
     p = dry_bead(0.2, 10.7, 0.02);
     p.friction_contact_rate = 1.0;
     check_refused(&p, "viscous part");
+    p = dry_bead(0.2, 10.7, 0.02);
+    p.contact_patch = FST_PATCH_HERTZ;
+    p.contact_radius = 1e-5;
+    check_refused(&p, "contact.patch point");
+    p = dry_bead(0.2, 10.7, 0.02);
+    p.impact_restitution = 0.7;
+    check_refused(&p, "flight");
     fst_error error = {FST_OK, "", ""};
     p = dry_bead(0.2, 10.7, 0.01);
     assert_int_equal(fst_params_check_effects(&p, &error), FST_OK);

@@ -43,6 +43,10 @@ static fst_status check(const fst_params *p, fst_error *error)
         return refuse("friction.rolling_resistance", "knows no rolling resistance", error);
     if (p->friction_contact_rate != 0.0)
         return refuse("friction.contact_rate", "knows no viscous part of the friction", error);
+    if (p->contact_patch != FST_PATCH_POINT)
+        return refuse("contact.patch", "is for contact.patch point alone", error);
+    if (!isnan(p->impact_restitution))
+        return refuse("impact.restitution", "ends where the bead lifts off, and knows no flight", error);
     return FST_OK;
 }
 
