@@ -12,7 +12,7 @@ build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansso
 demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
 test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
 # A Slurm of its own for the sweep under Slurm: the daemons run as root without systemd, in a container too.
-long_packages="$test_packages libsiconos-numerics-dev slurmctld slurmd slurm-client munge"
+long_packages="$test_packages slurmctld slurmd slurm-client munge"
 bench_packages="$build_packages g++ gnuplot-nox libgsl-dev libboost-dev python3-scipy auto-07p libsiconos-numerics-dev
     libsundials-dev"
 docs_packages="$build_packages doxygen"
@@ -74,25 +74,6 @@ install_missing() {
     $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends $missing
 }
 
-# Siconos brings OpenBLAS, which Debian then puts before the plain LAPACK for every program.  On matrices as small as
-# festoon's its threads only cost time, so a machine that had the plain one keeps it.
-lapack_choices() {
-    update-alternatives --get-selections 2>/dev/null | grep -E '^lib(lapack|blas)[.]so[.]3-' || true
-}
-lapack_before=$(lapack_choices)
-
-keep_plain_lapack() {
-    case "$lapack_before" in *openblas*) return 0 ;; esac
-    lapack_choices | while read -r name mode chosen; do
-        library=${name%%-*}
-        room=${library%%.*}
-        plain=/usr/lib/${name#*.so.3-}/${room#lib}/$library
-        case "$mode $chosen" in
-        "auto "*openblas*) if [ -e "$plain" ]; then $as_root update-alternatives --set "$name" "$plain"; fi ;;
-        esac
-    done
-}
-
 echo "Installing the missing Debian packages: $missing"
 # The package lists are fetched only where there are none, or where those at hand have grown stale.
 if ! ls /var/lib/apt/lists/*_Packages* >/dev/null 2>&1; then
@@ -102,4 +83,3 @@ elif ! install_missing; then
     $as_root apt-get update -q
     install_missing
 fi
-case " $missing " in *" libsiconos-numerics-dev "*) keep_plain_lapack ;; esac
