@@ -1,5 +1,6 @@
 /* statements.c - the list of the paper's statements, each with the command that gives its number again;
  * verdicts.c judges them. */
+#include "paper/dry.h"
 #include "paper/measures.h"
 #include "paper/runs.h"
 #include "paper/statements.h"
@@ -7,6 +8,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const fst_statement statements[] = {
 #define ROW(id, section, text, said, published, scale, unit, digits, rule, measure, scan, step, reads, checks) \
@@ -42,6 +44,23 @@ const fst_statement *fst_statement_at(int index)
     return &statements[index];
 }
 
+static const struct {
+    const char *id;
+    fst_measure measure;
+} dry_statements[] = {
+#define DRY(id, measure) {id, fst_measure_##measure},
+#include "paper/dry_statements.def"
+#undef DRY
+};
+
+fst_measure fst_statement_dry(const fst_statement *statement)
+{
+    for (size_t i = 0; i < sizeof dry_statements / sizeof dry_statements[0]; ++i)
+        if (strcmp(dry_statements[i].id, statement->id) == 0)
+            return dry_statements[i].measure;
+    return NULL;
+}
+
 int fst_statement_known(const fst_statement *statement, const fst_paper_state *paper)
 {
     return fst_paper_has(paper, statement->step, statement->scan);
@@ -61,6 +80,21 @@ int fst_paper_tally(const fst_paper_state *paper, int tally[FST_PAPER_DYNAMICS][
     return count;
 }
 
+int fst_paper_dry_tally(const fst_paper_state *paper, int tally[3])
+{
+    int count = 0;
+    for (int i = 0; i < fst_statement_count(); ++i) {
+        if (statements[i].check || !fst_statement_known(&statements[i], paper))
+            continue;
+        fst_finding finding = fst_statement_check(&statements[i], paper);
+        if (!finding.dry)
+            continue;
+        tally[finding.dry_verdict]++;
+        ++count;
+    }
+    return count;
+}
+
 /* ------------------------------------------------------------------ how to have the number again */
 
 void fst_statement_command(const fst_statement *statement, const fst_paper_state *paper, fst_dynamics dynamics,
@@ -74,6 +108,23 @@ void fst_statement_command(const fst_statement *statement, const fst_paper_state
     }
     fst_paper_scan_command(paper, statement->scan, dynamics, run, sizeof run);
     (void)snprintf(command, size, "%s --json", run);
+}
+
+void fst_statement_dry_command(const fst_statement *statement, const fst_paper_state *paper, char *command,
+                               size_t size)
+{
+    char run[320];
+    if (!statement->reads) {
+        fst_statement_command(statement, paper, FST_DYNAMICS_RIGID, command, size);
+        return;
+    }
+    fst_paper_scan_command(&paper->dry->column, statement->scan, FST_DYNAMICS_RIGID, run, sizeof run);
+    (void)snprintf(command, size, "%s --json", run);
+}
+
+const char *fst_statement_dry_reads(const fst_statement *statement)
+{
+    return statement->reads ? statement->reads : "coulomb";
 }
 
 const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dynamics)
