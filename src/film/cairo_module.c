@@ -24,6 +24,11 @@ static const double diverging_palette[][4] = {{0.0, 0.071, 0.247, 0.549},
                                               {1.0, 0.690, 0.188, 0.0}};
 static const double north[3] = {0.835, 0.369, 0.0}, south[3] = {0.0, 0.447, 0.698};
 
+/* The bead's rim, which tells whether its contact sticks or slips (fst_contact_shown), and the words for it. */
+static const double rims[][3] = {{0.2, 0.2, 0.2}, {0.0, 0.62, 0.45}, {0.90, 0.62, 0.0}};
+static const char *const contact_words[] = {"from the front", "from the front: it sticks",
+                                            "from the front: it slips"};
+
 static void set_shade(cairo_t *pen, int both_signs, double shade)
 {
     const double(*palette)[4] = both_signs ? diverging_palette : line_palette;
@@ -152,9 +157,10 @@ static void paint_bead(cairo_t *pen, const fst_film_layout *layout, const fst_fi
     cairo_clip(pen);
     paint_marks(pen, frame->turn, radius, view);
     cairo_restore(pen);
+    const double *rim = rims[frame->contact];
     cairo_arc(pen, 0.0, 0.0, radius, 0.0, 2.0 * FST_PI);
-    cairo_set_source_rgb(pen, 0.2, 0.2, 0.2);
-    cairo_set_line_width(pen, 0.05 * radius);
+    cairo_set_source_rgb(pen, rim[0], rim[1], rim[2]);
+    cairo_set_line_width(pen, (frame->contact == FST_CONTACT_UNTOLD ? 0.05 : 0.16) * radius);
     cairo_stroke(pen);
 }
 
@@ -220,7 +226,7 @@ static void paint_side(cairo_t *pen, const fst_film_layout *layout, const fst_fi
     paint_bead(pen, layout, frame, 1);
     cairo_restore(pen);
     cairo_set_source_rgb(pen, 0.35, 0.35, 0.35);
-    write_at(pen, left + 6.0, top - 6.0, 0.018 * layout->height, "from the front");
+    write_at(pen, left + 6.0, top - 6.0, 0.018 * layout->height, contact_words[frame->contact]);
 }
 
 static void paint_scale_bar(cairo_t *pen, const fst_film_layout *layout, double scale)

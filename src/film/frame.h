@@ -21,6 +21,9 @@ typedef struct fst_film_layout {
     int both_signs; /* use the palette for both signs */
 } fst_film_layout;
 
+/* Whether the contact slips; under a law by which it may do both. */
+typedef enum { FST_CONTACT_UNTOLD, FST_CONTACT_STICKS, FST_CONTACT_SLIPS } fst_contact_shown;
+
 /* What changes from frame to frame.  The trail runs from its oldest point to the bead; `shade`, from 0 to 1,
  * picks a colour of the palette. */
 typedef struct fst_film_frame {
@@ -28,6 +31,7 @@ typedef struct fst_film_frame {
     double magnet_angle; /* rad */
     double turn[3][3]; /* rotation of the bead, from body to laboratory; the moment is the body's third axis */
     const char *clock; /* "t = 12.3 ms" */
+    fst_contact_shown contact;
     const double *trail_x, *trail_y, *trail_shade;
     int trail;
 } fst_film_frame;

@@ -120,6 +120,9 @@ fst_status fst_film_motion_begin(fst_film_motion *motion, const fst_table *table
     static const char *const names[6] = {"n_x", "n_y", "n_z", "w_x", "w_y", "w_z"};
     for (int i = 0; i < 6; ++i)
         *(i < 3 ? &motion->n[i] : &motion->w[i - 3]) = fst_collected(table, names[i]);
+    const int law = table->params.friction_law;
+    motion->sticking =
+        law == FST_FRICTION_COULOMB || law == FST_FRICTION_ROLLING ? fst_collected(table, "sticking") : NULL;
     fst_status status = find_colour(motion, colour ? colour : "slip", error);
     if (status != FST_OK)
         return status;
@@ -162,6 +165,10 @@ void fst_film_motion_frame(const fst_film_motion *motion, fst_film_frame *frame)
     frame->y = motion->millimetres * (motion->y[row] + part * (motion->y[row + 1] - motion->y[row]));
     double turns = motion->drive_turns[row] + part * (motion->drive_turns[row + 1] - motion->drive_turns[row]);
     frame->magnet_angle = 2.0 * FST_PI * fmod(turns, 1.0);
+    const size_t nearest = part < 0.5 ? row : row + 1;
+    frame->contact = !motion->sticking                 ? FST_CONTACT_UNTOLD
+                     : motion->sticking[nearest] > 0.5 ? FST_CONTACT_STICKS
+                                                       : FST_CONTACT_SLIPS;
     memcpy(frame->turn, motion->turn, sizeof frame->turn);
     roll(motion, row, part, frame->turn);
 }

@@ -167,13 +167,19 @@ static double tilt(const fst_mark *first, const fst_mark *last)
     return FST_DEGREES * asin(sine < 1 ? sine : 1.0);
 }
 
+int fst_never_slips(const fst_window *w, const fst_mark_series *series)
+{
+    const fst_mark *first = &series->kept[0], *last = &series->latest;
+    return w->dry && last->captures == first->captures && mean(first, last, FST_Q_STICKING) > 1.0 - ROUNDING;
+}
+
 /* What a contact with dry friction does, which slips and sticks. */
 static void fill_contact(const fst_window *w, const fst_mark_series *series, fst_run_result *result)
 {
     const fst_mark *first = &series->kept[0], *last = &series->latest;
     const int64_t captures = last->captures - first->captures;
     const double sticking = mean(first, last, FST_Q_STICKING), slip2 = mean(first, last, FST_Q_SLIP2);
-    result->never_slips = captures == 0 && sticking > 1.0 - ROUNDING;
+    result->never_slips = fst_never_slips(w, series);
     result->sticking = result->never_slips ? 1.0 : sticking;
     result->mean_rolling_power = mean(first, last, FST_Q_ROLLING_POWER);
     result->mean_pivoting_power = 0.0;

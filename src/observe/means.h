@@ -7,6 +7,9 @@
 /* Means between two marks of a window: what a row of a ramp tells, and a block of a series. */
 void fst_means_between(const fst_window *w, const fst_mark *first, const fst_mark *last, fst_ramp_point *means);
 
+/* Whether a contact with dry friction stuck all the time between the first and the latest mark of a series. */
+int fst_never_slips(const fst_window *w, const fst_mark_series *series);
+
 /* The means, errors and extremes among the numbers of a result, between the first and the latest mark of one of
  * the window's series; `params` are those of the run. */
 void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fst_params *params,

@@ -115,12 +115,12 @@ fst_flow_info fst_flow_get(const fst_flow *flow)
         memcpy(info.state, copy.step.end, sizeof info.state);
     else
         fst_flow_at(&copy, copy.cursor, info.state);
-    const fst_winding phi = fst_flow_bead_angle(&copy, copy.cursor);
+    const fst_winding angle = fst_flow_bead_angle(&copy, copy.cursor);
     double whole, rest;
     fst_flow_drive_turns(&copy, t, &whole, &rest);
     info.omega = fst_flow_omega(&copy, t);
     info.step = copy.control.proposal;
-    info.bead_angle = fst_winding_angle(&phi);
+    info.bead_angle = fst_winding_angle(&angle);
     info.drive_turns = whole + rest;
     info.alpha = info.bead_angle + FST_TWO_PI * (whole + rest);
     info.norm_drift = flow->norm_drift;

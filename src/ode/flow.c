@@ -56,28 +56,28 @@ void fst_flow_begin_ramp(fst_flow *flow, double rate)
 
 /* Follow the angle over the fractions [x0, x1] of the last step; `state` is the one at x1.  Where the straight
  * line passes the axis closely the path is bisected until it does not, or until the pieces are at rounding. */
-static void follow_bead_angle(fst_flow *flow, fst_winding *phi, double x0, double x1, const double *state)
+static void follow_bead_angle(fst_flow *flow, fst_winding *angle, double x0, double x1, const double *state)
 {
     const double middle = 0.5 * (x0 + x1);
-    if (x1 - x0 > 1e-13 && fst_winding_is_doubtful(phi, state[FST_X], state[FST_Y])) {
+    if (x1 - x0 > 1e-13 && fst_winding_is_doubtful(angle, state[FST_X], state[FST_Y])) {
         double between[FST_STATE_SIZE];
         fst_flow_at(flow, middle, between);
-        follow_bead_angle(flow, phi, x0, middle, between);
-        follow_bead_angle(flow, phi, middle, x1, state);
+        follow_bead_angle(flow, angle, x0, middle, between);
+        follow_bead_angle(flow, angle, middle, x1, state);
         return;
     }
-    fst_winding_advance(phi, state[FST_X], state[FST_Y]);
+    fst_winding_advance(angle, state[FST_X], state[FST_Y]);
 }
 
 fst_winding fst_flow_bead_angle(fst_flow *flow, double x)
 {
     if (x == 1.0)
         return flow->bead_angle;
-    fst_winding phi = flow->bead_angle_start;
+    fst_winding angle = flow->bead_angle_start;
     double state[FST_STATE_SIZE];
     fst_flow_at(flow, x, state);
-    follow_bead_angle(flow, &phi, 0.0, x, state);
-    return phi;
+    follow_bead_angle(flow, &angle, 0.0, x, state);
+    return angle;
 }
 
 void fst_flow_follow(fst_flow *flow, const double *end)

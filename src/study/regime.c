@@ -26,6 +26,7 @@
 #include <string.h>
 
 #include "base/constants.h"
+#include "observe/means.h"
 #include "study/drift.h"
 
 /* Thresholds, scaled.  docs/regimes.md says why these. */
@@ -55,6 +56,15 @@ enum {
     LEAST_PERIODS_WITHOUT_FRICTION = 100 /* without friction, for a wide libration and for chaos */
 };
 
+/* Whether anything takes energy from the motion: friction, unless its contact never slips. */
+static int is_braked(const fst_watched_run *run)
+{
+    const fst_coefficients_double *c = &run->flow->step.context.coefficients;
+    if (!c->kinds.dry)
+        return fst_kinds_brake(&c->kinds);
+    return c->resistance.arm > 0 || !fst_never_slips(&run->window, &run->window.periods);
+}
+
 #define REASON(...) (void)snprintf(result->reason, sizeof result->reason, __VA_ARGS__)
 
 /* What the exponent says: neighbours part exponentially, they do not, the window is too short to tell, or
@@ -74,7 +84,7 @@ static chaos test_chaos(const fst_watched_run *run, const fst_exponent *known, f
     result->rhs_calls += known->rhs_calls;
     result->largest_exponent = exponent;
     result->largest_exponent_error = standard_error;
-    const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
+    const int friction = is_braked(run);
     const double growth = exponent * known->duration;
     const double quiet = friction ? QUIET : QUIET_WITHOUT_FRICTION;
     const chaos found = exponent > SIGNIFICANT * known->chance && growth > GROWTH ? CHAOTIC
@@ -156,7 +166,7 @@ static decision decide_open(const fst_watched_run *run, const fst_exponent *expo
                hidden.what, hidden.change, hidden.turns, hidden.mean, hidden.noise);
         return DECIDED;
     }
-    if (!fst_kinds_brake(&run->flow->step.context.coefficients.kinds)) {
+    if (!is_braked(run)) {
         REASON(
             "Phi turned regularly %lld times on an orbit that does not close (whole returns differ by %.2g): "
             "without friction nothing holds the bead to such an orbit, and it may leave it at any time",
@@ -279,7 +289,7 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
     const chaos found = test_chaos(run, exponent, result);
     if (found != REGULAR)
         return found == NOT_KNOWN ? NEEDS_EXPONENT : DECIDED;
-    const int friction = fst_kinds_brake(&run->flow->step.context.coefficients.kinds);
+    const int friction = is_braked(run);
     if (!friction && run->window.greatest_bead_angle - run->window.least_bead_angle > WIDE &&
         marks->offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
         REASON("Phi stays within %.4g rad, but nothing damps so wide a motion, which may turn out chaotic: run "
