@@ -51,8 +51,8 @@ static fst_status map_params(const fst_paper_state *paper, double mu, double her
                                     {"friction.mu", mu_text},
                                     {"drive.frequency", drive},
                                     {"run.rtol", "1e-7"},
-                                    {"run.discard", paper->options->reduced ? "60" : "100"},
-                                    {"run.periods", paper->options->reduced ? "100" : "160"}};
+                                    {"run.discard", paper->options->reduced ? "60" : "80"},
+                                    {"run.periods", paper->options->reduced ? "100" : "120"}};
     static const char *const at_rest[][2] = {{"start.spin", "rest"}, {"start.r", "0.89"}};
     *params = fst_default_params();
     fst_status status = FST_OK;
@@ -79,7 +79,7 @@ static fst_status map_piece(fst_paper_state *paper, int index, fst_error *error)
     fst_paper_run *run = &paper->dry->map[mu][drive][start];
     const fst_status status =
         map_params(paper, fst_dry_mus[mu], fst_dry_drives[drive], start, &run->params, error);
-    return status == FST_OK ? fst_paper_run_dry(run, &paper->until_refused, NULL, error) : status;
+    return status == FST_OK ? fst_paper_run_dry(run, 1, &paper->until_refused, NULL, error) : status;
 }
 
 /* ------------------------------------------------------------------ all of it */

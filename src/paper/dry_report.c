@@ -85,8 +85,8 @@ void fst_report_dry(FILE *out, const fst_paper_state *paper)
         "third column of the statements below has μ = %g.</p>\n",
         FST_DRY_MU);
     write_facts(out, paper);
-    fputs("<p class=\"fine\">The percentages are distances from the paper's number. Runs of 160 turns of the "
-          "magnet, means after 100. What a bead does depends on its start too: two are shown. A question mark "
+    fputs("<p class=\"fine\">The percentages are distances from the paper's number. Runs of 120 turns of the "
+          "magnet, means after 80. What a bead does depends on its start too: two are shown. A question mark "
           "stands where the motion had not settled. Motions that end in pure rolling settle ever more slowly, "
           "and "
           "which of them a bead ends in depends on its start.</p>\n",
@@ -96,7 +96,7 @@ void fst_report_dry(FILE *out, const fst_paper_state *paper)
     fputs("<p class=\"fine\">Each cell again, and the whole maps:</p>", out);
     fst_report_code(out,
                     "festoon run --set friction.law=coulomb --set friction.mu=0.2 --set drive.frequency=8Hz "
-                    "--set run.rtol=1e-7 --set run.periods=160 --set run.discard=100   # start.spin=rest, "
+                    "--set run.rtol=1e-7 --set run.periods=120 --set run.discard=80   # start.spin=rest, "
                     "start.r=0.89: at rest above a pole");
     fst_report_code(out, "festoon paper --dry-maps -o DIR");
 }

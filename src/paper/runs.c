@@ -111,7 +111,8 @@ static fst_status make_run(fst_paper_state *paper, fst_scan scan, fst_paper_run 
 {
     fst_table *trajectory = scans[scan].samples ? &run->trajectory : NULL;
     if (paper->mu > 0.0)
-        return fst_paper_run_dry(run, &paper->until_refused, trajectory, error);
+        return fst_paper_run_dry(run, paper->counts[scan] == 1 ? 2 : 1, &paper->until_refused, trajectory,
+                                 error);
     const fst_status status =
         fst_paper_run_settled(&run->params, &paper->until_refused, &run->result, trajectory, error);
     run->done = status == FST_OK;

@@ -31,10 +31,11 @@ void fst_paper_table1_command(const fst_paper_state *paper, int row, fst_dynamic
  * `trajectory` may be NULL. */
 fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progress, fst_run_result *result,
                                  fst_table *trajectory, fst_error *error);
-/* Make the run of a bead that rubs dry, and once more, twice as long, if it has not settled.  Motions that end
- * in rolling settle ever more slowly, so that still longer runs would not help: what such a run tells stays in
- * `result`, undecided.  So does a run whose Lyapunov exponent cannot be computed. */
-fst_status fst_paper_run_dry(fst_paper_run *run, const fst_progress *progress, fst_table *trajectory,
+/* Make the run of a bead that rubs dry, and up to `tries` - 1 times more, each time twice as long, if it has
+ * not settled.  Motions that end in rolling settle ever more slowly, so that longer runs would not help them:
+ * what such a run tells stays in `result`, undecided.  So does a run whose Lyapunov exponent cannot be
+ * computed. */
+fst_status fst_paper_run_dry(fst_paper_run *run, int tries, const fst_progress *progress, fst_table *trajectory,
                              fst_error *error);
 /* Whether its regime is decided (neither chaotic nor off the plate) and the errors of its means are small. */
 int fst_paper_is_settled(const fst_run_result *result);

@@ -70,13 +70,13 @@ fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progres
     }
 }
 
-fst_status fst_paper_run_dry(fst_paper_run *run, const fst_progress *progress, fst_table *trajectory,
+fst_status fst_paper_run_dry(fst_paper_run *run, int tries, const fst_progress *progress, fst_table *trajectory,
                              fst_error *error)
 {
     fst_run_options options = fst_default_run_options();
     options.progress = progress;
     fst_status status = FST_OK;
-    for (int again = 0; again < 2 && status == FST_OK; ++again) {
+    for (int again = 0; again < tries && status == FST_OK; ++again) {
         if (again > 0) {
             if (!fst_paper_may_settle(&run->result))
                 break;
