@@ -382,6 +382,9 @@ class Paper(unittest.TestCase):
                    for v in ("reproduced", "close", "not reproduced")]
         tally = "{} statements: farago2020 {} reproduced, {} close, {} not; rigid {}, {}, {}"
         self.assertIn(tally.format(len(claims), *counted), self.summary)
+        dry = [s["coulomb_verdict"] for s in claims if "coulomb" in s]
+        counted = [dry.count(v) for v in ("reproduced", "close", "not reproduced")]
+        self.assertIn("{} of them with dry friction, mu = 0.2: {}, {}, {}".format(len(dry), *counted), self.summary)
 
     def test_keys(self):
         for statement in self.paper["statements"]:

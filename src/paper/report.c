@@ -44,6 +44,14 @@ static void write_summary(FILE *out, const fst_paper_state *paper)
         "<tr><td>rows of Table 1 reproduced, of %d</td><td class=\"n\">%d</td><td class=\"n\">%d</td></tr>\n",
         FST_TABLE1_ROWS, rows[order[0]], rows[order[1]]);
     fputs("</tbody></table></div>\n", out);
+    int dry[3] = {0};
+    const int about_motion = fst_paper_dry_tally(paper, dry);
+    if (about_motion > 0)
+        fprintf(out,
+                "<p>Of these statements, %d are about the bead's motion. With <a href=\"#dry\">dry "
+                "friction</a>, μ = %g, "
+                "%d are reproduced, %d close, %d not.</p>\n",
+                about_motion, FST_DRY_MU, dry[0], dry[1], dry[2]);
 }
 
 /* ------------------------------------------------------------------ Table 1 */
