@@ -39,20 +39,9 @@ typedef struct FN(bead) {
     (&(s)->context.coefficients, (s)->stage[(next)-1], &(s)->context.pull[(next)-1], drive, (s)->stage[(j)-1], \
      &(s)->context.pull[(j)-1], (s)->k[(j)-1])
 #elif defined REAL_IS_SCALAR
-/* The derivative of the state `y` by theta at a stage. */
-static inline void FN(paced_rhs)(FN(bead) * bead, REAL drive, const REAL *y, int stage, REAL *k)
-{
-    const FN(coefficients) *c = &bead->coefficients;
-    FN(rhs)(c, drive, y, k, &bead->pull[stage]);
-    if (!c->kinds.paced)
-        return;
-    const REAL pace = bead->pace[stage] = FN(pace)(c, y);
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        k[i] = pace * k[i];
-}
-
-/* On a ramp: the time since the start of a step of the size h (in theta) at one of its stages, by the method's
- * own weights. */
+/* The time since the start of a step of the size h (in theta) at one of its stages, by the method's own
+ * weights.
+ */
 static inline REAL FN(stage_time)(const FN(bead) * bead, REAL h, int stage)
 {
     static const REAL weights[16][15] = DOP_WEIGHTS;
@@ -60,6 +49,20 @@ static inline REAL FN(stage_time)(const FN(bead) * bead, REAL h, int stage)
     for (int i = 0; i < 15 && i < stage; ++i)
         sum += weights[stage][i] * bead->pace[i];
     return h * sum;
+}
+
+/* The derivative of the state `y` by theta at a stage of a step of the size h. */
+static inline void FN(paced_rhs)(FN(bead) * bead, REAL h, REAL drive, const REAL *y, int stage, REAL *k)
+{
+    FN(coefficients) *c = &bead->coefficients;
+    if (c->kinds.paced && c->law.coulomb.mode == FST_MODE_ONSET)
+        FN(coulomb_lean)(&c->law.coulomb, FN(stage_time)(bead, h, stage));
+    FN(rhs)(c, drive, y, k, &bead->pull[stage]);
+    if (!c->kinds.paced)
+        return;
+    const REAL pace = bead->pace[stage] = FN(pace)(c, y);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        k[i] = pace * k[i];
 }
 
 /* The drive there: `drive` is what it is where theta is t. */
@@ -71,7 +74,7 @@ static inline REAL FN(stage_drive)(const FN(bead) * bead, REAL h, REAL omega, RE
 
 #define STEP_DERIVATIVES(s, drive, j)                                                                          \
     FN(paced_rhs)                                                                                              \
-    (&(s)->context, FN(stage_drive)(&(s)->context, (s)->h, (s)->omega, (s)->ramp, drive, (j)-1),               \
+    (&(s)->context, (s)->h, FN(stage_drive)(&(s)->context, (s)->h, (s)->omega, (s)->ramp, drive, (j)-1),       \
      (s)->stage[(j)-1], (j)-1, (s)->k[(j)-1])
 #else
 #define STEP_DERIVATIVES(s, drive, j)                                                                          \
@@ -116,7 +119,7 @@ static inline REAL FN(finish_step)(FN(bead_step) * s)
         s->stage[12][i] = s->end[i];
 #ifdef REAL_IS_SCALAR
     const REAL drive = FN(stage_drive)(&s->context, s->h, s->omega, s->ramp, s->omega + s->h * s->ramp, 12);
-    FN(paced_rhs)(&s->context, drive, s->end, 12, s->k[12]);
+    FN(paced_rhs)(&s->context, s->h, drive, s->end, 12, s->k[12]);
 #else
     FN(rhs)(&s->context.coefficients, s->omega + s->h * s->ramp, s->end, s->k[12], &s->context.pull[12]);
 #endif
@@ -153,7 +156,7 @@ static inline void FN(begin_steps)(FN(bead_step) * s)
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         s->stage[0][i] = s->y[i];
 #ifdef REAL_IS_SCALAR
-    FN(paced_rhs)(&s->context, s->omega, s->y, 0, s->k[0]);
+    FN(paced_rhs)(&s->context, s->h, s->omega, s->y, 0, s->k[0]);
 #else
     FN(rhs)(&s->context.coefficients, s->omega, s->y, s->k[0], &s->context.pull[0]);
 #endif

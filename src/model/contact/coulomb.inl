@@ -11,14 +11,21 @@
  *
  * Onset.  Where |A| grows past (7/2) mu_s N and sliding friction is no weaker than static, the slip begins with
  * no speed and hardly any acceleration.  Its direction u follows A at the rate |A|/|V|, without bound, so that
- * it cannot be integrated; but just therefore it is known: it lags behind A by the angle lean |V|, where
- * lean = (rate at which A turns in space)/(2 |A| - (7/2) mu N).
+ * it cannot be integrated; but just therefore it is known.  It lags behind A by an angle that is |V| times
+ *
+ *     lean = (rate at which A turns in space)/(2 |A| - (7/2) mu N)
+ *
+ * and a correction in proportion to |V|; `lean` is given as a polynomial in the time since the release
+ * (ode/onset.c).
  *
  * Stribeck: mu(s) = mu_d + (mu_s - mu_d)/(1 + (s/v_S)^2).  Without a speed v_S friction falls at once.
  */
 typedef struct FN(coulomb) {
     REAL mode;         /* FST_MODE_* (model/kinds.h): constant within a step */
-    REAL lean;         /* of the onset */
+    REAL lean;         /* of the onset, now, */
+    REAL lean_slip;    /* and how it grows with |V| */
+    REAL lean_then[3]; /* lean as the polynomial in the time since the release */
+    REAL since;        /* that time at the start of the step */
     REAL sliding;      /* mu_d */
     REAL fall;         /* mu_s - mu_d where a Stribeck speed is given, else 0 */
     REAL holding;      /* mu_s */
@@ -35,6 +42,9 @@ static inline FN(coulomb) FN(make_coulomb)(const fst_params *params, const fst_g
     const FN(coulomb) law = {
         .mode = R(0.0),
         .lean = R(0.0),
+        .lean_slip = R(0.0),
+        .lean_then = {R(0.0), R(0.0), R(0.0)},
+        .since = R(0.0),
         .sliding = REAL_OF(sliding),
         .fall = REAL_OF(isnan(speed) ? 0.0 : holding - sliding),
         .holding = REAL_OF(holding),
@@ -63,6 +73,13 @@ static inline REAL FN(coulomb_load)(const FN(contact) * at)
     return REAL_MAX(at->load, R(0.0));
 }
 
+/* In onset: `lean` at a time after the start of the step. */
+static inline void FN(coulomb_lean)(FN(coulomb) * law, REAL time)
+{
+    const REAL *p = law->lean_then, since = law->since + time;
+    law->lean = REAL_MULADD(since, REAL_MULADD(since, p[2], p[1]), p[0]);
+}
+
 static inline void FN(coulomb_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
 {
     const REAL *v = at->slip, *a = at->push;
@@ -70,7 +87,8 @@ static inline void FN(coulomb_force)(const FN(coulomb) * law, const FN(contact) 
     const REAL inverse_s = REAL_RECIPROCAL_SQRT(s2 + R(1e-290));
     const REAL inverse_a = REAL_RECIPROCAL_SQRT(SUM_2(a[0], a[0], a[1], a[1]) + R(1e-290));
     const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a}; /* A/|A|, and u as it lags behind */
-    const REAL lag = law->lean * SUM_2(v[0], ahead[0], v[1], ahead[1]);
+    const REAL along = SUM_2(v[0], ahead[0], v[1], ahead[1]);
+    const REAL lag = along * REAL_MULADD(law->lean_slip, along, law->lean);
     const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
     const REAL u[2] = {(ahead[0] + lag * ahead[1]) * inverse_u, (ahead[1] - lag * ahead[0]) * inverse_u};
     const REAL_MASK sticks = REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
