@@ -1,5 +1,5 @@
-/* Rows under dry friction: whatever the arithmetic they are done with, and however often they are broken off and
- * go on from an image, in slip, stick or onset, they have the bits of fst_run(). */
+/* Rows under dry friction: whatever the arithmetic they are done with, and however often they are broken off
+ * and go on from an image, in slip, stick or onset, they have the bits of fst_run(). */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -88,7 +88,8 @@ static void *find(void *user, const fst_row_job *job, size_t *size)
     return bytes;
 }
 
-/* Does all jobs, broken off again and again, each time after some more questions than before, so that it ends. */
+/* Does all jobs, broken off again and again, each time after some more questions than before, so that it ends.
+ */
 static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int patience)
 {
     const fst_row_images images = {.user = s, .seconds = 0.0, .save = save, .find = find};
@@ -124,7 +125,8 @@ static void check_rows(const store *s, const store *runs, fst_arithmetic arithme
         if (in_lanes && arithmetic != FST_ARITHMETIC_PORTABLE)
             continue;
         if (s->statuses[i] != runs->statuses[i])
-            fail_msg("job %d, form %d: status %d, of the run %d", i, (int)arithmetic, (int)s->statuses[i], (int)runs->statuses[i]);
+            fail_msg("job %d, form %d: status %d, of the run %d", i, (int)arithmetic, (int)s->statuses[i],
+                     (int)runs->statuses[i]);
         if (s->statuses[i] == FST_OK)
             check_same_result(i, &s->results[i], &runs->results[i]);
     }

@@ -1,5 +1,5 @@
-/* Dry friction: time along a trajectory whose steps are not measured in time.  It lands where it is asked to, finds
- * events where a step of another kind of integration finds them, and does not run backwards. */
+/* Dry friction: time along a trajectory whose steps are not measured in time.  It lands where it is asked to,
+ * finds events where a step of another kind of integration finds them, and does not run backwards. */
 #include "physics.h"
 
 #include "model/model.h"
@@ -22,8 +22,8 @@ static fst_flow *begun(const fst_params *p, double rtol, fst_model **model)
     return flow_of(*model, rtol, start);
 }
 
-/* Each of many times is met exactly, often several within a step; to ask again is no work; and the states are those
- * of a trajectory that lands on each time by a step of its own. */
+/* Each of many times is met exactly, often several within a step; to ask again is no work; and the states are
+ * those of a trajectory that lands on each time by a step of its own. */
 static void test_landing(void **unused)
 {
     (void)unused;
@@ -72,8 +72,8 @@ static void test_landing_by_steps(void **unused)
     fst_model_free(again);
 }
 
-/* Sections: X = 0 there, the time is that at which a trajectory made to land there has X = 0, times grow, Phi is an
- * odd multiple of pi/2, and events do not disturb the trajectory. */
+/* Sections: X = 0 there, the time is that at which a trajectory made to land there has X = 0, times grow, Phi
+ * is an odd multiple of pi/2, and events do not disturb the trajectory. */
 static void test_sections(void **unused)
 {
     (void)unused;
@@ -107,8 +107,8 @@ static void test_sections(void **unused)
     fst_model_free(again);
 }
 
-/* Within a slip the time at a fraction and the fraction at a time are each other's inverse, and the clock goes as
- * the state does: x moves by v. */
+/* Within a slip the time at a fraction and the fraction at a time are each other's inverse, and the clock goes
+ * as the state does: x moves by v. */
 static void test_clock(void **unused)
 {
     (void)unused;
@@ -154,8 +154,8 @@ static void test_no_way_back(void **unused)
     fst_model_free(model);
 }
 
-/* A drive that rises while steps are measured in theta: against steps so small that the drive is constant in each.
- * The latter is of the second order in their size. */
+/* A drive that rises while steps are measured in theta: against steps so small that the drive is constant in
+ * each. The latter is of the second order in their size. */
 static void test_ramp(void **unused)
 {
     (void)unused;
@@ -200,8 +200,8 @@ static void test_ramp(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_landing),  cmocka_unit_test(test_landing_by_steps),
-        cmocka_unit_test(test_sections), cmocka_unit_test(test_clock),
+        cmocka_unit_test(test_landing),     cmocka_unit_test(test_landing_by_steps),
+        cmocka_unit_test(test_sections),    cmocka_unit_test(test_clock),
         cmocka_unit_test(test_no_way_back), cmocka_unit_test(test_ramp),
     };
     return cmocka_run_group_tests_name("dry_time", tests, NULL, NULL);

@@ -284,7 +284,7 @@ FST_API fst_status fst_paper(const char *directory, const fst_paper_options *opt
 
 /* Compute maps of what becomes of a bead that rubs dry, over the coefficient of friction and the drive, from
  * four starts, into `directory` (made if missing): for each start a sweep's database, its rows as CSV and
- * figures; and dry-maps.md, a table of outcomes.  They take many minutes.  Killed or interrupted at any moment,
+ * figures; and a table of outcomes, as Markdown.  They take many minutes.  Killed or interrupted at any moment,
  * the same call goes on. */
 FST_API fst_status fst_paper_dry_maps(const char *directory, const fst_progress *progress, fst_error *error);
 

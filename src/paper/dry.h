@@ -5,8 +5,8 @@
 
 #include "paper/statements.h"
 
-/* The coefficient of friction that agrees best with the paper's words (docs/dry-friction.md tells how it was
- * found): the third column of the statements has it. */
+/* The coefficient of friction that agrees best with the paper's words (the page on dry friction in docs tells
+ * how it was found): the third column of the statements has it. */
 #define FST_DRY_MU 0.2
 
 enum {
