@@ -232,7 +232,9 @@ static double onset_of(const law_runs *runs)
     double from = NAN;
     for (int i = runs->count - 1; i >= 0; --i) {
         const fst_run_result *result = &runs->of[i]->result;
-        if (result->frequency_hz > 20.0)
+        /* A viscous motion that has not settled has no means: it does not tell. */
+        if (result->frequency_hz > 20.0 ||
+            (result->regime == FST_REGIME_UNDECIDED && isnan(result->mean_alpha_dot)))
             continue;
         if (fst_outcome(result) != FST_OUTCOME_AGAINST)
             break;
