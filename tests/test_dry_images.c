@@ -125,8 +125,8 @@ static void check_rows(const store *s, const store *runs, fst_arithmetic arithme
         if (in_lanes && arithmetic != FST_ARITHMETIC_PORTABLE)
             continue;
         if (s->statuses[i] != runs->statuses[i])
-            fail_msg("job %d, form %d: status %d, of the run %d", i, (int)arithmetic, (int)s->statuses[i],
-                     (int)runs->statuses[i]);
+            fail_msg("%d times broken off: job %d, form %d: status %d, of the run %d", s->broken_off, i,
+                     (int)arithmetic, (int)s->statuses[i], (int)runs->statuses[i]);
         if (s->statuses[i] == FST_OK)
             check_same_result(i, &s->results[i], &runs->results[i]);
     }

@@ -197,12 +197,65 @@ static void test_ramp(void **unused)
     fst_model_free(model);
 }
 
+/* ------------------------------------------------------------------ runs */
+
+typedef struct watch {
+    const fst_model *model;
+    double start[FST_STATE_SIZE], period, ramp_from, ramp_rate;
+    int samples, checked;
+} watch;
+
+/* A sample is at its time, and there is the state of a trajectory that was made to land there. */
+static fst_status look(void *user, const fst_sample *sample, fst_error *error)
+{
+    (void)error;
+    watch *w = user;
+    CHECK_CLOSE(sample->t, w->samples * w->period / 16, 1e-12 * (1 + sample->t));
+    if (w->samples++ % 7)
+        return FST_OK;
+    fst_flow_options options = fst_default_flow_options();
+    fst_flow *flow;
+    if (fst_flow_new(w->model, &options, w->start, &flow, error) != FST_OK)
+        fail_msg("%s", error->sentence);
+    advance_to(flow, sample->t, 0);
+    const fst_flow_info info = fst_flow_get(flow);
+    CHECK_CLOSE(greatest_difference(info.state, sample->state, FST_STATE_SIZE), 0, 1e-7);
+    CHECK_CLOSE(sample->drive_turns, info.drive_turns, 1e-12);
+    CHECK_CLOSE(sample->omega, 0.215, 0);
+    CHECK_CLOSE(sample->seen.slip_norm, fst_observe(w->model, info.state).slip_norm, 1e-7);
+    fst_flow_free(flow);
+    w->checked += 1;
+    return FST_OK;
+}
+
+static void test_samples(void **unused)
+{
+    (void)unused;
+    fst_params p = dry_bead();
+    p.run_periods = 6;
+    p.run_discard = 0;
+    p.run_samples = 16;
+    fst_model *model = model_of(&p);
+    watch w = {.model = model, .period = TWO_PI / 0.215};
+    start_of(&p, model, w.start);
+    fst_run_options options = fst_default_run_options();
+    options.sink.user = &w;
+    options.sink.sample = look;
+    fst_run_result result;
+    fst_error error = {FST_OK, "", ""};
+    (void)fst_run(&p, &options, &result, &error);
+    CHECK_WITHIN(w.samples, 6 * 16, 6 * 16 + 1);
+    assert_true(w.checked > 12);
+    fst_model_free(model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_landing),     cmocka_unit_test(test_landing_by_steps),
         cmocka_unit_test(test_sections),    cmocka_unit_test(test_clock),
         cmocka_unit_test(test_no_way_back), cmocka_unit_test(test_ramp),
+        cmocka_unit_test(test_samples),
     };
     return cmocka_run_group_tests_name("dry_time", tests, NULL, NULL);
 }

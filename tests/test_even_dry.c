@@ -12,6 +12,7 @@ static fst_model *pulled(double force, double mu, double mu_static)
     fst_error error;
     if (fst_params_set(&p, "magnet.shape", "even", &error) != FST_OK)
         fail_msg("%s", error.sentence);
+    p.plate_gravity *= 100; /* so that slips are over before the bead turns round many times */
     p.bead_material = FST_MATERIAL_PARAMAGNETIC;
     p.bead_a = 0.5;
     p.own_slope = force; /* F = 2 a G B */
@@ -78,7 +79,7 @@ static void check_capture(double part, double angle)
         const double s = hypot(v[0], v[1]), t = flow->t.high;
         if (fst_contact_mode(flow) != FST_MODE_SLIP)
             break;
-        CHECK_CLOSE(c * s + a * v[0] + (c * c - a * a) * t, c * s0 + a * s0 * cos(angle), 1e-12);
+        CHECK_CLOSE(c * s + a * v[0] + (c * c - a * a) * t, c * s0 + a * s0 * cos(angle), 1e-10 * c);
         if (s > 0.01) {
             const double d = atan2(v[1], v[0]);
             CHECK_CLOSE(s * sin(d) * pow(tan(0.5 * d), -c / a) / invariant, 1, 1e-10 * (1 + c / a) / sin(d));

@@ -34,7 +34,8 @@
  * which the error of onset, (hand-over)^(7/2), shrinks like the tolerance (onset.c).
  *
  */
-#include "ode/flow.h"
+#include "ode/disc.h"
+#include "ode/flight.h"
 
 #include "base/error.h"
 
@@ -59,6 +60,11 @@ static fst_coulomb_double *law_of(fst_flow *flow)
 static double norm(const double v[2])
 {
     return sqrt(v[0] * v[0] + v[1] * v[1]);
+}
+
+static int is_disc(const fst_flow *flow)
+{
+    return flow->step.context.coefficients.kinds.patch != FST_PATCH_POINT;
 }
 
 /* The greatest |A| that static friction takes. */
@@ -96,18 +102,52 @@ static fst_contact_double contact_at(const fst_flow *flow, const double *state)
 
 /* ------------------------------------------------------------------ changes of mode */
 
-/* Change the slip by an impulse of the plate: the moment about the contact stays what it was. */
-static void set_slip(const fst_coefficients_double *c, double *state, const double slip[2])
+/* A disc is held, or let go of, at `state`. */
+static void hold_disc(const fst_flow *flow, int mode, double *state)
 {
-    double before[2];
-    fst_slip_double(c, state, before);
-    const double change[2] = {slip[0] - before[0], slip[1] - before[1]};
-    state[FST_VX] += 2.0 / 7.0 * change[0];
-    state[FST_VY] += 2.0 / 7.0 * change[1];
-    state[FST_WX] += 5.0 / (7.0 * c->eps) * change[1];
-    state[FST_WY] -= 5.0 / (7.0 * c->eps) * change[0];
-    if (slip[0] == 0.0 && slip[1] == 0.0)
-        fst_stop_slip_double(c, state);
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    fst_pull_double p;
+    double slip[2] = {0.0, 0.0}, pivot = 0.0;
+    fst_magnetic_pull_double(c, state, &p);
+    if (mode == FST_MODE_SLIP && fst_contact_mode(flow) != FST_MODE_STICK)
+        return;
+    if (mode == FST_MODE_SLIP)
+        fst_disc_release(flow, state, &p, slip, &pivot);
+    fst_set_slip_double(c, state, slip);
+    state[FST_WZ] = pivot;
+}
+
+/* The mode of a bead whose contact lets go: slip, if friction falls at once, so that the slip has an
+ * acceleration to begin with. */
+static int released_mode(const fst_flow *flow)
+{
+    const fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
+    const int falls_at_once = law->holding > FALL_AT_ONCE * fst_coulomb_mu_double(law, 0.0);
+    return falls_at_once || is_disc(flow) ? FST_MODE_SLIP : FST_MODE_ONSET;
+}
+
+/* The mode of a bead that is put down in a state. */
+static int mode_at(const fst_flow *flow, const double *state)
+{
+    fst_pull_double p;
+    fst_magnetic_pull_double(&flow->step.context.coefficients, state, &p);
+    if (fst_flight_allowed(flow) && fst_flight_load(flow, state, &p) < 0)
+        return FST_MODE_FLIGHT;
+    if (is_disc(flow))
+        return fst_disc_rests(flow, state, &p) ? FST_MODE_STICK : FST_MODE_SLIP;
+    const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, &p);
+    if (norm(at.slip) > captured(flow))
+        return FST_MODE_SLIP;
+    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : released_mode(flow);
+}
+
+/* A bead leaves the plate, or comes back to it: the mode that follows. */
+static int leave_or_return(fst_flow *flow, double *state)
+{
+    if (fst_flight_is_on(flow))
+        return fst_flight_impact(flow, state) ? mode_at(flow, state) : FST_MODE_FLIGHT;
+    fst_flight_begin(flow, 0.0);
+    return FST_MODE_FLIGHT;
 }
 
 /* The mode changes at `state`, which may be moved by less than anything else feels. */
@@ -117,49 +157,41 @@ static void enter(fst_flow *flow, int mode, double *state)
     fst_coulomb_double *law = law_of(flow);
     static const double nothing[2] = {0.0, 0.0};
     double slip[2];
-    fst_slip_double(c, state, slip);
     flow->contact.proposal[fst_contact_mode(flow)] = flow->control.proposal;
-    if (mode == FST_MODE_STICK) {
-        set_slip(c, state, nothing);
+    if (mode == FST_MODE_FLIGHT)
+        mode = leave_or_return(flow, state);
+    fst_slip_double(c, state, slip);
+    if (mode == FST_MODE_FLIGHT) {
+        ; /* the state is no matter of the plate */
+    } else if (is_disc(flow)) {
+        hold_disc(flow, mode, state);
+    } else if (mode == FST_MODE_STICK) {
+        fst_set_slip_double(c, state, nothing);
     } else if (mode == FST_MODE_ONSET) {
         fst_contact_begin_onset(flow, state);
         flow->contact.released = flow->t;
     } else if (norm(slip) < captured(flow)) {
         const fst_contact_double at = contact_at(flow, state);
         const double part = captured(flow) / norm(at.push);
-        set_slip(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
+        fst_set_slip_double(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
     }
     law->mode = mode;
     flow->control.proposal = flow->contact.proposal[mode] > 0 ? flow->contact.proposal[mode] : FIRST_SIZE;
     flow->contact.next_mode = -1;
 }
 
-/* The mode of a bead whose contact lets go: slip, if friction falls at once, so that the slip has an
- * acceleration to begin with. */
-static int released_mode(const fst_flow *flow)
-{
-    const fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
-    const int falls_at_once = law->holding > FALL_AT_ONCE * fst_coulomb_mu_double(law, 0.0);
-    return falls_at_once ? FST_MODE_SLIP : FST_MODE_ONSET;
-}
-
-/* The mode of a bead that is put down in a state. */
-static int mode_at(const fst_flow *flow, const double *state)
-{
-    const fst_contact_double at = contact_at(flow, state);
-    if (norm(at.slip) > captured(flow))
-        return FST_MODE_SLIP;
-    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : released_mode(flow);
-}
-
 void fst_contact_put_down(fst_flow *flow, double *state)
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
     static const double nothing[2] = {0.0, 0.0};
-    if (c->kinds.paced)
+    if (is_disc(flow))
+        fst_disc_begin(flow);
+    if (fst_flight_is_on(flow))
+        fst_flight_go_on(flow);
+    else if (c->kinds.paced)
         enter(flow, mode_at(flow, state), state);
     else if (c->kinds.contact == FST_FRICTION_ROLLING)
-        set_slip(c, state, nothing);
+        fst_set_slip_double(c, state, nothing);
 }
 
 /* ------------------------------------------------------------------ events that end a mode */
@@ -167,6 +199,8 @@ void fst_contact_put_down(fst_flow *flow, double *state)
 /* What static friction could still take. */
 static double release_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
+    if (is_disc(flow))
+        return fst_disc_hold(flow, state, p) + RELEASE_SLACK;
     const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, p);
     const double most = hold(flow, &at);
     return most * (1.0 + RELEASE_SLACK) - norm(at.push);
@@ -202,13 +236,22 @@ static int onset_is_long(fst_flow *flow, double *x)
 static double mode_ends(fst_flow *flow, int *next)
 {
     double first = 2.0, x;
-    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x)) {
+    if (fst_flight_is_on(flow)) {
+        *next = FST_MODE_FLIGHT;
+        return fst_flight_lands(flow, &x) ? x : first;
+    }
+    if (fst_flight_allowed(flow) && fst_flow_first_negative(flow, fst_flight_load, 0.0, &x)) {
+        *next = FST_MODE_FLIGHT;
+        first = x;
+    }
+    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x) &&
+        x < first) {
         *next = released_mode(flow);
         first = x;
     }
     if (fst_contact_mode(flow) != FST_MODE_ONSET)
         return first;
-    if (fst_flow_first_negative(flow, until_handed_over, 0.0, &x) || onset_is_long(flow, &x)) {
+    if ((fst_flow_first_negative(flow, until_handed_over, 0.0, &x) || onset_is_long(flow, &x)) && x < first) {
         *next = FST_MODE_SLIP;
         first = x;
     }
@@ -238,6 +281,8 @@ static int after_slip(const fst_flow *flow)
     const fst_bead_step_double *s = &flow->step;
     if (fst_contact_mode(flow) != FST_MODE_SLIP)
         return -1;
+    if (is_disc(flow))
+        return fst_disc_rests(flow, s->end, FST_PATH_PULL(s, FST_PATH_END)) ? FST_MODE_STICK : -1;
     const fst_contact_double at =
         fst_contact_of_double(&s->context.coefficients, s->end, FST_PATH_PULL(s, FST_PATH_END));
     if (norm(at.slip) > captured(flow) && !falls_no_more(flow, at.slip))
@@ -273,6 +318,20 @@ static void land(fst_flow *flow, double rest)
     }
 }
 
+/* Make the last step anew, up to the event at its fraction x: a bead in the air comes down just there. */
+static void cut_at(fst_flow *flow, double x)
+{
+    enum { TRIES = 4 };
+    if (x < 1.0)
+        make_anew(flow, x * flow->step.h);
+    for (int i = 0; fst_flight_is_on(flow) && i < TRIES; ++i) {
+        const double missing = fst_flight_missing(flow);
+        if (fabs(missing) <= 1e-15 * (1.0 + fabs(flow->t.high)) || missing < -0.5 * flow->step.h)
+            return;
+        make_anew(flow, flow->step.h + missing);
+    }
+}
+
 fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
 {
     const fst_twofold limit = {t_limit, 0.0};
@@ -299,8 +358,8 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
     const int lands = end <= 1.0 && end <= event;
     if (lands)
         land(flow, rest);
-    else if (event < 1.0)
-        make_anew(flow, event * flow->step.h);
+    else if (event <= 1.0)
+        cut_at(flow, event);
     flow->rhs_calls += 1;
     flow->accepted += 1;
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));

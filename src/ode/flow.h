@@ -14,12 +14,14 @@
 
 /* The contact of a bead under a law with modes (contact.c). */
 typedef struct fst_contact_state {
-    int next_mode;        /* begins with the next step; -1: the mode goes on */
-    int64_t captures;     /* slips that came to rest before the last step */
-    fst_twofold released; /* when the last onset began */
-    double proposal[3];   /* size of the next step in each mode */
-    double clock[8];      /* dense output of the time over the last step, */
-    int has_clock;        /* once formed */
+    int next_mode;              /* begins with the next step; -1: the mode goes on */
+    int64_t captures;           /* slips that came to rest before the last step */
+    fst_twofold released;       /* when the last onset began */
+    double proposal[FST_MODES]; /* size of the next step in each mode */
+    int64_t impacts; /* of a bead that flew, the impulses that held it up, and the energy they took */
+    double impulse, impact_loss;
+    double clock[8]; /* dense output of the time over the last step, */
+    int has_clock;   /* once formed */
 } fst_contact_state;
 
 /* The error of a bead's step over its tolerance. */
