@@ -8,7 +8,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const fst_statement statements[] = {
 #define ROW(id, section, text, said, published, scale, unit, digits, rule, measure, scan, step, reads, checks) \
@@ -42,23 +41,6 @@ int fst_statement_count(void)
 const fst_statement *fst_statement_at(int index)
 {
     return &statements[index];
-}
-
-static const struct {
-    const char *id;
-    fst_measure measure;
-} dry_statements[] = {
-#define DRY(id, measure) {id, fst_measure_##measure},
-#include "paper/dry_statements.def"
-#undef DRY
-};
-
-fst_measure fst_statement_dry(const fst_statement *statement)
-{
-    for (size_t i = 0; i < sizeof dry_statements / sizeof dry_statements[0]; ++i)
-        if (strcmp(dry_statements[i].id, statement->id) == 0)
-            return dry_statements[i].measure;
-    return NULL;
 }
 
 int fst_statement_known(const fst_statement *statement, const fst_paper_state *paper)
