@@ -22,6 +22,8 @@ RANGES = {
     "friction.gamma": ("0.3 1/ms:330 1/s", 300, 330), "friction.mu": ("0.1:0.3", 0.1, 0.3),
     "friction.mu_static": ("0.25:0.4", 0.25, 0.4), "friction.stribeck_speed": ("1 mm/s:0.01", 1e-3, 1e-2),
     "friction.rolling_resistance": ("1e-4:1e-3", 1e-4, 1e-3), "friction.contact_rate": ("1:0.1 1/ms", 1, 100),
+    "contact.radius": ("0.1mm:200um", 1e-4, 2e-4), "contact.modulus": ("2 MPa:0.004 GPa", 2e6, 4e6),
+    "impact.restitution": ("0:0.5", 0, 0.5),
     "model.kappa": ("1:2", 1, 2), "model.eps": ("0.1:0.12", 0.1, 0.12), "model.h": ("0.7:0.9", 0.7, 0.9),
     "model.lambda": ("0.3:0.5", 0.3, 0.5), "plate.radius": ("20cm:230mm", 0.2, 0.23),
     "plate.gravity": ("9.8 m/s2:10", 9.8, 10), "start.r": ("0.5:0.9", 0.5, 0.9),
@@ -31,9 +33,11 @@ RANGES = {
 DRY = "friction.law=coulomb"
 NEEDS = {"bead.a": ["bead.material=paramagnetic"], "bead.b": ["bead.material=mixed"], "friction.mu_static": [DRY],
          "friction.stribeck_speed": [DRY, "friction.mu_static=0.4"], "friction.rolling_resistance": [DRY],
-         "friction.contact_rate": [DRY]}
-# Parameters that no row shows: the tesla scale, masses if kappa is given, and an edge that is not reached.
-INVISIBLE = {"bead.moment", "magnet.b0", "bead.mass", "plate.radius"}
+         "friction.contact_rate": [DRY], "contact.radius": [DRY, "contact.patch=hertz"],
+         "contact.modulus": [DRY, "contact.patch=hertz"], "impact.restitution": [DRY]}
+# Parameters that no row shows: the tesla scale, masses if kappa is given, an edge that is not reached, and how a
+# bead bounces that does not leave the plate.
+INVISIBLE = {"bead.moment", "magnet.b0", "bead.mass", "plate.radius", "impact.restitution"}
 WHOLE = {"magnet.lines"}
 REFUSED = {"run.samples": "changes nothing in a row"}
 

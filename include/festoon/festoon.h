@@ -98,6 +98,7 @@ typedef enum { FST_CONTACTS(FST_CONTACT_ENUM) FST_FRICTION_LAWS } fst_friction_l
 #undef FST_SOURCE_ENUM
 #undef FST_CONTACT_ENUM
 typedef enum { FST_DYNAMICS_RIGID, FST_DYNAMICS_FARAGO2020 } fst_dynamics;
+typedef enum { FST_PATCH_POINT, FST_PATCH_HERTZ, FST_PATCH_PADE } fst_contact_patch;
 typedef enum { FST_SPIN_ROLLING, FST_SPIN_REST } fst_start_spin;
 
 /* The kinds of unit that a parameter may carry (params.def). */
@@ -111,7 +112,8 @@ typedef enum {
     FST_UNIT_RATE,         /* 1/s; 1/s s-1 1/ms */
     FST_UNIT_ACCELERATION, /* m/s^2; m/s2 m/s^2 */
     FST_UNIT_SPEED,        /* m/s; mm/s cm/s m/s */
-    FST_UNIT_ANGLE         /* deg; deg rad turn */
+    FST_UNIT_ANGLE,        /* deg; deg rad turn */
+    FST_UNIT_PRESSURE      /* Pa; Pa kPa MPa GPa */
 } fst_unit;
 
 /* A setup in SI units: what a scene says.  Get one from fst_default_params(), change fields, and make a model

@@ -44,6 +44,10 @@ static const unit_row unit_rows[] = {
     {FST_UNIT_SPEED, "m/s", 0, 1, 1},
     {FST_UNIT_SPEED, "cm/s", -2, 1, 1},
     {FST_UNIT_SPEED, "mm/s", -3, 1, 1},
+    {FST_UNIT_PRESSURE, "Pa", 0, 1, 1},
+    {FST_UNIT_PRESSURE, "kPa", 3, 1, 1},
+    {FST_UNIT_PRESSURE, "MPa", 6, 1, 1},
+    {FST_UNIT_PRESSURE, "GPa", 9, 1, 1},
     {FST_UNIT_ANGLE, "deg", 0, 1, 1},
     {FST_UNIT_ANGLE, "rad", 0, 180, FST_PI},
     {FST_UNIT_ANGLE, "turn", 0, 360, 1},
@@ -64,6 +68,7 @@ static const struct {
     [FST_UNIT_RATE] = {"1/s", "1/s s-1 1/ms", "1/s"},
     [FST_UNIT_ACCELERATION] = {"m/s^2", "m/s^2", "m/s2"},
     [FST_UNIT_SPEED] = {"m/s", "mm/s cm/s m/s", "mm/s"},
+    [FST_UNIT_PRESSURE] = {"Pa", "Pa kPa MPa GPa", "GPa"},
     [FST_UNIT_ANGLE] = {"deg", "deg rad turn", "deg"},
 };
 

@@ -128,6 +128,11 @@ static void print_contact(FILE *out, const fst_groups *g, const fst_run_result *
                "1/s");
     print_line(out, "power lost to rolling", s->mean_rolling_power, NAN, "l^2 gamma^3", power, "mW");
     print_line(out, "power lost to pivoting", s->mean_pivoting_power, NAN, "l^2 gamma^3", power, "mW");
+    if (s->flying > 0) {
+        print_line(out, "in the air, share of time", s->flying, NAN, "", 1, NULL);
+        print_line(out, "  impacts, a turn of Phi", s->impacts_per_return, NAN, "", 1, NULL);
+        print_line(out, "power lost to impacts", s->mean_impact_power, NAN, "l^2 gamma^3", power, "mW");
+    }
 }
 
 static void print_forces(FILE *out, const fst_groups *g, const fst_run_result *s)

@@ -60,6 +60,20 @@ static void value_text(const fst_params *params, int index, char *text, size_t s
     (void)fst_value_write(text, size, value, info->unit);
 }
 
+/* Whether any key of the group that begins at a parameter has a value. */
+static int group_has_value(const fst_params *params, int index, size_t group_length)
+{
+    const char *group = fst_param_at(index)->key;
+    char value[64];
+    for (int i = index; i < fst_param_count(); ++i)
+        if (strncmp(fst_param_at(i)->key, group, group_length + 1) == 0) {
+            value_text(params, i, value, sizeof value);
+            if (value[0])
+                return 1;
+        }
+    return 0;
+}
+
 static void write_scene(FILE *out, const fst_params *params, int commented)
 {
     char group[32] = "", value[64];
@@ -75,7 +89,9 @@ static void write_scene(FILE *out, const fst_params *params, int commented)
             continue;
         if (strncmp(group, info->key, group_length) != 0 || group[group_length]) {
             (void)snprintf(group, sizeof group, "%.*s", (int)group_length, info->key);
-            (void)fprintf(out, "%s%s:\n", commented ? "\n" : "", group);
+            /* YAML wants something below a key: a group without a value is a comment itself. */
+            (void)fprintf(out, "%s%s%s:\n", commented ? "\n" : "",
+                          group_has_value(params, i, group_length) ? "" : "# ", group);
         }
         if (commented) {
             write_comment(out, info->doc);

@@ -3,6 +3,7 @@
  * The including file says which kind of number REAL is (base/real_double.h, base/wide.h, ...).  The derivative
  * of all this along a direction, tangent.inl, is included where it is needed.
  */
+#include "base/constants.h"
 #include "model/kinds.h"
 #include "model/quantities.h"
 

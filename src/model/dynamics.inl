@@ -155,6 +155,12 @@ static inline void FN(lost_term)(const REAL *n, const REAL *w, REAL out[3])
     out[2] = spin * (w[0] * n[1] - w[1] * n[0]);
 }
 
+/* The mask of a bead in the air. */
+static inline REAL_MASK FN(in_flight)(const FN(coefficients) * c)
+{
+    return REAL_LESS(REAL_OF(FST_MODE_FLIGHT) - R(0.5), c->law.coulomb.mode);
+}
+
 static inline __attribute__((always_inline)) FN(contact)
     FN(contact_of)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p)
 {
@@ -162,9 +168,13 @@ static inline __attribute__((always_inline)) FN(contact)
     FN(contact) at;
     FN(slip)(c, y, at.slip);
     at.load = FN(load)(c, p->force);
+    if (c->kinds.flies)
+        at.load = REAL_SELECT(FN(in_flight)(c), R(0.0), at.load);
     at.push[0] = at.push[1] = at.torque[0] = at.torque[1] = at.torque[2] = R(0.0);
+    at.patch = c->kinds.patch;
+    at.pivot = w[2];
     if (c->kinds.dry) {
-        REAL turning[3], lost[3];
+        REAL turning[3], lost[3] = {R(0.0), R(0.0), R(0.0)};
         FN(resist)(&c->resistance, w, at.load, at.torque);
         FN(cross)(n, p->b, turning);
         for (int i = 0; i < 3; ++i)
@@ -172,6 +182,8 @@ static inline __attribute__((always_inline)) FN(contact)
         if (c->kinds.gyroscopic_term_lost)
             FN(lost_term)(n, w, lost);
         FN(push)(c, p->force, turning, c->kinds.gyroscopic_term_lost ? lost : NULL, at.push);
+        if (c->kinds.patch)
+            at.torque[2] = FN(coulomb_pivoting)(&c->law.coulomb, &at, turning[2] + lost[2] / c->torque);
     }
     return at;
 }
@@ -233,6 +245,13 @@ static inline REAL FN(sticks)(const FN(coefficients) * c)
     return REAL_SELECT(REAL_LESS(distance, R(0.5)), R(1.0), R(0.0));
 }
 
+/* How much a contact moves, squared: of a point |V|^2, of a disc what patch.inl has. */
+static inline REAL FN(contact_motion_2)(const FN(coefficients) * c, const REAL slip[2], REAL pivot)
+{
+    const REAL s2 = SUM_2(slip[0], slip[0], slip[1], slip[1]);
+    return c->kinds.patch ? FN(patch_motion_2)(&c->law.coulomb.patch, s2, pivot) : s2;
+}
+
 /* dt/dtheta of the time in which a step is measured at the state; 1 for laws without modes. */
 static inline REAL FN(pace)(const FN(coefficients) * c, const REAL *y)
 {
@@ -240,7 +259,7 @@ static inline REAL FN(pace)(const FN(coefficients) * c, const REAL *y)
     if (!c->kinds.paced)
         return R(1.0);
     FN(slip)(c, y, slip);
-    return FN(coulomb_pace)(&c->law.coulomb, slip);
+    return FN(coulomb_pace)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]));
 }
 
 /* Its change along a tangent vector. */
@@ -251,7 +270,11 @@ static inline REAL FN(pace_change)(const FN(coefficients) * c, const REAL *y, co
         return R(0.0);
     FN(slip)(c, y, slip);
     FN(slip)(c, tangent, change);
-    return FN(coulomb_pace_change)(&c->law.coulomb, slip, change);
+    REAL by = R(2.0) * SUM_2(slip[0], change[0], slip[1], change[1]);
+    if (c->kinds.patch)
+        by = by + R(2.0) * (c->law.coulomb.patch.radius * c->law.coulomb.patch.radius) *
+                      (y[FST_WZ] * tangent[FST_WZ]);
+    return FN(coulomb_pace_change)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]), by);
 }
 
 /* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for a caller that observes the state. */

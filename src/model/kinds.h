@@ -5,7 +5,7 @@
 #include <festoon/festoon.h>
 
 /* The modes of dry friction (contact/coulomb.inl). */
-enum { FST_MODE_SLIP, FST_MODE_STICK, FST_MODE_ONSET };
+enum { FST_MODE_SLIP, FST_MODE_STICK, FST_MODE_ONSET, FST_MODE_FLIGHT, FST_MODES };
 
 typedef struct fst_kinds {
     int source;               /* row of FST_SOURCES (festoon/physics.def) */
@@ -14,6 +14,8 @@ typedef struct fst_kinds {
     int magnetisable;         /* the material has a or b: the general force and torque */
     int gyroscopic_term_lost; /* dynamics farago2020 */
     int dry;                  /* the law sees the push A and the rotation, and may resist rolling */
+    int patch;                /* FST_PATCH_*: of a contact with modes, its shape */
+    int flies;                /* a bead on which the load vanishes leaves the plate and comes down again */
     int paced;                /* the law has modes, and while the bead slips a step measures its own time */
 } fst_kinds;
 
@@ -29,7 +31,7 @@ static inline int fst_kinds_equal(const fst_kinds *a, const fst_kinds *b)
 {
     return a->source == b->source && a->pieces == b->pieces && a->contact == b->contact &&
            a->magnetisable == b->magnetisable && a->gyroscopic_term_lost == b->gyroscopic_term_lost &&
-           a->dry == b->dry && a->paced == b->paced;
+           a->dry == b->dry && a->patch == b->patch && a->flies == b->flies && a->paced == b->paced;
 }
 
 /* Whether the contact law takes energy from a bead that slips.  A bead that rolls may lose some all the same.

@@ -88,6 +88,7 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
     fst_model *made = malloc(sizeof *made);
     if (!made)
         return fst_fail(error, FST_NO_MEMORY, "fst_model_new", "out of memory");
+    made->params = *params;
     made->groups = g;
     made->coefficients = fst_make_coefficients_double(params, &g);
     made->has_s2 = field_has_s2(&made->coefficients);

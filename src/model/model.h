@@ -8,6 +8,7 @@
 #include "model/bodies.inl"
 
 struct fst_model {
+    fst_params params;
     fst_groups groups;
     fst_coefficients_double coefficients;
     int has_s2; /* whether the magnet's field has the symmetry S2: B(-X, -Y) = (B_X, B_Y, -B_Z)(X, Y) */

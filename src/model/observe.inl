@@ -12,7 +12,9 @@ typedef struct FN(seen) {
     REAL slip_r, slip_alpha, slip2;
     REAL friction_power;       /* taken by the contact law: f.V */
     REAL rolling_power;        /* taken by rolling resistance */
+    REAL pivoting_power;       /* taken by pivoting on a disc */
     REAL sticking;             /* 1 where the contact rolls without slipping, by its law; else 0 */
+    REAL flying;               /* 1 where the bead is in the air */
     REAL spin;                 /* W.n */
     REAL force_r, force_alpha; /* magnetic */
     REAL load;
@@ -55,6 +57,8 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
     o->slip2 = SUM_2(slip[0], slip[0], slip[1], slip[1]);
     o->friction_power = FN(friction_loss)(&c->law, &c->kinds, &contact);
     o->rolling_power = c->kinds.dry ? FN(resistance_loss)(&c->resistance, w, contact.load) : R(0.0);
+    o->pivoting_power = c->kinds.patch ? FN(coulomb_pivoting_loss)(&c->law.coulomb, &contact) : R(0.0);
+    o->flying = c->kinds.flies ? REAL_SELECT(FN(in_flight)(c), R(1.0), R(0.0)) : R(0.0);
     o->sticking = FN(sticks)(c);
     o->load = contact.load;
     o->spin = SUM_3(w[0], n[0], w[1], n[1], w[2], n[2]);
@@ -117,4 +121,6 @@ static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, con
     q[FST_Q_N_ZZ] = o->n[2] * o->n[2];
     q[FST_Q_STICKING] = o->sticking;
     q[FST_Q_ROLLING_POWER] = o->rolling_power;
+    q[FST_Q_PIVOTING_POWER] = o->pivoting_power;
+    q[FST_Q_FLYING] = o->flying;
 }

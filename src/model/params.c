@@ -113,7 +113,7 @@ static const struct {
     const char *scaled, *si;
 } forms[] = {
     {"drive.omega", "drive.frequency"}, {"model.eps", "bead.radius"}, {"model.h", "magnet.depth"},
-    {"model.lambda", "magnet.width"},   {"model.kappa", "magnet.b0"},
+    {"model.lambda", "magnet.width"},   {"model.kappa", "magnet.b0"}, {"contact.modulus", "contact.radius"},
 };
 enum { FORM_COUNT = sizeof forms / sizeof forms[0] };
 
@@ -334,6 +334,17 @@ fst_status fst_params_validate(const fst_params *params, fst_error *error)
             "friction.mu_static = %g is less than friction.mu = %g: friction at rest is at least as "
             "strong as sliding friction",
             params->friction_mu_static, params->friction_mu);
+    if (!isnan(params->contact_radius) && !isnan(params->contact_modulus))
+        return fst_fail(
+            error, FST_BAD_INPUT, "contact.radius",
+            "contact.radius and contact.modulus are both given, but the radius follows from the modulus: "
+            "give one of them");
+    if (params->friction_law == FST_FRICTION_COULOMB && params->contact_patch != FST_PATCH_POINT &&
+        isnan(params->contact_radius) && isnan(params->contact_modulus))
+        return fst_fail(
+            error, FST_BAD_INPUT, "contact.patch",
+            "contact.patch needs the size of the disc: give contact.radius, or contact.modulus, from which "
+            "the radius follows with the load");
     if (!(fst_run_discard(params) < params->run_periods))
         return fst_fail(error, FST_BAD_INPUT, "run.discard",
                         "run.discard = %g leaves nothing of run.periods = %g: make run.periods larger or "

@@ -33,6 +33,8 @@ enum {
     FST_Q_N_ZZ,
     FST_Q_STICKING, /* 1 while the contact sticks */
     FST_Q_ROLLING_POWER,
+    FST_Q_PIVOTING_POWER,
+    FST_Q_FLYING, /* 1 while the bead is in the air */
     FST_Q_COUNT
 };
 

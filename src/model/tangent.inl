@@ -97,6 +97,11 @@ static inline void FN(dry_change)(const FN(coefficients) * c, const FN(linear) *
     if (c->kinds.gyroscopic_term_lost)
         FN(add_lost_change)(n, w, dn, dw, lost);
     FN(push)(c, force, turning, c->kinds.gyroscopic_term_lost ? lost : NULL, by->push);
+    by->patch = c->kinds.patch;
+    by->pivot = dw[2];
+    if (c->kinds.patch)
+        by->torque[2] =
+            FN(coulomb_pivoting_change)(&c->law.coulomb, &l->contact, by, turning[2] + lost[2] / c->torque);
 }
 
 /* The change of d(state)/dt along `tangent` at the state that was linearised. */
@@ -109,7 +114,8 @@ static inline void FN(change_along)(const FN(coefficients) * c, REAL omega, cons
     FN(pull_change)(c, l, y, tangent, force, turning);
     FN(slip)(c, tangent, by.slip);
     by.load = -force[2];
-    by.push[0] = by.push[1] = by.torque[0] = by.torque[1] = by.torque[2] = R(0.0);
+    by.push[0] = by.push[1] = by.torque[0] = by.torque[1] = by.torque[2] = by.pivot = R(0.0);
+    by.patch = FST_PATCH_POINT;
     FN(cross)(dn, l->at.b, twist);
     FN(cross)(n, turning, torque);
     if (c->kinds.dry)

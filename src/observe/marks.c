@@ -14,6 +14,8 @@
  */
 #include "observe/marks.h"
 
+#include "ode/flight.h"
+
 #include <string.h>
 
 void fst_marks_begin(fst_mark_series *series)
@@ -60,9 +62,13 @@ void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, 
         return;
     fst_quadrature_at(q, flow, x, mark->integrals, &mark->moment_angle);
     mark->captures = flow->contact.captures;
+    mark->impacts = flow->contact.impacts;
+    mark->impulse = flow->contact.impulse;
+    mark->impact_loss = flow->contact.impact_loss;
     const fst_winding angle = fst_flow_bead_angle(flow, x);
     mark->bead_angle = fst_winding_angle(&angle);
     fst_pull_double p;
+    mark->energy = fst_flight_energy(flow, x);
     fst_magnetic_pull_double(&flow->step.context.coefficients, mark->state, &p);
-    mark->energy = fst_energy_double(&flow->step.context.coefficients, mark->state, &p);
+    mark->energy += fst_energy_double(&flow->step.context.coefficients, mark->state, &p);
 }

@@ -16,7 +16,9 @@ typedef struct fst_mark {
     double half_distance; /* marks of returns: from the state half a return ago, its image under S2 */
     double full_distance; /* marks of returns: from the state a whole return ago */
     int64_t captures;     /* slips that have come to rest */
-    double activity;      /* marks of periods: greatest speed in the turning frame since the mark before */
+    int64_t impacts;      /* of a bead that flies; the impulses that held it up, and the energy they took */
+    double impulse, impact_loss;
+    double activity; /* marks of periods: greatest speed in the turning frame since the mark before */
 } fst_mark;
 
 enum { FST_MARKS = 32 };

@@ -22,10 +22,15 @@
 
 static const double ROUNDING = 1e-12; /* of a share of time */
 
+static double time_between(const fst_mark *first, const fst_mark *last)
+{
+    return fst_twofold_difference(last->t, first->t);
+}
+
 /* Mean of one integrand between two marks. */
 static double mean(const fst_mark *first, const fst_mark *last, int which)
 {
-    return (last->integrals[which] - first->integrals[which]) / fst_twofold_difference(last->t, first->t);
+    return (last->integrals[which] - first->integrals[which]) / time_between(first, last);
 }
 
 /* sqrt(<u^2> - <u>^2) from <(u - u0)^2> and <u> - u0, never the root of a negative rounding error. */
@@ -109,7 +114,9 @@ static double energy_residual(const fst_mark_series *series, const fst_mark *las
         const fst_mark *from = &series->kept[i], *to = i + 1 < series->count ? &series->kept[i + 1] : last;
         const double work = (to->integrals[FST_Q_DRIVE_POWER] - from->integrals[FST_Q_DRIVE_POWER]) -
                             (to->integrals[FST_Q_FRICTION_POWER] - from->integrals[FST_Q_FRICTION_POWER]) -
-                            (to->integrals[FST_Q_ROLLING_POWER] - from->integrals[FST_Q_ROLLING_POWER]);
+                            (to->integrals[FST_Q_ROLLING_POWER] - from->integrals[FST_Q_ROLLING_POWER]) -
+                            (to->integrals[FST_Q_PIVOTING_POWER] - from->integrals[FST_Q_PIVOTING_POWER]) -
+                            (to->impact_loss - from->impact_loss);
         const double defect = fabs((to->energy - from->energy) - work);
         worst = defect > worst ? defect : worst;
     }
@@ -182,9 +189,13 @@ static void fill_contact(const fst_window *w, const fst_mark_series *series, fst
     result->never_slips = fst_never_slips(w, series);
     result->sticking = result->never_slips ? 1.0 : sticking;
     result->mean_rolling_power = mean(first, last, FST_Q_ROLLING_POWER);
-    result->mean_pivoting_power = 0.0;
+    result->mean_pivoting_power = mean(first, last, FST_Q_PIVOTING_POWER);
     if (!result->never_slips && slip2 > 0)
         result->effective_rate = result->mean_friction_power / slip2;
+    result->flying = mean(first, last, FST_Q_FLYING);
+    result->mean_impact_power = (last->impact_loss - first->impact_loss) / time_between(first, last);
+    if (series == &w->returns.marks)
+        result->impacts_per_return = (double)(last->impacts - first->impacts) / (double)(series->offered - 1);
     if (series == &w->returns.marks)
         result->captures_per_return = (double)captures / (double)(series->offered - 1);
 }
@@ -213,7 +224,10 @@ void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fs
         fill_contact(w, series, result);
     result->rms_slip = sqrt(mean(first, last, FST_Q_SLIP2));
     result->tilt_deg = tilt(first, last);
-    const double load = mean(first, last, FST_Q_LOAD);
+    const double impulse = last->impulse - first->impulse;
+    double load = mean(first, last, FST_Q_LOAD);
+    if (impulse > 0)
+        load += impulse / time_between(first, last);
     if (g->gravity > 0)
         result->mean_load_weights = load / g->gravity;
     result->dry_friction_rate = params->friction_mu * load / (g->eps * g->omega) / g->time_unit;

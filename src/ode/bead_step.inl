@@ -13,14 +13,27 @@
  * dtheta, and the pace follows from the state (model/contact/coulomb.inl).  The derivatives at the stages are
  * then those by theta.  The pace is kept at every stage too: its integral over the step is the time that
  * passes.  Under other laws theta is t, and none of this is done.  Lanes have no such laws.
+ *
+ * Flight.  A bead in the air (ode/flight.c) has a height and a climb besides.  They are no part of the state,
+ * but are carried through the stages by the same weights, and the source is raised to each stage's height.
  */
 #include "ode/dop853_tableau.h"
+
+#ifdef REAL_IS_SCALAR
+typedef struct FN(flight) {
+    fst_params params; /* of which the source of another height is made */
+    fst_groups groups;
+    REAL start[2];                        /* height and climb at the start of a step */
+    REAL height[16], climb[16], lift[16]; /* z, z' and z'' at its stages */
+} FN(flight);
+#endif
 
 typedef struct FN(bead) {
     FN(coefficients) coefficients;
     FN(pull) pull[16]; /* at the stages */
 #ifdef REAL_IS_SCALAR
     REAL pace[16]; /* and dt/dtheta, under a law with modes */
+    FN(flight) flight;
 #endif
 } FN(bead);
 
@@ -39,20 +52,38 @@ typedef struct FN(bead) {
     (&(s)->context.coefficients, (s)->stage[(next)-1], &(s)->context.pull[(next)-1], drive, (s)->stage[(j)-1], \
      &(s)->context.pull[(j)-1], (s)->k[(j)-1])
 #elif defined REAL_IS_SCALAR
-/* The derivative of the state `y` by theta at a stage. */
-static inline void FN(paced_rhs)(FN(bead) * bead, REAL drive, const REAL *y, int stage, REAL *k)
+/* Whether the bead is in the air, and the source as it is for a bead that is z over the plate. */
+static inline int FN(is_in_flight)(const FN(coefficients) * c)
 {
-    const FN(coefficients) *c = &bead->coefficients;
-    FN(rhs)(c, drive, y, k, &bead->pull[stage]);
-    if (!c->kinds.paced)
-        return;
-    const REAL pace = bead->pace[stage] = FN(pace)(c, y);
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        k[i] = pace * k[i];
+    return c->kinds.flies && FN(in_flight)(c);
 }
 
-/* On a ramp: the time since the start of a step of the size h (in theta) at one of its stages, by the method's
- * own weights. */
+static inline void FN(raise_source)(FN(bead) * bead, REAL z)
+{
+    fst_groups groups = bead->flight.groups;
+    groups.h = (double)(REAL_OF(groups.h) + z);
+    bead->coefficients.source =
+        FN(make_source_numbers)(&bead->coefficients.kinds, &bead->flight.params, &groups);
+}
+
+/* Height and climb at a stage of a step of the size h. */
+static inline void FN(rise)(FN(bead) * bead, REAL h, int stage)
+{
+    static const REAL weights[16][15] = DOP_WEIGHTS;
+    FN(flight) *flight = &bead->flight;
+    REAL height = R(0.0), climb = R(0.0);
+    for (int i = 0; i < 15 && i < stage; ++i) {
+        height += weights[stage][i] * flight->climb[i];
+        climb += weights[stage][i] * flight->lift[i];
+    }
+    flight->height[stage] = flight->start[0] + h * height;
+    flight->climb[stage] = flight->start[1] + h * climb;
+    FN(raise_source)(bead, flight->height[stage]);
+}
+
+/* The time since the start of a step of the size h (in theta) at one of its stages, by the method's own
+ * weights.
+ */
 static inline REAL FN(stage_time)(const FN(bead) * bead, REAL h, int stage)
 {
     static const REAL weights[16][15] = DOP_WEIGHTS;
@@ -60,6 +91,23 @@ static inline REAL FN(stage_time)(const FN(bead) * bead, REAL h, int stage)
     for (int i = 0; i < 15 && i < stage; ++i)
         sum += weights[stage][i] * bead->pace[i];
     return h * sum;
+}
+
+/* The derivative of the state `y` by theta at a stage of a step of the size h. */
+static inline void FN(paced_rhs)(FN(bead) * bead, REAL h, REAL drive, const REAL *y, int stage, REAL *k)
+{
+    FN(coefficients) *c = &bead->coefficients;
+    if (FN(is_in_flight)(c))
+        FN(rise)(bead, h, stage);
+    if (c->kinds.paced && c->law.coulomb.mode == FST_MODE_ONSET)
+        FN(coulomb_lean)(&c->law.coulomb, FN(stage_time)(bead, h, stage));
+    FN(rhs)(c, drive, y, k, &bead->pull[stage]);
+    if (!c->kinds.paced)
+        return;
+    bead->flight.lift[stage] = bead->pull[stage].force[2] - c->gravity;
+    const REAL pace = bead->pace[stage] = FN(pace)(c, y);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        k[i] = pace * k[i];
 }
 
 /* The drive there: `drive` is what it is where theta is t. */
@@ -71,7 +119,7 @@ static inline REAL FN(stage_drive)(const FN(bead) * bead, REAL h, REAL omega, RE
 
 #define STEP_DERIVATIVES(s, drive, j)                                                                          \
     FN(paced_rhs)                                                                                              \
-    (&(s)->context, FN(stage_drive)(&(s)->context, (s)->h, (s)->omega, (s)->ramp, drive, (j)-1),               \
+    (&(s)->context, (s)->h, FN(stage_drive)(&(s)->context, (s)->h, (s)->omega, (s)->ramp, drive, (j)-1),       \
      (s)->stage[(j)-1], (j)-1, (s)->k[(j)-1])
 #else
 #define STEP_DERIVATIVES(s, drive, j)                                                                          \
@@ -104,19 +152,43 @@ static inline void FN(stop_slip)(const FN(coefficients) * c, REAL *y)
     y[FST_VY] = -(c->eps * y[FST_WX]);
 }
 
+#ifdef REAL_IS_SCALAR
+/* Change the slip by an impulse of the plate: the moment about the contact stays what it was. */
+static inline void FN(set_slip)(const FN(coefficients) * c, REAL *y, const REAL slip[2])
+{
+    REAL before[2];
+    FN(slip)(c, y, before);
+    const REAL change[2] = {slip[0] - before[0], slip[1] - before[1]};
+    y[FST_VX] += R(2.0) / R(7.0) * change[0];
+    y[FST_VY] += R(2.0) / R(7.0) * change[1];
+    y[FST_WX] += R(5.0) / (R(7.0) * c->eps) * change[1];
+    y[FST_WY] -= R(5.0) / (R(7.0) * c->eps) * change[0];
+    if (slip[0] == R(0.0) && slip[1] == R(0.0))
+        FN(stop_slip)(c, y);
+}
+#endif
+
+/* Take the slip out of a state that rolls, and of a bead that is held on a disc the pivoting. */
+static inline void FN(stop_contact)(const FN(coefficients) * c, REAL *y)
+{
+    FN(stop_slip)(c, y);
+    if (c->kinds.patch)
+        y[FST_WZ] = R(0.0);
+}
+
 /* The end of an accepted step: n is renormalised, and stage 13, the first of the next step, is evaluated. */
 static inline REAL FN(finish_step)(FN(bead_step) * s)
 {
     const REAL drift = FN(renormalise)(s->end);
 #ifdef REAL_IS_SCALAR
     if (s->context.coefficients.kinds.dry && FN(sticks)(&s->context.coefficients) > R(0.5))
-        FN(stop_slip)(&s->context.coefficients, s->end);
+        FN(stop_contact)(&s->context.coefficients, s->end);
 #endif
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         s->stage[12][i] = s->end[i];
 #ifdef REAL_IS_SCALAR
     const REAL drive = FN(stage_drive)(&s->context, s->h, s->omega, s->ramp, s->omega + s->h * s->ramp, 12);
-    FN(paced_rhs)(&s->context, drive, s->end, 12, s->k[12]);
+    FN(paced_rhs)(&s->context, s->h, drive, s->end, 12, s->k[12]);
 #else
     FN(rhs)(&s->context.coefficients, s->omega + s->h * s->ramp, s->end, s->k[12], &s->context.pull[12]);
 #endif
@@ -137,6 +209,12 @@ static inline void FN(next_step_where)(FN(bead_step) * s, REAL_MASK mask)
         to[i] = REAL_SELECT(mask, from[i], to[i]);
 #ifdef REAL_IS_SCALAR
     s->context.pace[0] = REAL_SELECT(mask, s->context.pace[12], s->context.pace[0]);
+    if (FN(is_in_flight)(&s->context.coefficients)) {
+        FN(flight) *flight = &s->context.flight;
+        flight->start[0] = flight->height[0] = flight->height[12];
+        flight->start[1] = flight->climb[0] = flight->climb[12];
+        flight->lift[0] = flight->lift[12];
+    }
 #endif
 }
 
@@ -153,7 +231,7 @@ static inline void FN(begin_steps)(FN(bead_step) * s)
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         s->stage[0][i] = s->y[i];
 #ifdef REAL_IS_SCALAR
-    FN(paced_rhs)(&s->context, s->omega, s->y, 0, s->k[0]);
+    FN(paced_rhs)(&s->context, R(0.0), s->omega, s->y, 0, s->k[0]);
 #else
     FN(rhs)(&s->context.coefficients, s->omega, s->y, s->k[0], &s->context.pull[0]);
 #endif

@@ -25,25 +25,28 @@
  *                t*
  *
  * Release.  |A| passes (7/2) mu_s N, a function of the state whose zero is located as other events are; the
- * step is made anew as long as up to there.  If friction is as strong in sliding, the slip begins with onset:
- * the slip grows from nothing while its direction is tied to that of A, and is handed over to slip when it is
- * large enough to have a direction of its own.  If friction is weaker in sliding, the slip begins at once, with
- * a tiny speed along A.
+ * step is made anew as long as up to there.  If friction is (nearly) as strong in sliding, the slip begins with
+ * onset: the slip grows from nothing while its direction is tied to that of A, and is handed over to slip when
+ * it is large enough to have a direction of its own.  If friction is weaker in sliding, the slip begins at
+ * once, with a tiny speed along A.
  *
- * Sizes follow the tolerance: `captured` is a thousandth of it, and the hand-over goes with its power 3/8, by
- * which the error of onset, (hand-over)^(5/2), shrinks like the tolerance.
+ * Sizes follow the tolerance: `captured` is a thousandth of it, and the hand-over goes with its power 5/16, by
+ * which the error of onset, (hand-over)^(7/2), shrinks like the tolerance (onset.c).
  *
  */
-#include "ode/flow.h"
+#include "ode/disc.h"
+#include "ode/flight.h"
 
 #include "base/error.h"
-#include "model/tangent.inl"
 
-static const double SLOWER = 1e-3;         /* captured, in tolerances */
-static const double LEAST_SPEED = 1e-14;   /* that rounding leaves of a slip's digits */
-static const double STALLED_SPEED = 1e-12; /* and below this a slip that no longer falls is rounding: */
-static const double SLOWEST_FALL = 0.9;    /* over a step */
-static const double HAND_OVER = 0.5;       /* times tolerance^(3/8) */
+static const double SLOWER = 1e-3;       /* captured, in tolerances */
+static const double LEAST_SPEED = 1e-14; /* that rounding leaves of a slip's digits */
+static const double LEAST_FALL = 1e-12;  /* below this slip, or the tolerance, rounding may end it: */
+static const double ROUNDING = 2e-15;    /* by so much, in the speeds of which it is made */
+static const double HAND_OVER = 0.12;    /* times tolerance^(5/16) */
+static const double USUAL_GROWTH = 0.1; /* of a slip, in l gamma^3: the time of the hand-over follows from it */
+static const double FEW = 0.01;         /* slip then, in those of the hand-over */
+static const double FALL_AT_ONCE = 1.01;   /* static friction over sliding */
 static const double RELEASE_SLACK = 1e-13; /* relative excess of |A| at a release */
 static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not met before */
 
@@ -57,6 +60,11 @@ static fst_coulomb_double *law_of(fst_flow *flow)
 static double norm(const double v[2])
 {
     return sqrt(v[0] * v[0] + v[1] * v[1]);
+}
+
+static int is_disc(const fst_flow *flow)
+{
+    return flow->step.context.coefficients.kinds.patch != FST_PATCH_POINT;
 }
 
 /* The greatest |A| that static friction takes. */
@@ -80,8 +88,8 @@ static double captured(const fst_flow *flow)
 
 static double handed_over(const fst_flow *flow)
 {
-    const double eighth = sqrt(sqrt(sqrt(flow->rtol)));
-    return HAND_OVER * (eighth * eighth * eighth);
+    const double quarter = sqrt(sqrt(flow->rtol));
+    return HAND_OVER * (quarter * sqrt(sqrt(quarter)));
 }
 
 static fst_contact_double contact_at(const fst_flow *flow, const double *state)
@@ -94,35 +102,52 @@ static fst_contact_double contact_at(const fst_flow *flow, const double *state)
 
 /* ------------------------------------------------------------------ changes of mode */
 
-/* Change the slip by an impulse of the plate: the moment about the contact stays what it was. */
-static void set_slip(const fst_coefficients_double *c, double *state, const double slip[2])
-{
-    double before[2];
-    fst_slip_double(c, state, before);
-    const double change[2] = {slip[0] - before[0], slip[1] - before[1]};
-    state[FST_VX] += 2.0 / 7.0 * change[0];
-    state[FST_VY] += 2.0 / 7.0 * change[1];
-    state[FST_WX] += 5.0 / (7.0 * c->eps) * change[1];
-    state[FST_WY] -= 5.0 / (7.0 * c->eps) * change[0];
-    if (slip[0] == 0.0 && slip[1] == 0.0)
-        fst_stop_slip_double(c, state);
-}
-
-/* The rate at which the direction of A turns in the magnet's frame, in a bead that sticks. */
-static double turning_of_push(const fst_flow *flow, const double *state)
+/* A disc is held, or let go of, at `state`. */
+static void hold_disc(const fst_flow *flow, int mode, double *state)
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
-    fst_linear_double l;
-    double dy[FST_STATE_SIZE], force[3], turning[3], twist[3], torque[3];
-    fst_linearise_double(c, fst_flow_omega(flow, flow->t), state, &l, dy);
-    fst_contact_double by;
-    fst_pull_change_double(c, &l, state, dy, force, turning);
-    by.load = -force[2];
-    fst_cross_double(dy + FST_NX, l.at.b, twist);
-    fst_cross_double(state + FST_NX, turning, torque);
-    fst_dry_change_double(c, &l, state, dy, force, twist, torque, &by);
-    const double *a = l.contact.push;
-    return (a[0] * by.push[1] - a[1] * by.push[0]) / (a[0] * a[0] + a[1] * a[1]);
+    fst_pull_double p;
+    double slip[2] = {0.0, 0.0}, pivot = 0.0;
+    fst_magnetic_pull_double(c, state, &p);
+    if (mode == FST_MODE_SLIP && fst_contact_mode(flow) != FST_MODE_STICK)
+        return;
+    if (mode == FST_MODE_SLIP)
+        fst_disc_release(flow, state, &p, slip, &pivot);
+    fst_set_slip_double(c, state, slip);
+    state[FST_WZ] = pivot;
+}
+
+/* The mode of a bead whose contact lets go: slip, if friction falls at once, so that the slip has an
+ * acceleration to begin with. */
+static int released_mode(const fst_flow *flow)
+{
+    const fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
+    const int falls_at_once = law->holding > FALL_AT_ONCE * fst_coulomb_mu_double(law, 0.0);
+    return falls_at_once || is_disc(flow) ? FST_MODE_SLIP : FST_MODE_ONSET;
+}
+
+/* The mode of a bead that is put down in a state. */
+static int mode_at(const fst_flow *flow, const double *state)
+{
+    fst_pull_double p;
+    fst_magnetic_pull_double(&flow->step.context.coefficients, state, &p);
+    if (fst_flight_allowed(flow) && fst_flight_load(flow, state, &p) < 0)
+        return FST_MODE_FLIGHT;
+    if (is_disc(flow))
+        return fst_disc_rests(flow, state, &p) ? FST_MODE_STICK : FST_MODE_SLIP;
+    const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, &p);
+    if (norm(at.slip) > captured(flow))
+        return FST_MODE_SLIP;
+    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : released_mode(flow);
+}
+
+/* A bead leaves the plate, or comes back to it: the mode that follows. */
+static int leave_or_return(fst_flow *flow, double *state)
+{
+    if (fst_flight_is_on(flow))
+        return fst_flight_impact(flow, state) ? mode_at(flow, state) : FST_MODE_FLIGHT;
+    fst_flight_begin(flow, 0.0);
+    return FST_MODE_FLIGHT;
 }
 
 /* The mode changes at `state`, which may be moved by less than anything else feels. */
@@ -132,42 +157,41 @@ static void enter(fst_flow *flow, int mode, double *state)
     fst_coulomb_double *law = law_of(flow);
     static const double nothing[2] = {0.0, 0.0};
     double slip[2];
+    flow->contact.proposal[fst_contact_mode(flow)] = flow->control.proposal;
+    if (mode == FST_MODE_FLIGHT)
+        mode = leave_or_return(flow, state);
     fst_slip_double(c, state, slip);
-    if (mode == FST_MODE_STICK) {
-        set_slip(c, state, nothing);
+    if (mode == FST_MODE_FLIGHT) {
+        ; /* the state is no matter of the plate */
+    } else if (is_disc(flow)) {
+        hold_disc(flow, mode, state);
+    } else if (mode == FST_MODE_STICK) {
+        fst_set_slip_double(c, state, nothing);
     } else if (mode == FST_MODE_ONSET) {
-        const fst_contact_double at = contact_at(flow, state);
-        const double omega = fst_flow_omega(flow, flow->t);
-        law->lean = (turning_of_push(flow, state) + omega) / (2.0 * norm(at.push) - brake(flow, &at));
+        fst_contact_begin_onset(flow, state);
+        flow->contact.released = flow->t;
     } else if (norm(slip) < captured(flow)) {
         const fst_contact_double at = contact_at(flow, state);
         const double part = captured(flow) / norm(at.push);
-        set_slip(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
+        fst_set_slip_double(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
     }
-    const int before = fst_contact_mode(flow);
-    flow->contact.proposal[before] = flow->control.proposal;
     law->mode = mode;
     flow->control.proposal = flow->contact.proposal[mode] > 0 ? flow->contact.proposal[mode] : FIRST_SIZE;
     flow->contact.next_mode = -1;
-}
-
-/* The mode of a bead that is put down in a state. */
-static int mode_at(const fst_flow *flow, const double *state)
-{
-    const fst_contact_double at = contact_at(flow, state);
-    if (norm(at.slip) > captured(flow))
-        return FST_MODE_SLIP;
-    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : FST_MODE_SLIP;
 }
 
 void fst_contact_put_down(fst_flow *flow, double *state)
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
     static const double nothing[2] = {0.0, 0.0};
-    if (c->kinds.paced)
+    if (is_disc(flow))
+        fst_disc_begin(flow);
+    if (fst_flight_is_on(flow))
+        fst_flight_go_on(flow);
+    else if (c->kinds.paced)
         enter(flow, mode_at(flow, state), state);
     else if (c->kinds.contact == FST_FRICTION_ROLLING)
-        set_slip(c, state, nothing);
+        fst_set_slip_double(c, state, nothing);
 }
 
 /* ------------------------------------------------------------------ events that end a mode */
@@ -175,6 +199,8 @@ void fst_contact_put_down(fst_flow *flow, double *state)
 /* What static friction could still take. */
 static double release_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
+    if (is_disc(flow))
+        return fst_disc_hold(flow, state, p) + RELEASE_SLACK;
     const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, p);
     const double most = hold(flow, &at);
     return most * (1.0 + RELEASE_SLACK) - norm(at.push);
@@ -197,20 +223,35 @@ static double until_back_at_rest(const fst_flow *flow, const double *state, cons
     return onset_speed(flow, state, p) + captured(flow);
 }
 
+/* Where the slip hardly grows, its direction is no longer known after some time; *x: that place in the step. */
+static int onset_is_long(fst_flow *flow, double *x)
+{
+    const double time = sqrt(2.0 * handed_over(flow) / USUAL_GROWTH) - law_of(flow)->since;
+    *x = time > 0 && time < flow->step.h ? time / flow->step.h : 1.0;
+    return time <= flow->step.h && fst_flow_function_at(flow, *x, onset_speed) >= FEW * handed_over(flow);
+}
+
 /* The fraction of the last step at which an event ends its mode, 2 where none does, and the mode that follows.
  */
 static double mode_ends(fst_flow *flow, int *next)
 {
-    const fst_coulomb_double *law = law_of(flow);
     double first = 2.0, x;
-    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x)) {
-        const int falls_at_once = law->holding > fst_coulomb_mu_double(law, 0.0);
-        *next = falls_at_once ? FST_MODE_SLIP : FST_MODE_ONSET;
+    if (fst_flight_is_on(flow)) {
+        *next = FST_MODE_FLIGHT;
+        return fst_flight_lands(flow, &x) ? x : first;
+    }
+    if (fst_flight_allowed(flow) && fst_flow_first_negative(flow, fst_flight_load, 0.0, &x)) {
+        *next = FST_MODE_FLIGHT;
+        first = x;
+    }
+    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x) &&
+        x < first) {
+        *next = released_mode(flow);
         first = x;
     }
     if (fst_contact_mode(flow) != FST_MODE_ONSET)
         return first;
-    if (fst_flow_first_negative(flow, until_handed_over, 0.0, &x)) {
+    if ((fst_flow_first_negative(flow, until_handed_over, 0.0, &x) || onset_is_long(flow, &x)) && x < first) {
         *next = FST_MODE_SLIP;
         first = x;
     }
@@ -221,23 +262,35 @@ static double mode_ends(fst_flow *flow, int *next)
     return first;
 }
 
-/* A slip ends where it is nearly nothing and friction is stronger than the push; and sooner where it no longer
- * falls as it then must, since what it has left is rounding: friction hardly stronger than the push, or a fast
- * bead. */
-static int slip_ends(const fst_flow *flow)
+/* Whether a slip is so slow, and falls so slowly because the push is nearly as strong as friction, that
+ * rounding of the velocities keeps it as it is. */
+static int falls_no_more(const fst_flow *flow, const double slip[2])
+{
+    const double *y = flow->step.y, eps = flow->step.context.coefficients.eps;
+    const double speeds = fabs(y[FST_VX]) + fabs(y[FST_VY]) + eps * (fabs(y[FST_WX]) + fabs(y[FST_WY]));
+    double before[2];
+    fst_slip_double(&flow->step.context.coefficients, y, before);
+    return norm(slip) < fmax(flow->rtol, LEAST_FALL) && fabs(norm(slip) - norm(before)) <= ROUNDING * speeds;
+}
+
+/* The mode that follows a slip that is nearly nothing, -1 where it goes on.  It ends where friction is stronger
+ * than the push.  A slip straight against a push that is stronger stops as well, but lets go at once; it would
+ * approach rest for ever in theta. */
+static int after_slip(const fst_flow *flow)
 {
     const fst_bead_step_double *s = &flow->step;
     if (fst_contact_mode(flow) != FST_MODE_SLIP)
-        return 0;
+        return -1;
+    if (is_disc(flow))
+        return fst_disc_rests(flow, s->end, FST_PATH_PULL(s, FST_PATH_END)) ? FST_MODE_STICK : -1;
     const fst_contact_double at =
         fst_contact_of_double(&s->context.coefficients, s->end, FST_PATH_PULL(s, FST_PATH_END));
-    if (!(norm(at.push) < brake(flow, &at)))
-        return 0;
-    double before[2];
-    fst_slip_double(&s->context.coefficients, s->y, before);
-    const double speed = fmax(1.0, fmax(fabs(s->end[FST_VX]), fabs(s->end[FST_VY])));
-    const int stalls = norm(at.slip) > SLOWEST_FALL * norm(before) && norm(at.slip) <= STALLED_SPEED * speed;
-    return stalls || norm(at.slip) <= captured(flow);
+    if (norm(at.slip) > captured(flow) && !falls_no_more(flow, at.slip))
+        return -1;
+    const int against = at.slip[0] * at.push[0] + at.slip[1] * at.push[1] < 0;
+    if (norm(at.push) < (against ? hold(flow, &at) : brake(flow, &at)))
+        return FST_MODE_STICK;
+    return against ? released_mode(flow) : -1;
 }
 
 /* ------------------------------------------------------------------ steps */
@@ -265,6 +318,20 @@ static void land(fst_flow *flow, double rest)
     }
 }
 
+/* Make the last step anew, up to the event at its fraction x: a bead in the air comes down just there. */
+static void cut_at(fst_flow *flow, double x)
+{
+    enum { TRIES = 4 };
+    if (x < 1.0)
+        make_anew(flow, x * flow->step.h);
+    for (int i = 0; fst_flight_is_on(flow) && i < TRIES; ++i) {
+        const double missing = fst_flight_missing(flow);
+        if (fabs(missing) <= 1e-15 * (1.0 + fabs(flow->t.high)) || missing < -0.5 * flow->step.h)
+            return;
+        make_anew(flow, flow->step.h + missing);
+    }
+}
+
 fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
 {
     const fst_twofold limit = {t_limit, 0.0};
@@ -280,6 +347,8 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
         fst_bead_flow_restart(flow);
     }
     fst_bead_flow_prepare(flow);
+    if (fst_contact_mode(flow) == FST_MODE_ONSET)
+        law_of(flow)->since = fst_twofold_difference(flow->t, flow->contact.released);
     flow->contact.has_clock = flow->has_dense = 0;
     if (!fst_bead_flow_try_until_good(flow, INFINITY))
         return fst_flow_fail(flow, error);
@@ -289,12 +358,12 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
     const int lands = end <= 1.0 && end <= event;
     if (lands)
         land(flow, rest);
-    else if (event < 1.0)
-        make_anew(flow, event * flow->step.h);
+    else if (event <= 1.0)
+        cut_at(flow, event);
     flow->rhs_calls += 1;
     flow->accepted += 1;
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));
     flow->has_step = 1;
-    flow->contact.next_mode = !lands && event <= 1.0 ? next : slip_ends(flow) ? FST_MODE_STICK : -1;
+    flow->contact.next_mode = !lands && event <= 1.0 ? next : after_slip(flow);
     return FST_OK;
 }

@@ -32,6 +32,8 @@ double fst_edge_function(const fst_flow *flow, const double *state, const fst_pu
 double fst_load_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
     (void)state;
+    if (flow->step.context.coefficients.kinds.flies)
+        return 1.0; /* a bead that flies is no event for who follows it */
     return fst_load_double(&flow->step.context.coefficients, p->force);
 }
 

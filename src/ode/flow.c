@@ -20,7 +20,7 @@
  *
  * Failures in words: where the bead was when its steps became too small or a number was not finite.
  */
-#include "ode/flow.h"
+#include "ode/flight.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -113,6 +113,11 @@ void fst_flow_make_dense(fst_flow *flow)
 void fst_flow_at(fst_flow *flow, double x, double state[FST_STATE_SIZE])
 {
     fst_bead_flow_state_at(flow, x, state);
+    if (fst_flight_is_on(flow)) { /* what is looked at next is the field there */
+        double height, climb;
+        fst_flight_at(flow, x, &height, &climb);
+        fst_raise_source_double(&flow->step.context, height);
+    }
 }
 
 void fst_flow_slope(const fst_flow *flow, double slope[FST_STATE_SIZE])

@@ -14,11 +14,14 @@
 
 /* The contact of a bead under a law with modes (contact.c). */
 typedef struct fst_contact_state {
-    int next_mode;      /* begins with the next step; -1: the mode goes on */
-    int64_t captures;   /* slips that came to rest before the last step */
-    double proposal[3]; /* size of the next step in each mode */
-    double clock[8];    /* dense output of the time over the last step, */
-    int has_clock;      /* once formed */
+    int next_mode;              /* begins with the next step; -1: the mode goes on */
+    int64_t captures;           /* slips that came to rest before the last step */
+    fst_twofold released;       /* when the last onset began */
+    double proposal[FST_MODES]; /* size of the next step in each mode */
+    int64_t impacts; /* of a bead that flew, the impulses that held it up, and the energy they took */
+    double impulse, impact_loss;
+    double clock[8]; /* dense output of the time over the last step, */
+    int has_clock;   /* once formed */
 } fst_contact_state;
 
 /* The error of a bead's step over its tolerance. */
@@ -97,6 +100,9 @@ double fst_flow_drive_at_place(const fst_flow *flow, int place);
  * have; and one step. */
 void fst_contact_put_down(fst_flow *flow, double *state);
 fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error);
+
+/* Begin the mode onset in a state, at the release of a bead that stuck (onset.c). */
+void fst_contact_begin_onset(fst_flow *flow, const double *state);
 
 /* Steps under a law with modes (pace.c): the mode of the last step; the time that it took; the fraction at a
  * time since its start, and the other way round. */

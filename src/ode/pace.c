@@ -8,7 +8,7 @@
  * Errors.  While |V| falls over many orders of magnitude, a tolerance on v and W would stop seeing V long
  * before the end.  So a step must also keep some digits of V itself, however small it is.
  */
-#include "ode/flow.h"
+#include "ode/flight.h"
 
 #include "base/bracket.h"
 
@@ -44,12 +44,16 @@ double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *
 {
     const double error = fst_bead_step_error_double(s, rtol, atol);
     const fst_coefficients_double *c = &s->context.coefficients;
+    if (fst_is_in_flight_double(c))
+        return fmax(error, fst_flight_error(s, rtol));
     if (!c->kinds.paced || c->law.coulomb.mode != FST_MODE_SLIP)
         return error;
     double start[2], end[2];
     fst_slip_double(c, s->y, start);
     fst_slip_double(c, s->end, end);
-    const double of_slip = slip_error(s) / (LEAST_DIGITS * fmin(size_of(start), size_of(end)));
+    const double least = fmin(fst_contact_motion_2_double(c, start, s->y[FST_WZ]),
+                              fst_contact_motion_2_double(c, end, s->end[FST_WZ]));
+    const double of_slip = slip_error(s) / (LEAST_DIGITS * sqrt(least));
     return of_slip > error ? of_slip : error;
 }
 

@@ -50,6 +50,8 @@ fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
     fst_bead_step_double *s = &made->step;
     s->context.coefficients = model->coefficients;
     made->groups = model->groups;
+    s->context.flight.params = model->params;
+    s->context.flight.groups = model->groups;
     made->rtol = options->rtol;
     memcpy(made->atol, options->atol, sizeof made->atol);
     s->ramp = options->ramp;

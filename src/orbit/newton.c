@@ -130,7 +130,7 @@ static fst_status contact_slips(const fst_setup *setup, const fst_solution *s, f
 {
     const double least = 1e-9;
     double slip[2];
-    if (!setup->model.coefficients.kinds.dry)
+    if (!setup->model.coefficients.kinds.dry || setup->model.coefficients.kinds.patch)
         return FST_OK;
     fst_slip_double(&setup->model.coefficients, s->y[0], slip);
     if (setup->model.coefficients.kinds.paced && hypot(slip[0], slip[1]) > least)

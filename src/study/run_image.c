@@ -111,6 +111,13 @@ static int is_sound_series(const fst_mark_series *s)
     return s->count >= 0 && s->count <= FST_MARKS && s->stride >= 1 && s->offered >= 0;
 }
 
+/* Under a law with modes the image tells in which one the bead is. */
+static int is_sound_mode(const fst_flow *flow)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    return !c->kinds.paced || (c->law.coulomb.mode >= 0 && c->law.coulomb.mode < FST_MODES);
+}
+
 static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
 {
     const int count =
@@ -120,7 +127,20 @@ static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
            (unsigned)i->place.station < FST_STATION_COUNT &&
            (i->place.station == FST_STATION_ALONE) ==
                (numbers == 0 && i->place.station != FST_STATION_PARKED) &&
-           is_sound_series(&i->window.returns.marks) && is_sound_series(&i->window.periods);
+           is_sound_mode(&i->flow) && is_sound_series(&i->window.returns.marks) &&
+           is_sound_series(&i->window.periods);
+}
+
+/* The coefficients of a run that begins, with the mode of its contact in the image, which is kept in the law's
+ * numbers.  0: there is no such mode. */
+static int take_mode(fst_coefficients_double *c, const image *from)
+{
+    const fst_law_numbers_double *then = &from->flow.step.context.coefficients.law;
+    if (!c->kinds.paced)
+        return 1;
+    const double mode = then->coulomb.mode;
+    c->law = *then;
+    return mode == FST_MODE_SLIP || mode == FST_MODE_STICK || mode == FST_MODE_ONSET;
 }
 
 int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_run *run,
@@ -131,13 +151,17 @@ int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_
     const image *from = bytes;
     if (!is_sound(from, layout(from->numbers == 0 ? 0 : numbers), numbers, size))
         return 0;
-    const fst_coefficients_double coefficients = run->flow->step.context.coefficients;
+    fst_coefficients_double coefficients = run->flow->step.context.coefficients;
+    if (!take_mode(&coefficients, from))
+        return 0;
     const fst_groups groups = run->flow->groups;
     run->window = from->window;
     run->window.groups = groups;
     run->end = from->end;
     *run->flow = from->flow;
     run->flow->step.context.coefficients = coefficients;
+    if (coefficients.kinds.paced) /* the mode belongs to the motion, not to the setup */
+        run->flow->step.context.coefficients.law.coulomb = from->flow.step.context.coefficients.law.coulomb;
     run->flow->groups = groups;
     *place = from->place;
     if (place->station == FST_STATION_PARKED) {

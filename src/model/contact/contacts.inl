@@ -19,7 +19,8 @@
  * a step; ode/contact.c decides when a mode ends and which one follows.  Only dry friction has that, so a row
  * of your own with more than one mode does not compile.
  *
- * Resistances.  The dry laws also act by a torque on a bead that rolls (resistance.inl).
+ * Resistances.  The dry laws also act by a torque on a bead that rolls (resistance.inl), and where the contact
+ * is a disc, on one that pivots (patch.inl).
  */
 
 /* What a law sees of the contact.  A law that needs more adds it here and in contact_of() and its tangent
@@ -30,8 +31,12 @@ typedef struct FN(contact) {
     /* For the dry laws only (kinds.dry): */
     REAL push[2];   /* A: V' = A - (7/2) f */
     REAL torque[3]; /* m, that of the resistances, per mass */
+    /* Where the contact is a disc (kinds.patch): */
+    int patch;  /* FST_PATCH_* */
+    REAL pivot; /* w = W.e */
 } FN(contact);
 
+#include "model/contact/patch.inl"
 #include "model/contact/resistance.inl"
 
 #include "model/contact/coulomb.inl"

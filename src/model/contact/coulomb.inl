@@ -8,23 +8,37 @@
  *     slip    V != 0                   mu(|V|) N V/|V| + rate V
  *     stick   |A| <= (7/2) mu_s N      (2/7) A:  V stays 0
  *     onset   just released            mu(|V|) N u, u near A/|A|
+ *     flight  in the air               0 (dynamics.inl leaves it no load; ode/flight.c)
  *
  * Onset.  Where |A| grows past (7/2) mu_s N and sliding friction is no weaker than static, the slip begins with
  * no speed and hardly any acceleration.  Its direction u follows A at the rate |A|/|V|, without bound, so that
- * it cannot be integrated; but just therefore it is known: it lags behind A by the angle lean |V|, where
- * lean = (rate at which A turns in space)/(2 |A| - (7/2) mu N).
+ * it cannot be integrated; but just therefore it is known.  It lags behind A by an angle that is |V| times
+ *
+ *     lean = (rate at which A turns in space)/(2 |A| - (7/2) mu N)
+ *
+ * and a correction in proportion to |V|; `lean` is given as a polynomial in the time since the release
+ * (ode/onset.c).
+ *
+ * A disc.  Where the contact is a disc (patch.inl), f in a slip is mu N tau V/|V|, and the plate resists
+ * pivoting. Then slip includes the creep of a bead that pivots, stick is for a bead that does not pivot either,
+ * the plate holds its W.e too, and there is no onset.
  *
  * Stribeck: mu(s) = mu_d + (mu_s - mu_d)/(1 + (s/v_S)^2).  Without a speed v_S friction falls at once.
  */
 typedef struct FN(coulomb) {
     REAL mode;         /* FST_MODE_* (model/kinds.h): constant within a step */
-    REAL lean;         /* of the onset */
+    REAL lean;         /* of the onset, now, */
+    REAL lean_slip;    /* and how it grows with |V| */
+    REAL lean_then[3]; /* lean as the polynomial in the time since the release */
+    REAL since;        /* that time at the start of the step */
     REAL sliding;      /* mu_d */
     REAL fall;         /* mu_s - mu_d where a Stribeck speed is given, else 0 */
     REAL holding;      /* mu_s */
     REAL stribeck;     /* 1/v_S^2, else 0 */
     REAL rate;         /* viscous part, in gamma */
     REAL usual_slip_2; /* s_r^2 of the pace */
+    REAL restitution;  /* e_n of an impact, where a bead may fly */
+    FN(patch) patch;
 } FN(coulomb);
 
 static inline FN(coulomb) FN(make_coulomb)(const fst_params *params, const fst_groups *g)
@@ -35,12 +49,17 @@ static inline FN(coulomb) FN(make_coulomb)(const fst_params *params, const fst_g
     const FN(coulomb) law = {
         .mode = R(0.0),
         .lean = R(0.0),
+        .lean_slip = R(0.0),
+        .lean_then = {R(0.0), R(0.0), R(0.0)},
+        .since = R(0.0),
         .sliding = REAL_OF(sliding),
         .fall = REAL_OF(isnan(speed) ? 0.0 : holding - sliding),
         .holding = REAL_OF(holding),
         .stribeck = REAL_OF(isnan(speed) ? 0.0 : 1.0 / (speed * speed)),
         .rate = REAL_OF(params->friction_contact_rate * g->time_unit),
         .usual_slip_2 = R(0.0025),
+        .restitution = REAL_OF(isnan(params->impact_restitution) ? 0.0 : params->impact_restitution),
+        .patch = FN(make_patch)(params, g),
     };
     return law;
 }
@@ -63,17 +82,123 @@ static inline REAL FN(coulomb_load)(const FN(contact) * at)
     return REAL_MAX(at->load, R(0.0));
 }
 
+/* In onset: `lean` at a time after the start of the step. */
+static inline void FN(coulomb_lean)(FN(coulomb) * law, REAL time)
+{
+    const REAL *p = law->lean_then, since = law->since + time;
+    law->lean = REAL_MULADD(since, REAL_MULADD(since, p[2], p[1]), p[0]);
+}
+
+static inline REAL_MASK FN(coulomb_sticks)(const FN(coulomb) * law)
+{
+    return REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
+}
+
+/* ------------------------------------------------------------------ a disc */
+
+/* A disc in motion: the greatest force mu N, its radius, |w| with its derivatives (pivoting_rate()), and the
+ * shares that it gets of them. */
+typedef struct FN(rubbing) {
+    REAL s2, dry, radius, rate, side, bend;
+    FN(shares) shares;
+} FN(rubbing);
+
+static inline FN(rubbing) FN(coulomb_rubbing)(const FN(coulomb) * law, const FN(contact) * at)
+{
+    const REAL load = FN(coulomb_load)(at);
+    FN(rubbing) r;
+    r.s2 = SUM_2(at->slip[0], at->slip[0], at->slip[1], at->slip[1]);
+    r.dry = FN(coulomb_mu)(law, r.s2) * load;
+    r.radius = FN(patch_radius)(&law->patch, load);
+    FN(pivoting_rate)(&law->patch, at->pivot, &r.rate, &r.side, &r.bend);
+    r.shares = FN(patch_shares)(at->patch, REAL_SQRT(r.s2), r.radius * r.rate);
+    return r;
+}
+
+/* How that changes with the contact. */
+typedef struct FN(rubbing_change) {
+    REAL along, dry, radius, rate, p; /* V.dV and the changes of mu N, a, |w| and a |w| */
+} FN(rubbing_change);
+
+static inline FN(rubbing_change) FN(coulomb_rubbing_change)(const FN(coulomb) * law, const FN(contact) * at,
+                                                            const FN(contact) * by, const FN(rubbing) * r)
+{
+    const REAL load = FN(coulomb_load)(at), dload = REAL_SELECT(REAL_LESS(R(0.0), at->load), by->load, R(0.0));
+    FN(rubbing_change) d;
+    d.along = SUM_2(at->slip[0], by->slip[0], at->slip[1], by->slip[1]);
+    d.dry = REAL_MULADD(FN(coulomb_mu)(law, r->s2), dload,
+                        R(2.0) * d.along * FN(coulomb_mu_by_s2)(law, r->s2) * load);
+    d.radius = FN(patch_radius_by_load)(&law->patch, load, r->radius) * dload;
+    d.rate = r->side * by->pivot;
+    d.p = REAL_MULADD(r->radius, d.rate, d.radius * r->rate);
+    return d;
+}
+
+/* The torque against pivoting; while the bead is held, what balances the torque `held`. */
+static inline REAL FN(coulomb_pivoting)(const FN(coulomb) * law, const FN(contact) * at, REAL held)
+{
+    const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
+    const REAL torque = r.dry * r.radius * r.shares.twist * r.side;
+    return REAL_SELECT(FN(coulomb_sticks)(law), -held, -torque);
+}
+
+static inline REAL FN(coulomb_pivoting_change)(const FN(coulomb) * law, const FN(contact) * at,
+                                               const FN(contact) * by, REAL dheld)
+{
+    const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
+    const FN(rubbing_change) d = FN(coulomb_rubbing_change)(law, at, by, &r);
+    const REAL dtwist = REAL_MULADD(r.shares.twist_s, d.along, r.shares.twist_p * d.p);
+    const REAL dmost = REAL_MULADD(d.dry, r.radius, r.dry * d.radius), most = r.dry * r.radius;
+    const REAL change = SUM_3(dmost, r.shares.twist * r.side, most, dtwist * r.side, most,
+                              r.shares.twist * (r.bend * by->pivot));
+    return REAL_SELECT(FN(coulomb_sticks)(law), -dheld, -change);
+}
+
+static inline REAL FN(coulomb_pivoting_loss)(const FN(coulomb) * law, const FN(contact) * at)
+{
+    return -(FN(coulomb_pivoting)(law, at, R(0.0)) * at->pivot);
+}
+
+/* ------------------------------------------------------------------ the force */
+
+static inline void FN(disc_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
+{
+    const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
+    const REAL grip = REAL_MULADD(r.dry, r.shares.grip, law->rate);
+    for (int i = 0; i < 2; ++i)
+        force[i] = REAL_SELECT(FN(coulomb_sticks)(law), R(2.0) / R(7.0) * at->push[i], grip * at->slip[i]);
+}
+
+static inline void FN(disc_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
+                                   REAL change[2])
+{
+    const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
+    const FN(rubbing_change) d = FN(coulomb_rubbing_change)(law, at, by, &r);
+    const REAL dgrip = REAL_MULADD(r.shares.bend, d.along, r.shares.across * d.p);
+    const REAL turned = REAL_MULADD(d.dry, r.shares.grip, r.dry * dgrip);
+    const REAL grip = REAL_MULADD(r.dry, r.shares.grip, law->rate);
+    for (int i = 0; i < 2; ++i) {
+        const REAL slipping = REAL_MULADD(grip, by->slip[i], turned * at->slip[i]);
+        change[i] = REAL_SELECT(FN(coulomb_sticks)(law), R(2.0) / R(7.0) * by->push[i], slipping);
+    }
+}
+
 static inline void FN(coulomb_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
 {
+    if (at->patch != FST_PATCH_POINT) {
+        FN(disc_force)(law, at, force);
+        return;
+    }
     const REAL *v = at->slip, *a = at->push;
     const REAL s2 = SUM_2(v[0], v[0], v[1], v[1]), dry = FN(coulomb_mu)(law, s2) * FN(coulomb_load)(at);
     const REAL inverse_s = REAL_RECIPROCAL_SQRT(s2 + R(1e-290));
     const REAL inverse_a = REAL_RECIPROCAL_SQRT(SUM_2(a[0], a[0], a[1], a[1]) + R(1e-290));
     const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a}; /* A/|A|, and u as it lags behind */
-    const REAL lag = law->lean * SUM_2(v[0], ahead[0], v[1], ahead[1]);
+    const REAL along = SUM_2(v[0], ahead[0], v[1], ahead[1]);
+    const REAL lag = along * REAL_MULADD(law->lean_slip, along, law->lean);
     const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
     const REAL u[2] = {(ahead[0] + lag * ahead[1]) * inverse_u, (ahead[1] - lag * ahead[0]) * inverse_u};
-    const REAL_MASK sticks = REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
+    const REAL_MASK sticks = FN(coulomb_sticks)(law);
     const REAL_MASK slips = REAL_LESS(law->mode, R(0.5));
     for (int i = 0; i < 2; ++i) {
         const REAL slipping = REAL_MULADD(law->rate, v[i], dry * REAL_SELECT(slips, v[i] * inverse_s, u[i]));
@@ -91,8 +216,9 @@ static inline void FN(coulomb_onset_change)(const FN(coulomb) * law, const FN(co
     const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a};
     const REAL turned = SUM_2(ahead[0], da[1], -ahead[1], da[0]) * inverse_a; /* angle of A */
     const REAL along = SUM_2(v[0], ahead[0], v[1], ahead[1]), across = SUM_2(ahead[0], v[1], -ahead[1], v[0]);
-    const REAL lag = law->lean * along;
-    const REAL dlag = law->lean * (SUM_2(dv[0], ahead[0], dv[1], ahead[1]) + across * turned);
+    const REAL dalong = SUM_2(dv[0], ahead[0], dv[1], ahead[1]) + across * turned;
+    const REAL lag = along * REAL_MULADD(law->lean_slip, along, law->lean);
+    const REAL dlag = dalong * REAL_MULADD(R(2.0) * law->lean_slip, along, law->lean);
     const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
     const REAL u[2] = {(ahead[0] + lag * ahead[1]) * inverse_u, (ahead[1] - lag * ahead[0]) * inverse_u};
     const REAL turning = dry * (turned - dlag * inverse_u * inverse_u); /* the lag is the tangent of an angle */
@@ -103,6 +229,10 @@ static inline void FN(coulomb_onset_change)(const FN(coulomb) * law, const FN(co
 static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
                                       REAL change[2])
 {
+    if (at->patch != FST_PATCH_POINT) {
+        FN(disc_change)(law, at, by, change);
+        return;
+    }
     const REAL *v = at->slip, *dv = by->slip;
     const REAL s2 = SUM_2(v[0], v[0], v[1], v[1]), inverse_s = REAL_RECIPROCAL_SQRT(s2 + R(1e-290));
     const REAL u[2] = {v[0] * inverse_s, v[1] * inverse_s};
@@ -113,8 +243,7 @@ static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact)
     const REAL ddry = REAL_MULADD(mu, dload, FN(coulomb_mu_by_s2)(law, s2) * ds2 * load);
     const REAL turning = mu * load * across * inverse_s;
     const REAL turned[2] = {-u[1], u[0]};
-    const REAL_MASK sticks = REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
-    const REAL_MASK slips = REAL_LESS(law->mode, R(0.5));
+    const REAL_MASK sticks = FN(coulomb_sticks)(law), slips = REAL_LESS(law->mode, R(0.5));
     REAL onset[2];
     FN(coulomb_onset_change)(law, at, by, mu * load, ddry, onset);
     for (int i = 0; i < 2; ++i) {
@@ -127,26 +256,33 @@ static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact)
 static inline REAL FN(coulomb_loss)(const FN(coulomb) * law, const FN(contact) * at)
 {
     const REAL s2 = SUM_2(at->slip[0], at->slip[0], at->slip[1], at->slip[1]);
+    if (at->patch != FST_PATCH_POINT) {
+        REAL force[2];
+        FN(disc_force)(law, at, force);
+        return REAL_SELECT(FN(coulomb_sticks)(law), R(0.0),
+                           SUM_2(force[0], at->slip[0], force[1], at->slip[1]));
+    }
     const REAL loss = FN(coulomb_mu)(law, s2) * FN(coulomb_load)(at) * REAL_SQRT(s2) + law->rate * s2;
-    const REAL_MASK sticks = REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
+    const REAL_MASK sticks = FN(coulomb_sticks)(law);
     return REAL_SELECT(sticks, R(0.0), loss);
 }
 
-/* dt/dtheta of the time theta in which slip is integrated: sigma = s/sqrt(s^2 + s_r^2).  In theta a slip that
- * dies in a finite time decays exponentially, its direction turns no faster than at a bounded rate, and all is
- * smooth (ode/contact.c tells more).  A bead that sticks, or has just been released, is integrated in time. */
-static inline REAL FN(coulomb_pace)(const FN(coulomb) * law, const REAL slip[2])
+/* dt/dtheta of the time theta in which slip is integrated: sigma = s/sqrt(s^2 + s_r^2), with s how fast the
+ * contact moves (motion_2 = s^2).  In theta a slip that dies in a finite time decays exponentially, its
+ * direction turns no faster than at a bounded rate, and all is smooth (ode/contact.c tells more).  On a disc, s
+ * counts pivoting: the rate (7/2) (3 pi/8) mu N/(a |w|) at which a creep settles is bounded in theta too,
+ * however slowly the bead pivots.  A bead that sticks, or has just been released, is integrated in time. */
+static inline REAL FN(coulomb_pace)(const FN(coulomb) * law, REAL motion_2)
 {
-    const REAL s2 = SUM_2(slip[0], slip[0], slip[1], slip[1]);
-    const REAL pace = REAL_SQRT(s2 / (s2 + law->usual_slip_2));
+    const REAL pace = REAL_SQRT(motion_2 / (motion_2 + law->usual_slip_2));
     return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), pace, R(1.0));
 }
 
-/* Its change as the slip changes: u s_r^2/(s^2 + s_r^2)^(3/2) dV. */
-static inline REAL FN(coulomb_pace_change)(const FN(coulomb) * law, const REAL slip[2], const REAL change[2])
+/* Its change as motion_2 changes. */
+static inline REAL FN(coulomb_pace_change)(const FN(coulomb) * law, REAL motion_2, REAL change)
 {
-    const REAL s2 = SUM_2(slip[0], slip[0], slip[1], slip[1]), whole = s2 + law->usual_slip_2;
-    const REAL along = SUM_2(slip[0], change[0], slip[1], change[1]);
-    const REAL by = along * law->usual_slip_2 * REAL_RECIPROCAL_SQRT((s2 + R(1e-290)) * whole) / whole;
+    const REAL whole = motion_2 + law->usual_slip_2;
+    const REAL by = R(0.5) * change * law->usual_slip_2 *
+                    REAL_RECIPROCAL_SQRT((motion_2 + R(1e-290)) * whole) / whole;
     return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), by, R(0.0));
 }

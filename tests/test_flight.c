@@ -1,0 +1,193 @@
+/* A bead that leaves the plate: what is known exactly without a magnet (parabolas, the time of all bounces,
+ * what their friction takes), the field at a height, and the balance of energy through flights and impacts.
+ */
+#include "physics.h"
+
+#include "ode/flight.h"
+
+static fst_params bouncing_bead(double restitution)
+{
+    fst_params p = bead_at(0.3, FST_DYNAMICS_RIGID);
+    p.friction_law = FST_FRICTION_COULOMB;
+    p.impact_restitution = restitution;
+    return p;
+}
+
+/* A bead without a magnet that is thrown up at the speed `climb` and slips at `slip`. */
+static fst_flow *thrown_bead(const fst_params *p, double climb, double slip)
+{
+    fst_model *model = model_of(p);
+    double state[FST_STATE_SIZE] = {0};
+    state[FST_X] = 0.2;
+    state[FST_NX] = 1;
+    state[FST_VX] = slip;
+    fst_flow *flow = flow_of(model, 1e-11, state);
+    fst_model_free(model);
+    flow->step.context.coefficients.law.coulomb.mode = FST_MODE_FLIGHT;
+    fst_flight_begin(flow, climb);
+    fst_bead_flow_restart(flow);
+    return flow;
+}
+
+static double speed_of(const fst_flow *flow)
+{
+    return hypot(flow->step.end[FST_VX], flow->step.end[FST_VY]);
+}
+
+/* Up and down again in 2 z'/g, with no friction; each bounce returns the part e_n of the speed and rubs with mu
+ * times its impulse; all of them take 2 z'/(g (1 - e_n)). */
+static void test_bounces_without_a_magnet(void **unused)
+{
+    (void)unused;
+    fst_params p = bouncing_bead(0.7);
+    p.model_kappa = 0;
+    fst_flow *flow = thrown_bead(&p, 0.01, 0.5);
+    const double g = flow->step.context.coefficients.gravity, hop = 0.02 / g, mu = p.friction_mu;
+    (void)advance_to(flow, 0.25 * hop, 0);
+    double height, climb;
+    fst_flight_at(flow, 1.0, &height, &climb);
+    CHECK_CLOSE(climb, 0.005, 1e-13);
+    CHECK_CLOSE(height, 0.375 * 0.01 * 0.01 / g, 1e-12);
+    CHECK_CLOSE(speed_of(flow), 0.5, 1e-12);
+    (void)advance_to(flow, 0.999 * hop, 0);
+    assert_int_equal((int)flow->contact.impacts, 0);
+    (void)advance_to(flow, 1.001 * hop, 0);
+    assert_int_equal((int)flow->contact.impacts, 1);
+    CHECK_CLOSE(flow->contact.impulse, 1.7 * 0.01, 1e-12);
+    CHECK_CLOSE(speed_of(flow), 0.5 - mu * 1.7 * 0.01, 1e-11);
+    const double rest = hop / (1 - 0.7);
+    (void)advance_to(flow, 0.999 * rest, 0);
+    assert_true(fst_flight_is_on(flow));
+    (void)advance_to(flow, 1.0001 * rest, 0);
+    assert_int_equal(fst_contact_mode(flow), FST_MODE_SLIP);
+    const double impulses = 1.7 * 0.01 / (1 - 0.7);
+    CHECK_CLOSE(flow->contact.impulse, impulses, 1e-10);
+    CHECK_CLOSE(speed_of(flow), 0.5 - mu * impulses - mu * g * 0.0001 * rest, 1e-9);
+    CHECK_WITHIN((double)flow->contact.impacts, 30, 100);
+    fst_flow_free(flow);
+}
+
+/* Strong friction takes the whole slip in the first impact, and the bead rolls: 5/7 of its speed is left. */
+static void test_impact_that_stops_the_slip(void **unused)
+{
+    (void)unused;
+    fst_params p = bouncing_bead(0.0);
+    p.model_kappa = 0;
+    p.friction_mu = 5.0;
+    fst_flow *flow = thrown_bead(&p, 0.01, 0.05);
+    (void)advance_to(flow, 1.01 * 0.02 / flow->step.context.coefficients.gravity, 0);
+    assert_int_equal((int)flow->contact.impacts, 1);
+    assert_int_equal(fst_contact_mode(flow), FST_MODE_STICK);
+    CHECK_CLOSE(speed_of(flow), 5.0 / 7.0 * 0.05, 1e-12);
+    CHECK_CLOSE(flow->contact.impact_loss, 0.5 * 0.01 * 0.01 + 0.05 * 0.05 / 7, 1e-12);
+    fst_flow_free(flow);
+}
+
+/* A bead that loses nothing bounces for ever. */
+static void test_elastic_bead(void **unused)
+{
+    (void)unused;
+    fst_params p = bouncing_bead(1.0);
+    p.model_kappa = 0;
+    fst_flow *flow = thrown_bead(&p, 0.01, 0.0);
+    const double hop = 0.02 / flow->step.context.coefficients.gravity;
+    (void)advance_to(flow, 100.5 * hop, 0);
+    double height, climb;
+    fst_flight_at(flow, 1.0, &height, &climb);
+    assert_int_equal((int)flow->contact.impacts, 100);
+    CHECK_CLOSE(climb, 0.0, 1e-11);
+    CHECK_CLOSE(height, 0.01 * 0.02 / 8 * 2 / flow->step.context.coefficients.gravity, 1e-9);
+    fst_flow_free(flow);
+}
+
+/* At a height the field is that of a bead put there, bit for bit. */
+static void test_field_at_a_height(void **unused)
+{
+    (void)unused;
+    fst_params p = bouncing_bead(0.5), higher = p;
+    p.model_h = 0.75;
+    higher.model_h = 1.0;
+    fst_model *low = model_of(&p), *high = model_of(&higher);
+    uint64_t seed = 3;
+    double state[FST_STATE_SIZE];
+    random_state(&seed, state);
+    fst_flow *flow = flow_of(low, 1e-10, state);
+    fst_raise_source_double(&flow->step.context, 0.25);
+    fst_pull_double raised, expected;
+    fst_magnetic_pull_double(&flow->step.context.coefficients, state, &raised);
+    fst_magnetic_pull_double(&high->coefficients, state, &expected);
+    for (int i = 0; i < 3; ++i) {
+        CHECK_SAME_BITS(raised.b[i], expected.b[i]);
+        CHECK_SAME_BITS(raised.force[i], expected.force[i]);
+    }
+    fst_flow_free(flow);
+    fst_model_free(low);
+    fst_model_free(high);
+}
+
+/* Weak friction and a fast drive: the magnet lifts the bead off again and again. */
+static fst_params lifted_bead(void)
+{
+    fst_params p = fst_default_params();
+    p.friction_law = FST_FRICTION_COULOMB;
+    p.friction_mu = 0.05;
+    p.drive_frequency = 90;
+    p.run_periods = 25;
+    p.run_discard = 5;
+    return p;
+}
+
+static void test_energy_through_flights(void **unused)
+{
+    (void)unused;
+    fst_params p = lifted_bead();
+    static const double bounce[] = {0.8, 0.5, 0.0};
+    for (int i = 0; i < 3; ++i) {
+        p.impact_restitution = bounce[i];
+        p.run_rtol = 1e-10;
+        const fst_run_result run = run_of(&p);
+        CHECK_WITHIN(run.flying, 0.05, 0.6);
+        CHECK_WITHIN(run.impacts_per_return, 0.1, 100);
+        CHECK_WITHIN(run.energy_residual, 0, 3e-9);
+        CHECK_WITHIN(run.mean_impact_power, 1e-6, 1);
+        p.run_rtol = 1e-12;
+        const fst_run_result finer = run_of(&p);
+        CHECK_WITHIN(finer.energy_residual, 0, 3e-11);
+        CHECK_CLOSE(run.mean_r, finer.mean_r, 2e-5);
+        CHECK_CLOSE(run.flying, finer.flying, 1e-4);
+    }
+}
+
+/* Without impact.restitution the model ends where the load vanishes. */
+static void test_without_restitution_the_run_ends(void **unused)
+{
+    (void)unused;
+    const fst_params p = lifted_bead();
+    const fst_run_result run = run_of(&p);
+    assert_int_equal(run.regime, FST_REGIME_LIFTED);
+}
+
+static void test_bad_input(void **unused)
+{
+    (void)unused;
+    fst_params p = fst_default_params();
+    fst_error error = {FST_OK, "", ""};
+    assert_int_equal(fst_params_set(&p, "impact.restitution", "-0.1", &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "out of range");
+    assert_int_equal(fst_params_set(&p, "impact.restitution", "1.1", &error), FST_BAD_INPUT);
+    CHECK_CONTAINS(error.sentence, "0 to 1");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bounces_without_a_magnet),
+        cmocka_unit_test(test_impact_that_stops_the_slip),
+        cmocka_unit_test(test_elastic_bead),
+        cmocka_unit_test(test_field_at_a_height),
+        cmocka_unit_test(test_energy_through_flights),
+        cmocka_unit_test(test_without_restitution_the_run_ends),
+        cmocka_unit_test(test_bad_input),
+    };
+    return cmocka_run_group_tests_name("flight", tests, NULL, NULL);
+}
