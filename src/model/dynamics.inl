@@ -270,10 +270,11 @@ static inline REAL FN(pace_change)(const FN(coefficients) * c, const REAL *y, co
         return R(0.0);
     FN(slip)(c, y, slip);
     FN(slip)(c, tangent, change);
-    REAL along = SUM_2(slip[0], change[0], slip[1], change[1]);
+    REAL by = R(2.0) * SUM_2(slip[0], change[0], slip[1], change[1]);
     if (c->kinds.patch)
-        along = along + FN(patch_motion_along)(&c->law.coulomb.patch, y[FST_WZ], tangent[FST_WZ]);
-    return FN(coulomb_pace_change)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]), along);
+        by = by + R(2.0) * (c->law.coulomb.patch.radius * c->law.coulomb.patch.radius) *
+                      (y[FST_WZ] * tangent[FST_WZ]);
+    return FN(coulomb_pace_change)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]), by);
 }
 
 /* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for a caller that observes the state. */

@@ -14,19 +14,22 @@
  * differences at equal times of |V| and of its direction become large against |V| itself; at equal theta they
  * die with it.  So a tangent vector keeps its dt until the slip is over or the way ends.
  *
+ * A bead that flies, and a disc that neither slips nor pivots, are not known here: fst_neighbours_known().
+ *
  * Where the mode changes (w: what sticks or slips before, f: after):
  *
- *     slip -> stick     (or, straight against a stronger push, onset) |V| has fallen to nothing in both at
- * equal theta: what d still has of a slip is taken out by the plate's impulse, and d - f dt goes on stick ->
- * onset    f = w there, unless static friction is stronger: nothing happens onset -> slip     nor here stick ->
- * slip     static friction was stronger (a disc creeps, and has f = w): f != w.  The neighbour lets go at
- * another time, off by dt = -Dg d/(Dg w), g being what static friction could still take: d + w dt goes on onset
- * -> stick    the slip has come back to nothing at the rate s': dt = -ds/s', d + (w - f) dt goes on
+ *     slip -> stick     |V| has fallen to nothing in both at equal theta: what d still has of a slip is
+ *                       taken out by the plate's impulse, and d - f dt goes on
+ *     stick -> onset    f = w there: nothing happens (if static friction is hardly stronger: as below)
+ *     onset -> slip     nor here
+ *     stick -> slip     static friction was stronger: f != w.  The neighbour lets go at another time, off by
+ *                       dt = -Dg d/(Dg w), g being what static friction could still take: d + w dt goes on
+ *     onset -> stick    the slip has come back to nothing at the rate s': dt = -ds/s', d + (w - f) dt goes on
  *
  * A bead at rest has no slip, and neither has any neighbour: nine directions become seven.  So a return that
  * sticks somewhere has two multipliers that are exactly zero.
  *
- * Not in the derivative: the angle by which an onset lags behind (`lean`) is that of the motion for its
+ * Not in the derivative: the angle by which an onset lags behind (`lean`, as it changes in time) is that of the motion for its
  * neighbours too.  What they would feel of the difference is of the order (hand-over)^(3/2), 1e-8 at a
  * tolerance of 1e-13; it bears on Newton's convergence alone, not on where it ends.
  */
@@ -47,16 +50,23 @@ static int differs(const fst_neighbours *b)
     return b->parameter >= 0 && !b->exact;
 }
 
+/* The numbers of the law that the motion itself sets (ode/contact.c). */
+static void take_numbers(fst_coulomb_double *to, const fst_coulomb_double *from)
+{
+    to->mode = from->mode;
+    to->lean = from->lean;
+    to->lean_slip = from->lean_slip;
+    memcpy(to->lean_then, from->lean_then, sizeof to->lean_then);
+    to->since = from->since;
+    to->patch.slow_2 = from->patch.slow_2;
+}
+
 static void take_mode(fst_neighbours *b, const fst_coefficients_double *c)
 {
     if (!c->kinds.paced || !differs(b))
         return;
-    for (int side = 0; side < 2; ++side) {
-        fst_coulomb_double *law = side ? &b->above.law.coulomb : &b->below.law.coulomb;
-        law->mode = c->law.coulomb.mode;
-        law->lean = c->law.coulomb.lean;
-        law->lean_slip = c->law.coulomb.lean_slip;
-    }
+    take_numbers(&b->below.law.coulomb, &c->law.coulomb);
+    take_numbers(&b->above.law.coulomb, &c->law.coulomb);
 }
 
 /* By how much v differs in a setup if the contact slips as it does in the motion: the slip depends on eps. */
@@ -152,8 +162,6 @@ static void stop_slips(fst_neighbours *b, const fst_coefficients_double *c, cons
         slip_of(b, c, y, column, slip); /* what rounding left */
         d[FST_VX] -= slip[0];
         d[FST_VY] -= slip[1];
-        if (c->kinds.patch) /* a disc at rest does not pivot */
-            d[FST_WZ] = 0.0;
     }
 }
 
@@ -188,9 +196,11 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
 {
     static const double weights[16][15] = DOP_WEIGHTS;
     const fst_bead_step_double *s = &flow->step;
-    fst_coefficients_double at_stage = s->context.coefficients, *c = &at_stage;
+    fst_coefficients_double here = s->context.coefficients, *c = &here;
+    const int onset = c->kinds.paced && fst_contact_mode(flow) == FST_MODE_ONSET;
     double k[STAGES][FST_NEIGHBOURS][FST_STATE_SIZE], kt[STAGES][FST_NEIGHBOURS],
         at[FST_NEIGHBOURS][FST_STATE_SIZE];
+    take_mode(b, c);
     for (int stage = 0; stage <= STAGES; ++stage) { /* the last is the end of the step */
         memcpy(at, b->d, sizeof at);
         for (int before = 0; before < stage; ++before) {
@@ -199,12 +209,12 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
                 for (int i = 0; i < FST_STATE_SIZE; ++i)
                     at[column][i] += weight * k[before][column][i];
         }
-        if (stage == STAGES)
-            break;
-        if (c->kinds.paced && c->law.coulomb.mode == FST_MODE_ONSET)
-            fst_coulomb_lean_double(&c->law.coulomb, fst_stage_time_double(&s->context, s->h, stage));
-        take_mode(b, c);
-        slopes(b, c, s->omega, s->stage[stage], at, k[stage], kt[stage]);
+        if (onset) { /* the lag behind the push changes within the step */
+            fst_coulomb_lean_double(&here.law.coulomb, fst_stage_time_double(&s->context, s->h, stage));
+            take_mode(b, c);
+        }
+        if (stage < STAGES)
+            slopes(b, c, s->omega, s->stage[stage], at, k[stage], kt[stage]);
     }
     memcpy(b->d, at, sizeof at);
     for (int stage = 0; stage < STAGES; ++stage)
@@ -305,21 +315,34 @@ static void sink_back(fst_neighbours *b, const fst_flow *flow)
     forget_clocks(b);
 }
 
+/* What is left of a slip dies at equal theta; compare at equal times in the mode that follows. */
+static void come_to_rest(fst_neighbours *b, const fst_flow *flow, int after)
+{
+    double f[FST_STATE_SIZE];
+    stop_slips(b, &flow->step.context.coefficients, flow->step.end);
+    rate_in(flow, after, f);
+    shift(b, f, -1.0);
+    forget_clocks(b);
+}
+
 /* The mode changes at the end of the flow's last step. */
 static void change_mode(fst_neighbours *b, const fst_flow *flow)
 {
     const int before = fst_contact_mode(flow), after = flow->contact.next_mode;
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const int jumps = c->law.coulomb.holding > fst_coulomb_mu_double(&c->law.coulomb, 0.0);
     double f[FST_STATE_SIZE];
-    const fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
-    const int falls =
-        law->holding > fst_coulomb_mu_double(law, 0.0) && !flow->step.context.coefficients.kinds.patch;
-    if (before == FST_MODE_SLIP && (after == FST_MODE_STICK || after == FST_MODE_ONSET)) {
-        stop_slips(b, &flow->step.context.coefficients, flow->step.end);
+    if (before == FST_MODE_SLIP && after == FST_MODE_SLIP) { /* against a push that turns it round */
+        stop_slips(b, c, flow->step.end);
+    } else if (before == FST_MODE_SLIP) {
+        come_to_rest(b, flow, after);
+    } else if (before == FST_MODE_STICK && after == FST_MODE_SLIP) {
+        let_go(b, flow);
+    } else if (before == FST_MODE_STICK && jumps) {
+        let_go(b, flow);
         rate_in(flow, after, f);
         shift(b, f, -1.0);
         forget_clocks(b);
-    } else if (before == FST_MODE_STICK && falls && (after == FST_MODE_SLIP || after == FST_MODE_ONSET)) {
-        let_go(b, flow);
     } else if (before == FST_MODE_ONSET && after == FST_MODE_STICK) {
         sink_back(b, flow);
     }
@@ -332,8 +355,18 @@ void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow)
     const fst_coefficients_double *c = &flow->step.context.coefficients;
     forget_clocks(b);
     take_mode(b, c);
-    if (fst_sticks_double(c) > 0.5)
+    if (fst_sticks_double(c) > 0.5 || (c->kinds.paced && fst_contact_mode(flow) == FST_MODE_ONSET))
         stop_slips(b, c, flow->step.y);
+}
+
+int fst_neighbours_known(const fst_flow *flow)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    if (!c->kinds.paced)
+        return 1;
+    const int now = fst_contact_mode(flow), next = flow->contact.next_mode;
+    const int held = c->kinds.patch && (now == FST_MODE_STICK || next == FST_MODE_STICK);
+    return now != FST_MODE_FLIGHT && next != FST_MODE_FLIGHT && !held;
 }
 
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow)

@@ -240,7 +240,8 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
             return FST_OK;
         if (here.s.segments == 0) /* fast spins: in proportion */
             longest = density * curve->longest_step * (1.0 + fabs(here.s.y[0][FST_WZ]));
-        h *= iterations <= 3 ? 1.6 : iterations > 5 ? 0.6 : 1.0;
+        const int easy = fst_family_rests(curve->family) ? 4 : 3; /* columns are less exact where it rests */
+        h *= iterations <= easy ? 1.6 : iterations > easy + 2 ? 0.6 : 1.0;
         h = h > longest ? longest : h;
     }
 }

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/error.h"
-
 #include "ode/neighbours.h"
 
 _Static_assert((int)FST_COLUMNS <= (int)FST_NEIGHBOURS, "every column has a neighbour");
@@ -26,6 +25,10 @@ static fst_status follow(const fst_setup *setup, fst_neighbours *b, fst_flow *fl
             status = fst_flow_step(flow, duration, error);
         if (status != FST_OK)
             return status;
+        if (!fst_neighbours_known(flow))
+            return fst_fail(error, FST_NO_CONVERGENCE, "tangents",
+                            "how neighbours of a bead move that flies, or that a disc of contact holds, is not "
+                            "known to this program: it has no multipliers and no exponents of such a motion");
         fst_neighbours_follow(b, flow);
         if (setup->sticks && fst_sticks_double(&flow->step.context.coefficients) > 0.5)
             *setup->sticks = 1;
@@ -43,11 +46,6 @@ fst_status fst_dry_carry(const fst_setup *setup, double tolerance, double durati
                         .spread = setup->spread,
                         .below = setup->below,
                         .above = setup->above};
-    if (setup->model.coefficients.kinds.flies)
-        return fst_fail(
-            error, FST_BAD_INPUT, "impact.restitution",
-            "orbits are not followed through impacts: leave impact.restitution out, and a bead that "
-            "lifts off ends its orbit");
     fst_flow *flow;
     fst_flow_options o = fst_default_flow_options();
     o.rtol = tolerance;
@@ -75,6 +73,6 @@ void fst_dry_coefficients(const fst_setup *setup, const double *y, fst_coefficie
     if (!out->kinds.paced)
         return;
     fst_slip_double(out, y, slip);
-    const int rests = slip[0] * slip[0] + slip[1] * slip[1] <= NO_SLIP * NO_SLIP && fst_grip(out, y) >= 0.0;
+    const int rests = !out->kinds.patch && slip[0] * slip[0] + slip[1] * slip[1] <= NO_SLIP * NO_SLIP && fst_grip(out, y) >= 0.0;
     out->law.coulomb.mode = rests ? FST_MODE_STICK : FST_MODE_SLIP;
 }

@@ -130,7 +130,7 @@ static fst_status contact_slips(const fst_setup *setup, const fst_solution *s, f
 {
     const double least = 1e-9;
     double slip[2];
-    if (!setup->model.coefficients.kinds.dry)
+    if (!setup->model.coefficients.kinds.dry || setup->model.coefficients.kinds.patch)
         return FST_OK;
     fst_slip_double(&setup->model.coefficients, s->y[0], slip);
     if (setup->model.coefficients.kinds.paced && hypot(slip[0], slip[1]) > least)
@@ -340,7 +340,7 @@ static fst_status find_tangent(const fst_family *family, fst_solution *s, fst_ne
 fst_status fst_solution_approach(const fst_family *family, fst_solution *s, const fst_direction *across,
                                  fst_error *error)
 {
-    const double rough = 1e-8;
+    const double rough = fst_family_rests(family) ? 1e-10 : 1e-8; /* of releases more is left at either */
     if (s->segments == 0 || family->tolerance >= rough)
         return FST_OK;
     fst_family eased = *family;

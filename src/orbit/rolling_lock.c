@@ -284,7 +284,7 @@ static fst_status search(tracer *t, fst_locked_list *list, fst_error *error)
 fst_status fst_rolling_locks_find(const fst_setup *setup, fst_locked_list *list, fst_error *error)
 {
     fst_coefficients_double c = setup->model.coefficients;
-    if (!c.kinds.dry || c.resistance.arm > 0.0)
+    if (!c.kinds.dry || c.resistance.arm > 0.0 || c.kinds.patch)
         return FST_OK;
     tracer t = {.c = &c, .holding = INFINITY};
     if (c.kinds.paced) {

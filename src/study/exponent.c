@@ -277,6 +277,11 @@ static fst_status follow_dry(fst_exponent *asked, fst_flow *flow, double rtol, c
             asked->failed = 1;
             return FST_OK;
         }
+        const double load = fst_load_function(flow, flow->step.end, FST_PATH_PULL(&flow->step, FST_PATH_END));
+        if (!fst_neighbours_known(flow) || (asked->coefficients->kinds.flies && load < 0)) {
+            asked->unknown = 1;
+            return FST_OK;
+        }
         fst_neighbours_follow(&b, flow);
         if (!(fst_twofold_difference((fst_twofold){end, 0.0}, flow->t) > 0.0))
             end_piece(&f, project_neighbour(&b, flow));
@@ -287,16 +292,13 @@ static fst_status follow_dry(fst_exponent *asked, fst_flow *flow, double rtol, c
 
 static fst_status dry_exponent(fst_exponent *asked, const fst_progress *progress, fst_error *error)
 {
-    if (asked->coefficients->kinds.flies) { /* an impact parts neighbours in a way that is not known here */
-        asked->unknown = 1;
-        return FST_OK;
-    }
     const double rtol = fmax(asked->rtol, LOOSEST_WITHOUT_FRICTION); /* what it makes of the modes, too */
     fst_model model;
     fst_flow *flow;
     fst_flow_options o = fst_default_flow_options();
     memset(&model, 0, sizeof model);
     model.coefficients = *asked->coefficients;
+    model.coefficients.kinds.flies = 0; /* follow_dry() looks for it */
     model.groups.omega = asked->coefficients->omega;
     o.rtol = rtol;
     for (int i = 0; i < FST_STATE_SIZE; ++i)

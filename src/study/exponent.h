@@ -20,7 +20,7 @@ typedef struct fst_exponent {
     double chance;
     uint64_t rhs_calls;
     int failed;  /* the step size underflowed */
-    int unknown; /* nobody can tell: the bead may fly */
+    int unknown; /* the program does not know neighbours of such a motion (ode/neighbours.h) */
     /* How far the work has got (zeros: it has not begun); asked again, it goes on from there to the same bits.
      */
     int has_way;

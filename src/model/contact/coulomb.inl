@@ -246,8 +246,7 @@ static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact)
     const REAL ddry = REAL_MULADD(mu, dload, FN(coulomb_mu_by_s2)(law, s2) * ds2 * load);
     const REAL turning = mu * load * across * inverse_s;
     const REAL turned[2] = {-u[1], u[0]};
-    const REAL_MASK sticks = FN(coulomb_sticks)(law);
-    const REAL_MASK slips = REAL_LESS(law->mode, R(0.5));
+    const REAL_MASK sticks = FN(coulomb_sticks)(law), slips = REAL_LESS(law->mode, R(0.5));
     REAL onset[2];
     FN(coulomb_onset_change)(law, at, by, mu * load, ddry, onset);
     for (int i = 0; i < 2; ++i) {
@@ -282,11 +281,12 @@ static inline REAL FN(coulomb_pace)(const FN(coulomb) * law, REAL motion_2)
     return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), pace, R(1.0));
 }
 
-/* Its change as s^2 changes by 2 along: s ds s_r^2/(s (s^2 + s_r^2)^(3/2)). */
-static inline REAL FN(coulomb_pace_change)(const FN(coulomb) * law, REAL motion_2, REAL along)
+/* Its change as motion_2 changes. */
+static inline REAL FN(coulomb_pace_change)(const FN(coulomb) * law, REAL motion_2, REAL change)
 {
     const REAL whole = motion_2 + law->usual_slip_2;
-    const REAL by = along * law->usual_slip_2 * REAL_RECIPROCAL_SQRT((motion_2 + R(1e-290)) * whole) / whole;
+    const REAL by = R(0.5) * change * law->usual_slip_2 *
+                    REAL_RECIPROCAL_SQRT((motion_2 + R(1e-290)) * whole) / whole;
     return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), by, R(0.0));
 }
 

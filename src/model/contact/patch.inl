@@ -240,9 +240,3 @@ static inline REAL FN(patch_motion_2)(const FN(patch) * q, REAL s2, REAL w)
 {
     return REAL_MULADD(q->radius * q->radius, REAL_MULADD(w, w, q->slow_2), s2);
 }
-
-/* Half of what pivoting adds to its change. */
-static inline REAL FN(patch_motion_along)(const FN(patch) * q, REAL w, REAL dw)
-{
-    return q->radius * q->radius * (w * dw);
-}
