@@ -29,9 +29,9 @@
  * A bead at rest has no slip, and neither has any neighbour: nine directions become seven.  So a return that
  * sticks somewhere has two multipliers that are exactly zero.
  *
- * Not in the derivative: the angle by which an onset lags behind (`lean`, as it changes in time) is that of the motion for its
- * neighbours too.  What they would feel of the difference is of the order (hand-over)^(3/2), 1e-8 at a
- * tolerance of 1e-13; it bears on Newton's convergence alone, not on where it ends.
+ * Not in the derivative: the angle by which an onset lags behind (`lean`, as it changes in time) is that of the
+ * motion for its neighbours too.  What they would feel of the difference is of the order (hand-over)^(3/2),
+ * 1e-8 at a tolerance of 1e-13; it bears on Newton's convergence alone, not on where it ends.
  */
 #include "ode/neighbours.h"
 

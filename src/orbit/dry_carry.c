@@ -73,6 +73,7 @@ void fst_dry_coefficients(const fst_setup *setup, const double *y, fst_coefficie
     if (!out->kinds.paced)
         return;
     fst_slip_double(out, y, slip);
-    const int rests = !out->kinds.patch && slip[0] * slip[0] + slip[1] * slip[1] <= NO_SLIP * NO_SLIP && fst_grip(out, y) >= 0.0;
+    const int rests = !out->kinds.patch && slip[0] * slip[0] + slip[1] * slip[1] <= NO_SLIP * NO_SLIP &&
+                      fst_grip(out, y) >= 0.0;
     out->law.coulomb.mode = rests ? FST_MODE_STICK : FST_MODE_SLIP;
 }

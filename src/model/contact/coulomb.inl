@@ -282,7 +282,7 @@ static inline REAL FN(coulomb_pace)(const FN(coulomb) * law, REAL motion_2)
 static inline REAL FN(coulomb_pace_change)(const FN(coulomb) * law, REAL motion_2, REAL change)
 {
     const REAL whole = motion_2 + law->usual_slip_2;
-    const REAL by = R(0.5) * change * law->usual_slip_2 *
-                    REAL_RECIPROCAL_SQRT((motion_2 + R(1e-290)) * whole) / whole;
+    const REAL by =
+        R(0.5) * change * law->usual_slip_2 * REAL_RECIPROCAL_SQRT((motion_2 + R(1e-290)) * whole) / whole;
     return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), by, R(0.0));
 }
