@@ -6,9 +6,11 @@ import math
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from concurrent.futures import ThreadPoolExecutor
 from html.parser import HTMLParser
@@ -330,7 +332,9 @@ class Paper(unittest.TestCase):
         met = set()
         for statement in self.paper["statements"]:
             name = re.match(r"\w+", statement["criterion"])[0]
-            for dynamics, key in (("farago2020", "verdict"), ("rigid", "rigid_verdict")):
+            for dynamics, key in (("farago2020", "verdict"), ("rigid", "rigid_verdict"), ("coulomb", "coulomb_verdict")):
+                if dynamics not in statement:
+                    continue
                 expected = rule(name, statement[dynamics], statement["published"], statement["scale"])
                 self.assertEqual(statement[key], expected, statement)
                 met.add((name, expected))
@@ -378,6 +382,9 @@ class Paper(unittest.TestCase):
                    for v in ("reproduced", "close", "not reproduced")]
         tally = "{} statements: farago2020 {} reproduced, {} close, {} not; rigid {}, {}, {}"
         self.assertIn(tally.format(len(claims), *counted), self.summary)
+        dry = [s["coulomb_verdict"] for s in claims if "coulomb" in s]
+        counted = [dry.count(v) for v in ("reproduced", "close", "not reproduced")]
+        self.assertIn("{} of them with dry friction, mu = 0.2: {}, {}, {}".format(len(dry), *counted), self.summary)
 
     def test_keys(self):
         for statement in self.paper["statements"]:
@@ -445,7 +452,8 @@ class Paper(unittest.TestCase):
         """Each command of paper.json prints the number that stands beside it; the report shows the same."""
         shown = [html.unescape(text) for text in re.findall(r"<pre>(festoon [^<]*)</pre>", self.report)]
         cases = [(s, prefix, dynamics) for s in self.paper["statements"] if s["id"] not in self.SLOW
-                 for prefix, dynamics in (("", "farago2020"), ("rigid_", "rigid"))]
+                 for prefix, dynamics in (("", "farago2020"), ("rigid_", "rigid"), ("coulomb_", "coulomb"))
+                 if dynamics in s]
         commands = sorted({s[prefix + "command"] for s, prefix, _ in cases})
         with ThreadPoolExecutor(2) as pool:
             printed = dict(zip(commands, pool.map(repeat, commands)))
@@ -458,6 +466,84 @@ class Paper(unittest.TestCase):
                 self.close_to(value, statement[dynamics], 1e-12, (command, reads))
             if not prefix:
                 self.assertIn(f"{command}   # {reads}", shown)
+
+    # ------------------------------------------------------------ dry friction
+
+    def test_dry_friction_has_a_column_where_the_motion_is_meant(self):
+        with_column = {s["id"] for s in self.paper["statements"] if "coulomb" in s}
+        self.assertLessEqual({"fold4-festoons", "corotation", "bell", "inversion", "turning-points"}, with_column)
+        # Not about the field, the printed equations or a paramagnetic bead.
+        self.assertFalse(with_column & {"maxima", "centre-equations", "appendix-theta", "paramagnet", "halving"})
+        for name in with_column:
+            self.assertEqual(self.statement(name)["coulomb_mu"], self.paper["dry"]["mu"])
+
+    def test_the_facts_follow_from_the_map(self):
+        """Each dry number of the table of facts, read again off the runs of the map."""
+        dry = self.paper["dry"]
+        runs = [r for r in dry["map"] if r["mu"] == dry["mu"]]
+        self.assertGreater(len(runs), 8)
+        for run_ in runs:
+            share = None if run_["mean_alpha_dot"] is None else (
+                run_["mean_alpha_dot"] / (2 * math.pi * run_["frequency_hz"] / 312.5))
+            expected = (run_["regime"] if run_["regime"] in ("ejected", "lifted") else
+                        "with the magnet" if abs(share - 1) < 0.02 else
+                        "against the magnet" if share < -0.005 else "other")
+            self.assertEqual(run_["outcome"], expected, run_)
+        window = [r for r in runs if 7 <= r["frequency_hz"] <= 10]
+        gone = 100 * sum(r["outcome"] in ("ejected", "lifted") for r in window) / len(window)
+        self.close_to(self.fact("ejection"), gone, 1e-12, window)
+        from_rest = sorted((r["frequency_hz"], r["outcome"]) for r in runs if r["start"] == "rest")
+        ends = next(i for i, (_, outcome) in enumerate(from_rest) if outcome != "with the magnet")
+        self.close_to(self.fact("corotation"), (from_rest[ends - 1][0] + from_rest[ends][0]) / 2, 1e-12, from_rest)
+        rolling = [r for r in runs if r["start"] == "rolling" and r["settled"] and r["outcome"] == "against the magnet"]
+        slowest = min((r for r in rolling if r["frequency_hz"] >= 10), key=lambda r: abs(r["mean_alpha_dot"]))
+        self.close_to(self.fact("bell"), slowest["frequency_hz"], 1e-12, slowest)
+
+    def fact(self, name):
+        dry = self.paper["dry"]
+        laws = next(f for f in dry["facts"] if f["id"] == name)["laws"]
+        return next(law["value"] for law in laws if law["mu"] == dry["mu"])
+
+    def test_the_slipping_lock_by_hand(self):
+        """At 7 Hz the bead that rubs dry locks beside the magnet and slips: the five equations of that state, written
+        here.  At 8 Hz, beyond the fold of such states, it leaves the plate."""
+        dry = ["--set", "friction.law=coulomb", "--set", "friction.mu=0.2", "--set", "run.rtol=1e-10", "--json"]
+        locked = json.loads(run("run", *dry, "--set", "drive.frequency=7Hz").stdout)
+        self.assertEqual(locked["regime"], "locked")
+        x, y, vx, vy, *rest = locked["final_state"]
+        n, w, omega = rest[:3], rest[3:], locked["omega"]
+        eps, kappa = 2.5 / 23, 1.5
+        b, gradient = hand.field(x, y, 0.0)
+        force = [kappa * eps ** 2 * hand.dot(n, [gradient[j][i] for j in range(3)]) for i in range(3)]
+        torque = [kappa * eps ** 2 * c for c in hand.cross(n, b)]
+        load = 9.81 / (0.023 * 312.5 ** 2) - force[2]
+        slip = [vx - eps * w[1], vy + eps * w[0]]
+        friction = [0.2 * load * s / math.hypot(*slip) for s in slip]
+        turning = hand.cross([0, 0, omega], w)
+        e_cross_f = [-friction[1], friction[0], 0.0]
+        left = [-omega ** 2 * x - force[0] + friction[0], -omega ** 2 * y - force[1] + friction[1]]
+        left += [2 * eps ** 2 / 5 * turning[i] - torque[i] - eps * e_cross_f[i] for i in range(3)]
+        self.assertLess(max(map(abs, left)), 1e-8, left)
+        self.assertGreater(math.hypot(*slip), 0.1)
+        gone = json.loads(run("run", *dry, "--set", "drive.frequency=8Hz").stdout)
+        self.assertEqual(gone["regime"], "ejected")
+
+    def test_the_large_maps_go_on_where_they_were_interrupted(self):
+        directory = Path(self.scratch.name) / "maps"
+        database = directory / "dry-map-rolling-far.db"
+        process = subprocess.Popen([FESTOON, "paper", "--dry-maps", "-o", str(directory)], stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None and not database.exists():
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        out, messages = process.communicate()
+        self.assertEqual((process.returncode, out), (130, ""), messages)
+        self.assertIn("the same command goes on", messages)
+        self.assertEqual(run("export", str(database), "--csv").returncode, 0)
+        self.assertFalse((directory / "dry-maps.md").exists())
+        for wrong in (["--dry-maps"], ["--dry-maps", "--reduced", "-o", str(directory)]):
+            done = run("paper", *wrong)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
 
     def test_no_such_statement(self):
         done = run("paper", "--only", "maximum")

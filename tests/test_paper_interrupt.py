@@ -51,7 +51,10 @@ class Interrupted(unittest.TestCase):
         whole = {statement["id"]: statement for statement in self.whole["statements"]}
         self.assertTrue(fewest <= len(paper["statements"]) < len(whole), len(paper["statements"]))
         for statement in paper["statements"]:
-            self.assertEqual(statement, whole[statement["id"]])
+            said = whole[statement["id"]]
+            self.assertEqual(statement, {key: said[key] for key in statement})
+            # The column of dry friction comes last: a statement may be there without it.
+            self.assertFalse([key for key in said if key not in statement and not key.startswith("coulomb")])
         for figure in paper["figures"]:
             self.assertTrue((directory / figure["file"]).read_text().rstrip().endswith("</svg>"))
         self.assertFalse([path for path in directory.iterdir() if path.suffix not in

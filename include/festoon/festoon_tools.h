@@ -282,6 +282,12 @@ FST_API fst_paper_options fst_default_paper_options(void);
  * and `directory` may be NULL. */
 FST_API fst_status fst_paper(const char *directory, const fst_paper_options *options, fst_error *error);
 
+/* Compute maps of what becomes of a bead that rubs dry, over the coefficient of friction and the drive, from
+ * four starts, into `directory` (made if missing): for each start a sweep's database, its rows as CSV and
+ * figures; and a table of outcomes, as Markdown.  They take many minutes.  Killed or interrupted at any moment,
+ * the same call goes on. */
+FST_API fst_status fst_paper_dry_maps(const char *directory, const fst_progress *progress, fst_error *error);
+
 /* The rules of the verdicts, and the list of the paper's statements with their criteria, as Markdown; free()
  * it.  NULL: no memory. */
 FST_API char *fst_paper_statements_text(void);

@@ -11,6 +11,8 @@ static const option options[] = {
     {"statements", '\0', NULL,
      "compute nothing: print the paper's statements and what decides each verdict (Markdown)"},
     {"only", '\0', "ID", "compute one statement alone and print it as JSON; paper.json has the names"},
+    {"dry-maps", '\0', NULL,
+     "compute only the large maps with dry friction, into DIR (many minutes; the same command goes on)"},
     {"starts", '\0', "N", "starts of the search for a paramagnetic bead that counter-rotates (240)"},
     {NULL, '\0', NULL, NULL},
 };
@@ -25,10 +27,35 @@ static fst_status list_statements(FILE *out, fst_error *error)
     return FST_OK;
 }
 
+static fst_status map_dry_friction(const arguments *given, fst_error *error)
+{
+    static const char *const others[] = {"reduced", "films", "only", "starts"};
+    const char *directory = option_value(given, "output");
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; ++i)
+        if (option_value(given, others[i]))
+            return fail(error, FST_BAD_INPUT, "--dry-maps", "it makes the maps alone: leave --%s away",
+                        others[i]);
+    if (!directory)
+        return fail(error, FST_BAD_INPUT, "", "say where the maps go: -o DIR");
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    progress_begin(&line);
+    const fst_status status = fst_paper_dry_maps(directory, &progress, error);
+    progress_end(&line);
+    char text[SHOWN_SIZE];
+    if (status == FST_OK)
+        tell_written(directory, "/dry-maps.md");
+    else if (status == FST_INTERRUPTED)
+        (void)fprintf(stderr, "%s keeps what was done; the same command goes on\n", shown(directory, text));
+    return status;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     if (option_value(given, "statements"))
         return list_statements(out, error);
+    if (option_value(given, "dry-maps"))
+        return map_dry_friction(given, error);
     const char *directory = option_value(given, "output"), *only = option_value(given, "only");
     if (only && (directory || option_value(given, "films")))
         return fail(error, FST_BAD_INPUT, "--only", "it writes no files: leave -o and --films away");
@@ -70,7 +97,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command paper_command = {
     .name = "paper",
-    .synopsis = "-o DIR [--reduced] [--films] [--starts N] | --only ID | --statements",
+    .synopsis = "-o DIR [--reduced] [--films] [--starts N] | --dry-maps -o DIR | --only ID | --statements",
     .summary = "Compute what the paper shows, and report it beside the published numbers",
     .details = "",
     .options = options,

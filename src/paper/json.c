@@ -1,4 +1,6 @@
 /* json.c - paper.json: the comparison for programs. */
+#include "paper/dry.h"
+#include "paper/dry_json.h"
 #include "paper/figures.h"
 #include "paper/report.h"
 #include "paper/runs.h"
@@ -133,6 +135,21 @@ static void add_dynamics(json_t *object, const fst_statement *statement, const f
     json_object_set_new(object, key, json_string(fst_statement_reads(statement, dynamics)));
 }
 
+static void add_dry(json_t *object, const fst_statement *statement, const fst_paper_state *paper,
+                    const fst_finding *finding)
+{
+    if (!finding->dry)
+        return;
+    char command[384];
+    json_object_set_new(object, "coulomb", statement_value(statement, finding->dry_value));
+    json_object_set_new(object, "coulomb_mu", json_real(FST_DRY_MU));
+    json_object_set_new(object, "coulomb_verdict", json_string(fst_verdict_name(finding->dry_verdict)));
+    json_object_set_new(object, "coulomb_note", json_string(finding->dry_note));
+    fst_statement_dry_command(statement, paper, command, sizeof command);
+    json_object_set_new(object, "coulomb_command", json_string(command));
+    json_object_set_new(object, "coulomb_reads", json_string(fst_statement_dry_reads(statement)));
+}
+
 static json_t *statement_object(const fst_statement *statement, const fst_paper_state *paper)
 {
     fst_finding finding = fst_statement_check(statement, paper);
@@ -153,6 +170,7 @@ static json_t *statement_object(const fst_statement *statement, const fst_paper_
                         json_string(fst_verdict_name(finding.verdict[FST_DYNAMICS_FARAGO2020])));
     add_dynamics(object, statement, paper, &finding, FST_DYNAMICS_FARAGO2020);
     add_dynamics(object, statement, paper, &finding, FST_DYNAMICS_RIGID);
+    add_dry(object, statement, paper, &finding);
     return object;
 }
 
@@ -216,6 +234,7 @@ fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error)
     json_object_set_new(document, "table1_criterion", json_string(FST_TABLE1_CRITERION));
     json_object_set_new(document, "orbits", orbits_object(paper));
     json_object_set_new(document, "statements", statements_array(paper));
+    json_object_set_new(document, "dry", fst_paper_dry_json(paper));
     json_object_set_new(document, "figures", figures_array(paper));
     json_t *films = json_array();
     for (int i = 0; i < paper->films; ++i)

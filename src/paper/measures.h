@@ -39,6 +39,10 @@ FST_MEASURE(rolling_phi)    /* the same for <phi'> */
 FST_MEASURE(friction_share) /* omega = 0.4: |<V_r>| over the magnetic term of Eq. (12), % */
 FST_MEASURE(energy)         /* |<drive power> - <f.V>| over the latter, greatest over Table 1 */
 
+/* measures_dry.c: of a bead that rubs dry, where the other columns rest on branches of the viscous law */
+FST_MEASURE(dry_corotation) /* greatest frequency at which a bead from rest goes with the magnet, Hz */
+FST_MEASURE(dry_irregular)  /* share of irregular runs between 7 and 10 Hz, % */
+
 /* measures_motion.c */
 FST_MEASURE(turning_points)         /* share of the loss next to the turning points, % */
 FST_MEASURE(friction_follows_angle) /* squared correlation of |V| with the angle of n and B */

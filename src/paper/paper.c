@@ -4,12 +4,14 @@
  *  2. orbits       exact.c        what branches tell without runs                 |
  *  3. thresholds   runs.c         by bisection, where the orbits do not tell      +--> fst_paper_state
  *  4. probes       probe_parts.c  period halving, ansatz, paramagnetic beads    --+        (state.h)
+ *     dry friction dry.c          the scans once more, and a small map              --'
  *  5. statements   verdicts.c     each number against the paper's                          |
  *  6. figures      figures.c      drawn as soon as their step is done                      v
  *  7. report       json.c, report.c                                        paper.json, report.html
  *
  * After an interruption or a failure, what was done so far is written all the same, marked as incomplete.
  */
+#include "paper/dry.h"
 #include "paper/figures.h"
 #include "paper/report.h"
 #include "paper/runs.h"
@@ -19,14 +21,11 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/number.h"
-#include "host/whole_file.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 
 enum { OPTIONS_COOKIE = 0x50415052 };
 
@@ -59,35 +58,6 @@ static double processor_seconds(void)
     return seconds;
 }
 
-/* Whether files can be made in the directory.  Ask before everything is computed. */
-static fst_status try_directory(const fst_paper_state *paper, fst_error *error)
-{
-    fst_whole_file file;
-    char *path = fst_paper_path(paper, "paper", "json");
-    fst_status status = path ? fst_whole_file_open(&file, path, error)
-                             : fst_fail(error, FST_NO_MEMORY, paper->directory, "no memory for a file name");
-    free(path);
-    if (status == FST_OK)
-        fst_whole_file_discard(&file);
-    return status;
-}
-
-/* Make the directory, unless it exists. */
-static fst_status make_directory(const fst_paper_state *paper, fst_error *error)
-{
-    const char *directory = paper->directory;
-    struct stat there;
-    if (mkdir(directory, 0777) == 0)
-        return FST_OK;
-    int reason = errno;
-    if (reason == EEXIST && stat(directory, &there) == 0) {
-        if (S_ISDIR(there.st_mode))
-            return try_directory(paper, error);
-        return fst_fail(error, FST_BAD_INPUT, directory, "this is a file: give the name of a directory");
-    }
-    return fst_fail(error, FST_IO, directory, "cannot make this directory: %s", strerror(reason));
-}
-
 /* Compute and draw everything in its order.  Figures are drawn as soon as they can be, so that an interrupted
  * call leaves some. */
 static fst_status make_everything(fst_paper_state *paper, fst_error *error)
@@ -102,7 +72,9 @@ static fst_status make_everything(fst_paper_state *paper, fst_error *error)
     if (status == FST_OK)
         status = fst_paper_make_probes(paper, NULL, error);
     if (status == FST_OK)
-        status = fst_paper_draw_figures(paper, 0.97, 1.0, error);
+        status = fst_paper_make_dry(paper, 0, error);
+    if (status == FST_OK)
+        status = fst_paper_draw_figures(paper, 0.99, 1.0, error);
     paper->complete = status == FST_OK;
     return status;
 }
@@ -138,7 +110,9 @@ static fst_status make_one(fst_paper_state *paper, const fst_statement *statemen
         status = fst_paper_find_orbits(paper, error);
     if (status == FST_OK && step >= FST_PAPER_STEP_THRESHOLDS && step <= FST_PAPER_STEP_HALVING)
         status = fst_paper_find_thresholds(paper, error);
-    return status == FST_OK ? fst_paper_make_probes(paper, &step, error) : status;
+    if (status == FST_OK)
+        status = fst_paper_make_probes(paper, &step, error);
+    return status == FST_OK && fst_statement_dry(statement) ? fst_paper_make_dry(paper, 1, error) : status;
 }
 
 static fst_status answer_one(fst_paper_state *paper, fst_error *error)
@@ -187,14 +161,17 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
                         "the options were not made by fst_default_paper_options()");
     fst_paper_state paper = {.options = options, .directory = directory};
     paper.until_refused = (fst_progress){&paper, obey};
-    fst_status status = options->only ? FST_OK : make_directory(&paper, error);
+    fst_status status = options->only ? FST_OK : fst_paper_make_directory(&paper, error);
     if (status != FST_OK)
         return status;
     double began = fst_clock_seconds();
     fst_c_locale locale = fst_c_locale_enter();
     status = fst_paper_begin(&paper, error);
     if (status == FST_OK)
+        status = fst_paper_dry_begin(&paper, error);
+    if (status == FST_OK)
         status = options->only ? answer_one(&paper, error) : answer_all(&paper, began, error);
+    fst_paper_dry_free(&paper);
     fst_paper_free_runs(&paper);
     fst_c_locale_leave(locale);
     return status;

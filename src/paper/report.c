@@ -1,4 +1,5 @@
 /* report.c - report.html: the comparison for people, in one file that needs no other. */
+#include "paper/dry.h"
 #include "paper/figures.h"
 #include "paper/report.h"
 #include "paper/runs.h"
@@ -43,6 +44,14 @@ static void write_summary(FILE *out, const fst_paper_state *paper)
         "<tr><td>rows of Table 1 reproduced, of %d</td><td class=\"n\">%d</td><td class=\"n\">%d</td></tr>\n",
         FST_TABLE1_ROWS, rows[order[0]], rows[order[1]]);
     fputs("</tbody></table></div>\n", out);
+    int dry[3] = {0};
+    const int about_motion = fst_paper_dry_tally(paper, dry);
+    if (about_motion > 0)
+        fprintf(out,
+                "<p>Of these statements, %d are about the bead's motion. With <a href=\"#dry\">dry "
+                "friction</a>, μ = %g, "
+                "%d are reproduced, %d close, %d not.</p>\n",
+                about_motion, FST_DRY_MU, dry[0], dry[1], dry[2]);
 }
 
 /* ------------------------------------------------------------------ Table 1 */
@@ -130,6 +139,15 @@ static void write_values(FILE *out, const fst_statement *statement, const fst_fi
         fst_report_badge(out, finding->verdict[order[i]]);
         fputs("</td></tr>\n", out);
     }
+    if (!finding->dry)
+        return;
+    char value[64];
+    fst_statement_value(statement, finding->dry_value, value, sizeof value);
+    fprintf(out, "<tr><td>coulomb, μ = %g</td><td class=\"n\">", FST_DRY_MU);
+    fst_report_text(out, value);
+    fputs("</td><td>", out);
+    fst_report_badge(out, finding->dry_verdict);
+    fputs("</td></tr>\n", out);
 }
 
 static void write_notes(FILE *out, const fst_finding *finding)
@@ -146,6 +164,15 @@ static void write_notes(FILE *out, const fst_finding *finding)
         fputs("; rigid: ", out);
         fst_report_text(out, second);
     }
+    fputs(".</p>", out);
+}
+
+static void write_dry_note(FILE *out, const fst_finding *finding)
+{
+    if (!finding->dry || finding->dry_note[0] == '\0')
+        return;
+    fputs("<p class=\"fine\">coulomb: ", out);
+    fst_report_text(out, finding->dry_note);
     fputs(".</p>", out);
 }
 
@@ -193,6 +220,7 @@ static void write_statements(FILE *out, const fst_paper_state *paper)
         write_values(out, statement, &finding);
         fputs("</tbody></table>", out);
         write_notes(out, &finding);
+        write_dry_note(out, &finding);
         fst_statement_criterion(statement, text, sizeof text);
         fputs("<p class=\"fine\">Criterion: ", out);
         fst_report_text(out, text);
@@ -314,6 +342,7 @@ static fst_status write_all(FILE *out, const fst_paper_state *paper, fst_error *
             out,
             "<p class=\"fine\">Film of the supplement, beside this page: %s.mp4 (festoon paper --films).</p>\n",
             fst_film_names[i]);
+    fst_report_dry(out, paper);
     write_statements(out, paper);
     write_regimes(out, paper);
     write_provenance(out, paper);

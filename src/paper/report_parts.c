@@ -41,7 +41,8 @@ const char fst_report_head[] =
 const char fst_report_introduction[] =
     "<h1>The counter-rotating bead, computed again</h1>\n"
     "<nav><a href=\"#table1\">Table 1</a><a href=\"#figures\">Figures</a><a "
-    "href=\"#statements\">Statements</a><a href=\"#provenance\">Provenance</a></nav>\n"
+    "href=\"#dry\">Dry friction</a><a href=\"#statements\">Statements</a><a "
+    "href=\"#provenance\">Provenance</a></nav>\n"
     "<p>Put a small spherical magnet on a magnetic stirrer and turn it up. Slowly, the bead follows the "
     "magnet round. Faster, it lets go and, of all things, circles <em>the other way</em>, drawing garlands: "
     "festoons. Farago, Charitat, Bigot, Schotter and Kulić measured and explained this in "

@@ -11,22 +11,23 @@
 #include <string.h>
 
 /* The scans.  `low` and `high` are drives omega, `count` is the number of points with both ends
- * (`reduced_count` in a reduced paper).  Without a range the drives are those of Table 1. */
+ * (`reduced_count` in a reduced paper, `dry_count` of a bead that rubs dry).  Without a range the drives are
+ * those of Table 1. */
 static const struct {
     double low, high;
-    int count, reduced_count;
+    int count, reduced_count, dry_count;
     const char *spin;    /* start.spin */
     const char *samples; /* run.samples, for a scan that keeps its trajectories */
 } scans[FST_SCAN_COUNT] = {
-    [FST_SCAN_COMPARISON] = {0.15, 0.50, 71, 8, "rolling", NULL},
-    [FST_SCAN_FAST] = {0.5, 2.0, 31, 4, "rolling", NULL},
-    [FST_SCAN_SLOW] = {0.02, 0.24, 12, 5, "rest", NULL},
-    [FST_SCAN_TABLE] = {0.0, 0.0, FST_TABLE1_ROWS, FST_TABLE1_ROWS, "rolling", NULL},
-    [FST_SCAN_FOLD4] = {0.215, 0.215, 1, 1, "rolling", "128"},
-    [FST_SCAN_FOLD15] = {0.4, 0.4, 1, 1, "rolling", "128"},
-    [FST_SCAN_CONJUGATE] = {0.215, 0.215, 1, 1, "rolling", NULL},
-    [FST_SCAN_ASYMPTOTIC] = {2.2, 3.0, 3, 3, "rolling", NULL},
-    [FST_SCAN_ANISOTROPIC] = {0.3, 0.4, 2, 2, "rolling", NULL},
+    [FST_SCAN_COMPARISON] = {0.15, 0.50, 71, 8, 29, "rolling", NULL},
+    [FST_SCAN_FAST] = {0.5, 2.0, 31, 4, 6, "rolling", NULL},
+    [FST_SCAN_SLOW] = {0.02, 0.24, 12, 5, 12, "rest", NULL},
+    [FST_SCAN_TABLE] = {0.0, 0.0, FST_TABLE1_ROWS, FST_TABLE1_ROWS, FST_TABLE1_ROWS, "rolling", NULL},
+    [FST_SCAN_FOLD4] = {0.215, 0.215, 1, 1, 1, "rolling", "128"},
+    [FST_SCAN_FOLD15] = {0.4, 0.4, 1, 1, 1, "rolling", "128"},
+    [FST_SCAN_CONJUGATE] = {0.215, 0.215, 1, 1, 1, "rolling", NULL},
+    [FST_SCAN_ASYMPTOTIC] = {2.2, 3.0, 3, 3, 3, "rolling", NULL},
+    [FST_SCAN_ANISOTROPIC] = {0.3, 0.4, 2, 2, 0, "rolling", NULL},
 };
 
 /* Where a change of the motion is looked for: in which scan, and how many halvings refine it. */
@@ -69,6 +70,18 @@ static fst_status set(fst_params *params, const char *key, const char *value, fs
     return before == FST_OK ? fst_params_set(params, key, value, error) : before;
 }
 
+/* Dry friction, at a tolerance at which the means are known to 1e-6 and a run takes a tenth of a second. */
+static fst_status rub_dry(fst_params *params, double mu, fst_status before, fst_error *error)
+{
+    char text[32];
+    (void)snprintf(text, sizeof text, "%.10g", mu);
+    fst_status status = set(params, "friction.law", "coulomb", before, error);
+    status = set(params, "friction.mu", text, status, error);
+    status = set(params, "run.rtol", "1e-8", status, error);
+    status = set(params, "run.discard", "140", status, error);
+    return set(params, "run.periods", "240", status, error);
+}
+
 /* The drive is passed on as short text, so that the command in the report repeats exactly this run. */
 static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, double omega,
                               fst_params *params, fst_error *error)
@@ -85,6 +98,8 @@ static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_d
         status = set(params, anisotropic[i].key, anisotropic[i].value, status, error);
     if (scans[scan].samples)
         status = set(params, "run.samples", scans[scan].samples, status, error);
+    if (paper->mu > 0.0)
+        status = rub_dry(params, paper->mu, status, error);
     if (paper->options->reduced) {
         status = set(params, "run.discard", reduced_discard, status, error);
         status = set(params, "run.periods", reduced_periods, status, error);
@@ -95,6 +110,9 @@ static fst_status scan_params(const fst_paper_state *paper, fst_scan scan, fst_d
 static fst_status make_run(fst_paper_state *paper, fst_scan scan, fst_paper_run *run, fst_error *error)
 {
     fst_table *trajectory = scans[scan].samples ? &run->trajectory : NULL;
+    if (paper->mu > 0.0)
+        return fst_paper_run_dry(run, paper->counts[scan] == 1 ? 2 : 1, &paper->until_refused, trajectory,
+                                 error);
     const fst_status status =
         fst_paper_run_settled(&run->params, &paper->until_refused, &run->result, trajectory, error);
     run->done = status == FST_OK;
@@ -114,6 +132,10 @@ static void write_command(const fst_params *params, fst_scan scan, fst_dynamics 
         if (used < size)
             used += (size_t)snprintf(text + used, size - used, " --set %s=%s", anisotropic[i].key,
                                      anisotropic[i].value);
+    if (params->friction_law != usual.friction_law && used < size)
+        used += (size_t)snprintf(text + used, size - used,
+                                 " --set friction.law=coulomb --set friction.mu=%g --set run.rtol=%g",
+                                 params->friction_mu, params->run_rtol);
     if (params->run_periods != usual.run_periods && used < size)
         (void)snprintf(text + used, size - used, " --set run.discard=%g --set run.periods=%g",
                        params->run_discard, params->run_periods);
@@ -147,23 +169,29 @@ void fst_paper_table1_command(const fst_paper_state *paper, int row, fst_dynamic
 
 /* ------------------------------------------------------------------ all scans */
 
-static int piece_count(const fst_paper_state *paper)
+/* With how many dynamics the scans are made: a bead that rubs dry moves by the exact equations alone. */
+static int dynamics_of(const fst_paper_state *paper)
+{
+    return paper->mu > 0.0 ? 1 : FST_PAPER_DYNAMICS;
+}
+
+int fst_paper_run_count(const fst_paper_state *paper)
 {
     int count = 0;
     for (int scan = paper->first_scan; scan < FST_SCAN_COUNT; ++scan)
-        count += FST_PAPER_DYNAMICS * paper->counts[scan];
+        count += dynamics_of(paper) * paper->counts[scan];
     return count;
 }
 
-static fst_status scan_piece(fst_paper_state *paper, int index, fst_error *error)
+fst_status fst_paper_scan_run(fst_paper_state *paper, int index, fst_error *error)
 {
     /* The scans from rest take longest, because a libration near its threshold dies out slowly: begin with
      * them. */
     for (int scan = FST_SCAN_COUNT - 1; scan >= 0; --scan) {
-        int here = FST_PAPER_DYNAMICS * paper->counts[scan];
+        int both = dynamics_of(paper), here = both * paper->counts[scan];
         if (index < here) {
-            int point = index / FST_PAPER_DYNAMICS;
-            fst_dynamics dynamics = index % FST_PAPER_DYNAMICS ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID;
+            int point = index / both;
+            fst_dynamics dynamics = index % both ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID;
             return make_run(paper, (fst_scan)scan, &paper->scans[scan][dynamics][point], error);
         }
         index -= here;
@@ -246,9 +274,15 @@ static fst_status find_change(fst_paper_state *paper, int index, fst_error *erro
 
 /* ------------------------------------------------------------------ together */
 
+static int count_of(const fst_paper_state *paper, fst_scan scan)
+{
+    const int count = paper->options->reduced ? scans[scan].reduced_count : scans[scan].count;
+    return paper->mu > 0.0 && scans[scan].dry_count < count ? scans[scan].dry_count : count;
+}
+
 static fst_status begin_scan(fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics, fst_error *error)
 {
-    fst_paper_run *runs = calloc((size_t)paper->counts[scan], sizeof *runs);
+    fst_paper_run *runs = calloc((size_t)paper->counts[scan] + 1, sizeof *runs);
     paper->scans[scan][dynamics] = runs;
     if (!runs)
         return fst_fail(error, FST_NO_MEMORY, "paper", "no memory for %d runs", paper->counts[scan]);
@@ -262,7 +296,7 @@ fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error)
 {
     fst_status status = FST_OK;
     for (int scan = 0; scan < FST_SCAN_COUNT; ++scan)
-        paper->counts[scan] = paper->options->reduced ? scans[scan].reduced_count : scans[scan].count;
+        paper->counts[scan] = count_of(paper, (fst_scan)scan);
     for (int d = 0; d < FST_PAPER_DYNAMICS && status == FST_OK; ++d) {
         fst_paper_exact_begin(&paper->exact[d]);
         for (int scan = 0; scan < FST_SCAN_COUNT && status == FST_OK; ++scan)
@@ -273,7 +307,8 @@ fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error)
 
 fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error)
 {
-    fst_paper_pieces runs = {"runs", 0.0, 0.45, piece_count(paper), FST_PAPER_STEP_RUNS, scan_piece};
+    fst_paper_pieces runs = {
+        "runs", 0.0, 0.45, fst_paper_run_count(paper), FST_PAPER_STEP_RUNS, fst_paper_scan_run};
     return fst_paper_do(paper, &runs, error);
 }
 
@@ -296,7 +331,7 @@ int fst_paper_has(const fst_paper_state *paper, fst_paper_step step, fst_scan sc
     if (step != FST_PAPER_STEP_RUNS && !paper->done[step])
         return 0;
     for (int s = (int)scan; s < FST_SCAN_COUNT; ++s)
-        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
+        for (int d = 0; d < dynamics_of(paper); ++d)
             for (int i = 0; i < paper->counts[s]; ++i)
                 if (!paper->scans[s][d] || !paper->scans[s][d][i].done)
                     return 0;

@@ -9,7 +9,9 @@
 fst_status fst_paper_begin(fst_paper_state *paper, fst_error *error);
 void fst_paper_free_runs(fst_paper_state *paper);
 
-/* All runs. */
+/* All runs: how many, one of them, and all. */
+int fst_paper_run_count(const fst_paper_state *paper);
+fst_status fst_paper_scan_run(fst_paper_state *paper, int index, fst_error *error);
 fst_status fst_paper_make_runs(fst_paper_state *paper, fst_error *error);
 /* What the periodic orbits tell; then the thresholds, by bisection where the orbits do not give them. */
 fst_status fst_paper_find_orbits(fst_paper_state *paper, fst_error *error);
@@ -29,6 +31,12 @@ void fst_paper_table1_command(const fst_paper_state *paper, int row, fst_dynamic
  * `trajectory` may be NULL. */
 fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progress, fst_run_result *result,
                                  fst_table *trajectory, fst_error *error);
+/* Make the run of a bead that rubs dry, and up to `tries` - 1 times more, each time twice as long, if it has
+ * not settled.  Motions that end in rolling settle ever more slowly, so that longer runs would not help them:
+ * what such a run tells stays in `result`, undecided.  So does a run whose Lyapunov exponent cannot be
+ * computed. */
+fst_status fst_paper_run_dry(fst_paper_run *run, int tries, const fst_progress *progress, fst_table *trajectory,
+                             fst_error *error);
 /* Whether its regime is decided (neither chaotic nor off the plate) and the errors of its means are small. */
 int fst_paper_is_settled(const fst_run_result *result);
 /* Whether it has not settled, and more time may settle it: chaos stays chaos, and a bead that left the plate

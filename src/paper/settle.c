@@ -70,6 +70,30 @@ fst_status fst_paper_run_settled(fst_params *params, const fst_progress *progres
     }
 }
 
+fst_status fst_paper_run_dry(fst_paper_run *run, int tries, const fst_progress *progress, fst_table *trajectory,
+                             fst_error *error)
+{
+    fst_run_options options = fst_default_run_options();
+    options.progress = progress;
+    fst_status status = FST_OK;
+    for (int again = 0; again < tries && status == FST_OK; ++again) {
+        if (again > 0) {
+            if (!fst_paper_may_settle(&run->result))
+                break;
+            if (trajectory)
+                fst_table_free(trajectory);
+            run->params.run_discard = run->params.run_periods;
+            run->params.run_periods *= 2.0;
+        }
+        status = trajectory ? fst_collect_run(&run->params, progress, &run->result, trajectory, error)
+                            : fst_run(&run->params, &options, &run->result, error);
+    }
+    if (status == FST_STEP_UNDERFLOW)
+        status = FST_OK;
+    run->done = status == FST_OK;
+    return status;
+}
+
 int fst_paper_unsettled(const fst_paper_state *paper, fst_scan scan, fst_dynamics dynamics)
 {
     int count = 0;

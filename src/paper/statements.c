@@ -1,5 +1,6 @@
 /* statements.c - the list of the paper's statements, each with the command that gives its number again;
  * verdicts.c judges them. */
+#include "paper/dry.h"
 #include "paper/measures.h"
 #include "paper/runs.h"
 #include "paper/statements.h"
@@ -61,6 +62,21 @@ int fst_paper_tally(const fst_paper_state *paper, int tally[FST_PAPER_DYNAMICS][
     return count;
 }
 
+int fst_paper_dry_tally(const fst_paper_state *paper, int tally[3])
+{
+    int count = 0;
+    for (int i = 0; i < fst_statement_count(); ++i) {
+        if (statements[i].check || !fst_statement_known(&statements[i], paper))
+            continue;
+        fst_finding finding = fst_statement_check(&statements[i], paper);
+        if (!finding.dry)
+            continue;
+        tally[finding.dry_verdict]++;
+        ++count;
+    }
+    return count;
+}
+
 /* ------------------------------------------------------------------ how to have the number again */
 
 void fst_statement_command(const fst_statement *statement, const fst_paper_state *paper, fst_dynamics dynamics,
@@ -74,6 +90,23 @@ void fst_statement_command(const fst_statement *statement, const fst_paper_state
     }
     fst_paper_scan_command(paper, statement->scan, dynamics, run, sizeof run);
     (void)snprintf(command, size, "%s --json", run);
+}
+
+void fst_statement_dry_command(const fst_statement *statement, const fst_paper_state *paper, char *command,
+                               size_t size)
+{
+    char run[320];
+    if (!statement->reads) {
+        fst_statement_command(statement, paper, FST_DYNAMICS_RIGID, command, size);
+        return;
+    }
+    fst_paper_scan_command(&paper->dry->column, statement->scan, FST_DYNAMICS_RIGID, run, sizeof run);
+    (void)snprintf(command, size, "%s --json", run);
+}
+
+const char *fst_statement_dry_reads(const fst_statement *statement)
+{
+    return statement->reads ? statement->reads : "coulomb";
 }
 
 const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dynamics)

@@ -74,6 +74,10 @@ typedef struct fst_finding {
     double value[FST_PAPER_DYNAMICS];
     fst_verdict verdict[FST_PAPER_DYNAMICS];
     char note[FST_PAPER_DYNAMICS][320];
+    int dry; /* whether the statement has a third column, and that is computed; if so: */
+    double dry_value;
+    fst_verdict dry_verdict;
+    char dry_note[320];
 } fst_finding;
 
 int fst_statement_count(void);
@@ -83,11 +87,21 @@ const fst_statement *fst_statement_at(int index);
 void fst_statement_command(const fst_statement *statement, const fst_paper_state *paper, fst_dynamics dynamics,
                            char *command, size_t size);
 const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dynamics);
+/* The function that measures the statement on a bead that rubs dry (dry_statements.def); NULL: it has no third
+ * column. */
+typedef double (*fst_measure)(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size);
+fst_measure fst_statement_dry(const fst_statement *statement);
+/* The command and what is read, of the third column. */
+void fst_statement_dry_command(const fst_statement *statement, const fst_paper_state *paper, char *command,
+                               size_t size);
+const char *fst_statement_dry_reads(const fst_statement *statement);
 /* Whether everything that the statement rests on was computed. */
 int fst_statement_known(const fst_statement *statement, const fst_paper_state *paper);
 /* The verdict on a value by the statement's rule. */
 fst_verdict fst_statement_verdict(const fst_statement *statement, double value);
 fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper);
+/* Add the known verdicts of the third column to `tally`; returns how many claims these are. */
+int fst_paper_dry_tally(const fst_paper_state *paper, int tally[3]);
 /* Add the known verdicts on the paper's claims to `tally`; returns how many claims these are. */
 int fst_paper_tally(const fst_paper_state *paper, int tally[FST_PAPER_DYNAMICS][3]);
 /* The criterion, and a value as people read it ("13.2 %", "S2", "none"). */

@@ -1,4 +1,5 @@
 /* summary.c - what `festoon paper` prints on a terminal. */
+#include "paper/dry.h"
 #include "paper/report.h"
 
 #include <stdio.h>
@@ -35,6 +36,11 @@ char *fst_paper_summary(const fst_paper_state *paper)
                   claims, count[FST_DYNAMICS_FARAGO2020][0], count[FST_DYNAMICS_FARAGO2020][1],
                   count[FST_DYNAMICS_FARAGO2020][2], count[FST_DYNAMICS_RIGID][0], count[FST_DYNAMICS_RIGID][1],
                   count[FST_DYNAMICS_RIGID][2]);
+    int dry[3] = {0};
+    const int about_motion = fst_paper_dry_tally(paper, dry);
+    if (about_motion > 0)
+        (void)fprintf(out, "%d of them with dry friction, mu = %g: %d, %d, %d\n", about_motion, FST_DRY_MU,
+                      dry[0], dry[1], dry[2]);
     if (fclose(out) != 0) {
         free(text);
         return NULL;

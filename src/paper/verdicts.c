@@ -1,7 +1,8 @@
 /* verdicts.c - one set of rules for all statements.  A rule depends on how the paper prints a number, and never
  * on what was computed. */
-#include "paper/statements.h"
+#include "paper/dry.h"
 #include "paper/runs.h"
+#include "paper/statements.h"
 
 #include <stdio.h>
 
@@ -107,13 +108,22 @@ static double unless_unsettled(const fst_statement *statement, const fst_paper_s
 
 fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper)
 {
-    fst_finding finding = {.note = {"", ""}};
+    fst_finding finding = {.note = {"", ""}, .dry_value = NAN, .dry_verdict = FST_VERDICT_NOT};
     for (int d = 0; d < FST_PAPER_DYNAMICS; ++d) {
         double value = statement->measure(paper, (fst_dynamics)d, finding.note[d], sizeof finding.note[d]);
         value =
             unless_unsettled(statement, paper, (fst_dynamics)d, value, finding.note[d], sizeof finding.note[d]);
         finding.value[d] = value;
         finding.verdict[d] = fst_statement_verdict(statement, value);
+    }
+    const fst_measure measure = fst_statement_dry(statement);
+    finding.dry = measure && paper->dry && paper->done[FST_PAPER_STEP_DRY];
+    if (finding.dry) {
+        const fst_paper_state *column = &paper->dry->column;
+        double value = measure(column, FST_DYNAMICS_RIGID, finding.dry_note, sizeof finding.dry_note);
+        finding.dry_value = unless_unsettled(statement, column, FST_DYNAMICS_RIGID, value, finding.dry_note,
+                                             sizeof finding.dry_note);
+        finding.dry_verdict = fst_statement_verdict(statement, finding.dry_value);
     }
     return finding;
 }

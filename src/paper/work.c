@@ -3,12 +3,16 @@
 #include "paper/work.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/watch.h"
 #include "host/parallel.h"
+#include "host/whole_file.h"
 
+#include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/utsname.h>
 #include <unistd.h>
 
@@ -83,4 +87,34 @@ fst_status fst_paper_do(fst_paper_state *paper, const fst_paper_pieces *part, fs
     if (status == FST_OK && part->step < FST_PAPER_STEP_COUNT)
         paper->done[part->step] = 1;
     return status;
+}
+
+/* ------------------------------------------------------------------ the directory */
+
+/* Whether files can be made in the directory.  Ask before everything is computed. */
+static fst_status try_directory(const fst_paper_state *paper, fst_error *error)
+{
+    fst_whole_file file;
+    char *path = fst_paper_path(paper, "paper", "json");
+    fst_status status = path ? fst_whole_file_open(&file, path, error)
+                             : fst_fail(error, FST_NO_MEMORY, paper->directory, "no memory for a file name");
+    free(path);
+    if (status == FST_OK)
+        fst_whole_file_discard(&file);
+    return status;
+}
+
+fst_status fst_paper_make_directory(const fst_paper_state *paper, fst_error *error)
+{
+    const char *directory = paper->directory;
+    struct stat there;
+    if (mkdir(directory, 0777) == 0)
+        return FST_OK;
+    int reason = errno;
+    if (reason == EEXIST && stat(directory, &there) == 0) {
+        if (S_ISDIR(there.st_mode))
+            return try_directory(paper, error);
+        return fst_fail(error, FST_BAD_INPUT, directory, "this is a file: give the name of a directory");
+    }
+    return fst_fail(error, FST_IO, directory, "cannot make this directory: %s", strerror(reason));
 }

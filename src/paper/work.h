@@ -21,6 +21,9 @@ void fst_paper_note_time(fst_paper_state *paper, const char *what, double began)
 /* Arithmetic, compiler and machine in words. */
 void fst_paper_machine(char *text, size_t size);
 
+/* Make the directory of the results, unless it exists; and see that files can be made in it. */
+fst_status fst_paper_make_directory(const fst_paper_state *paper, fst_error *error);
+
 /* DIRECTORY/NAME.ENDING; free() it, NULL: no memory. */
 char *fst_paper_path(const fst_paper_state *paper, const char *name, const char *ending);
 

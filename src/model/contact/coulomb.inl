@@ -96,6 +96,9 @@ static inline REAL_MASK FN(coulomb_sticks)(const FN(coulomb) * law)
 
 /* ------------------------------------------------------------------ a disc */
 
+/* Not inlined: a point contact, which shares the equations of motion with a disc, should not pay for it. */
+#define OF_DISC static __attribute__((noinline, unused))
+
 /* A disc in motion: the greatest force mu N, its radius, |w| with its derivatives (pivoting_rate()), and the
  * shares that it gets of them. */
 typedef struct FN(rubbing) {
@@ -135,15 +138,15 @@ static inline FN(rubbing_change) FN(coulomb_rubbing_change)(const FN(coulomb) * 
 }
 
 /* The torque against pivoting; while the bead is held, what balances the torque `held`. */
-static inline REAL FN(coulomb_pivoting)(const FN(coulomb) * law, const FN(contact) * at, REAL held)
+OF_DISC REAL FN(coulomb_pivoting)(const FN(coulomb) * law, const FN(contact) * at, REAL held)
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const REAL torque = r.dry * r.radius * r.shares.twist * r.side;
     return REAL_SELECT(FN(coulomb_sticks)(law), -held, -torque);
 }
 
-static inline REAL FN(coulomb_pivoting_change)(const FN(coulomb) * law, const FN(contact) * at,
-                                               const FN(contact) * by, REAL dheld)
+OF_DISC REAL FN(coulomb_pivoting_change)(const FN(coulomb) * law, const FN(contact) * at,
+                                         const FN(contact) * by, REAL dheld)
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const FN(rubbing_change) d = FN(coulomb_rubbing_change)(law, at, by, &r);
@@ -161,7 +164,7 @@ static inline REAL FN(coulomb_pivoting_loss)(const FN(coulomb) * law, const FN(c
 
 /* ------------------------------------------------------------------ the force */
 
-static inline void FN(disc_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
+OF_DISC void FN(disc_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const REAL grip = REAL_MULADD(r.dry, r.shares.grip, law->rate);
@@ -169,8 +172,8 @@ static inline void FN(disc_force)(const FN(coulomb) * law, const FN(contact) * a
         force[i] = REAL_SELECT(FN(coulomb_sticks)(law), R(2.0) / R(7.0) * at->push[i], grip * at->slip[i]);
 }
 
-static inline void FN(disc_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
-                                   REAL change[2])
+OF_DISC void FN(disc_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
+                             REAL change[2])
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const FN(rubbing_change) d = FN(coulomb_rubbing_change)(law, at, by, &r);
@@ -286,3 +289,5 @@ static inline REAL FN(coulomb_pace_change)(const FN(coulomb) * law, REAL motion_
         R(0.5) * change * law->usual_slip_2 * REAL_RECIPROCAL_SQRT((motion_2 + R(1e-290)) * whole) / whole;
     return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), by, R(0.0));
 }
+
+#undef OF_DISC

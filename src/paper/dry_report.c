@@ -1,0 +1,102 @@
+/* dry_report.c - the chapter "What dry friction says" of the report. */
+#include "paper/dry.h"
+#include "paper/report_parts.h"
+#include "paper/runs.h"
+
+static void write_facts(FILE *out, const fst_paper_state *paper)
+{
+    fputs("<div class=\"scroll\"><table><thead><tr><th>the paper's words</th><th></th>", out);
+    for (int law = 0; law < FST_DRY_LAWS; ++law) {
+        char name[48];
+        fst_dry_law_name(law, name, sizeof name);
+        fputs("<th>", out);
+        fst_report_text(out, name);
+        fputs("</th>", out);
+    }
+    fputs("</tr></thead><tbody>\n", out);
+    for (int fact = 0; fact < FST_FACT_COUNT; ++fact) {
+        const fst_statement *about = &fst_dry_facts[fact];
+        char text[64];
+        fputs("<tr><td>", out);
+        fst_report_text(out, about->text);
+        fst_statement_value(about, about->published, text, sizeof text);
+        fprintf(out, "</td><td class=\"n\">%s</td>", isfinite(about->published) ? text : "most");
+        for (int law = 0; law < FST_DRY_LAWS; ++law) {
+            const double value = fst_dry_fact(paper, fact, law);
+            fst_statement_value(about, value, text, sizeof text);
+            fprintf(out, "<td class=\"n\">%s<br>", text);
+            if (isfinite(value) && isfinite(about->published))
+                fprintf(out, "<small>%+.0f %%</small> ", 100.0 * (value / about->published - 1.0));
+            fst_report_badge(out, fst_statement_verdict(about, value));
+            fputs("</td>", out);
+        }
+        fputs("</tr>\n", out);
+    }
+    fputs("</tbody></table></div>\n", out);
+}
+
+static void write_cell(FILE *out, const fst_paper_run *run)
+{
+    static const char *const colours[FST_OUTCOME_COUNT] = {"#d8efe3", "#d9e6f7", "#f9d9cf", "#f3c9e4",
+                                                           "#eeeeee"};
+    static const char *const words[FST_OUTCOME_COUNT] = {"against", "with", "ejected", "lifted", "other"};
+    if (!run->done) {
+        fputs("<td></td>", out);
+        return;
+    }
+    const fst_dry_outcome outcome = fst_outcome(&run->result);
+    const int undecided = fst_paper_may_settle(&run->result);
+    fprintf(out, "<td style=\"background:%s\">%s%s</td>", colours[outcome], words[outcome],
+            undecided ? " ?" : "");
+}
+
+static void write_map(FILE *out, const fst_paper_dry *dry, int start)
+{
+    fprintf(out, "<h3>%s</h3><div class=\"scroll\"><table><thead><tr><th>Hz</th>",
+            start ? "Released at rest above a pole" : "Rolling at the start");
+    for (int mu = 0; mu < FST_DRY_MUS; ++mu)
+        fprintf(out, "<th>μ = %g</th>", fst_dry_mus[mu]);
+    fputs("</tr></thead><tbody>\n", out);
+    const int drives = start ? FST_DRY_SLOW : FST_DRY_DRIVES;
+    for (int drive = 0; drive < drives; ++drive) {
+        fprintf(out, "<tr><td class=\"n\">%g</td>", fst_dry_drives[drive]);
+        for (int mu = 0; mu < FST_DRY_MUS; ++mu)
+            write_cell(out, &dry->map[mu][drive][start]);
+        fputs("</tr>\n", out);
+    }
+    fputs("</tbody></table></div>\n", out);
+}
+
+void fst_report_dry(FILE *out, const fst_paper_state *paper)
+{
+    if (!paper->dry || !paper->done[FST_PAPER_STEP_DRY])
+        return;
+    fprintf(
+        out,
+        "<h2 id=\"dry\">What dry friction says</h2>\n"
+        "<p>The paper's bead rubs dry on its plate, the paper's model is viscous with a fitted rate. The load "
+        "on the contact is the magnet's own pull, which the model knows at every instant; so Coulomb's law "
+        "needs one number, the coefficient of friction μ, and no rate. Below, the same bead (the same κγ², the "
+        "exact equations) with that law. While its contact sticks it rolls exactly; friction is then whatever "
+        "keeps it so.</p>\n"
+        "<p>Corotation ends where the locked, slipping state ends in a fold, near 7 to 8 Hz: the centrifugal "
+        "force wins over the magnet's pull. Beyond, almost every bead is thrown off the plate, as in the "
+        "experiment and unlike with viscous friction; from about 10 Hz on counter-rotation takes over. The "
+        "third column of the statements below has μ = %g.</p>\n",
+        FST_DRY_MU);
+    write_facts(out, paper);
+    fputs("<p class=\"fine\">The percentages are distances from the paper's number. Runs of 120 turns of the "
+          "magnet, means after 80. What a bead does depends on its start too: two are shown. A question mark "
+          "stands where the motion had not settled. Motions that end in pure rolling settle ever more slowly, "
+          "and "
+          "which of them a bead ends in depends on its start.</p>\n",
+          out);
+    for (int start = 0; start < FST_DRY_STARTS; ++start)
+        write_map(out, paper->dry, start);
+    fputs("<p class=\"fine\">Each cell again, and the whole maps:</p>", out);
+    fst_report_code(out,
+                    "festoon run --set friction.law=coulomb --set friction.mu=0.2 --set drive.frequency=8Hz "
+                    "--set run.rtol=1e-7 --set run.periods=120 --set run.discard=80   # start.spin=rest, "
+                    "start.r=0.89: at rest above a pole");
+    fst_report_code(out, "festoon paper --dry-maps -o DIR");
+}
