@@ -82,6 +82,7 @@ typedef struct carry_case {
     double mu, mu_static, stribeck, duration;
     int captures, releases; /* at least */
     double within;
+    const char *radius; /* of a contact that is a disc */
 } carry_case;
 
 static double column_error(const carry_case *k, double h, int print)
@@ -94,6 +95,9 @@ static double column_error(const carry_case *k, double h, int print)
     fst_setup setup;
     fst_error error;
     way did;
+    if (k->radius && (fst_params_set(&params, "contact.patch", "hertz", &error) != FST_OK ||
+                      fst_params_set(&params, "contact.radius", k->radius, &error) != FST_OK))
+        fail_msg("%s", error.sentence);
     if (fst_family_begin(&family, &params, k->key, &error) != FST_OK)
         fail_msg("%s", error.sentence);
     const double value = fst_family_value(&family), scale = fabs(value);
@@ -144,18 +148,21 @@ static void columns_against_differences(void **unused)
 {
     (void)unused;
     static const carry_case cases[] = {
-        {"one capture", "drive.omega", "coulomb", "rigid", 0.2, NAN, NAN, 0.5, 1, 0, 1e-9},
-        {"captures and releases", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 14.0, 3, 3, 1e-7},
-        {"more of them", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7},
-        {"farago2020", "model.kappa", "coulomb", "farago2020", 0.2, NAN, NAN, 24.0, 4, 4, 4e-7},
-        {"by eps", "model.eps", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7},
-        {"by omega", "drive.omega", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7},
-        {"static > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.25, NAN, 24.0, 4, 4, 1e-8},
-        {"by static friction", "friction.mu_static", "coulomb", "rigid", 0.2, 0.25, NAN, 24.0, 4, 4, 1e-8},
+        {"one capture", "drive.omega", "coulomb", "rigid", 0.2, NAN, NAN, 0.5, 1, 0, 1e-9, NULL},
+        {"captures and releases", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 14.0, 3, 3, 1e-7, NULL},
+        {"more of them", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL},
+        {"farago2020", "model.kappa", "coulomb", "farago2020", 0.2, NAN, NAN, 24.0, 4, 4, 4e-7, NULL},
+        {"by eps", "model.eps", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL},
+        {"by omega", "drive.omega", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL},
+        {"static > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.25, NAN, 24.0, 4, 4, 1e-8, NULL},
+        {"by static friction", "friction.mu_static", "coulomb", "rigid", 0.2, 0.25, NAN, 24.0, 4, 4, 1e-8,
+         NULL},
         {"static > sliding, farago2020", "drive.omega", "coulomb", "farago2020", 0.2, 0.25, NAN, 24.0, 4, 4,
-         1e-8},
-        {"Stribeck", "friction.mu", "coulomb", "rigid", 0.2, 0.25, 0.05, 24.0, 5, 4, 3e-7},
-        {"rolling", "model.eps", "rolling", "rigid", 0.2, NAN, NAN, 5.0, 0, 0, 1e-9},
+         1e-8, NULL},
+        {"Stribeck", "friction.mu", "coulomb", "rigid", 0.2, 0.25, 0.05, 24.0, 5, 4, 3e-7, NULL},
+        {"static hardly > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.201, NAN, 14.0, 2, 2, 1e-6, NULL},
+        {"rolling", "model.eps", "rolling", "rigid", 0.2, NAN, NAN, 5.0, 0, 0, 1e-9, NULL},
+        {"a disc", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 6.0, 0, 0, 1e-7, "0.5mm"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         const double off = column_error(&cases[i], 1e-5, 1);
@@ -168,7 +175,8 @@ static void columns_against_differences(void **unused)
 static void differences_converge(void **unused)
 {
     (void)unused;
-    const carry_case k = {"static > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.25, NAN, 14.0, 1, 1, 0};
+    const carry_case k = {
+        "static > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.25, NAN, 14.0, 1, 1, 0, NULL};
     const double coarse = column_error(&k, 8e-4, 0), fine = column_error(&k, 2e-4, 0);
     printf("8e-4: %.3g, 2e-4: %.3g\n", coarse, fine);
     assert_true(fine < coarse / 64.0 && coarse > 1e-9);

@@ -255,8 +255,8 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
         params->friction_law == FST_FRICTION_ROLLING && !(params->friction_rolling_resistance > 0)
             ? fst_fail(error, FST_BAD_INPUT, "friction.law",
                        "under friction.law: rolling a bead has no locked state and no orbit of its own: they "
-                       "come in continua, so that no branch can be followed. festoon locked lists the "
-                       "families; give friction.rolling_resistance, or another law")
+                       "come in continua, so that no branch can be followed; give "
+                       "friction.rolling_resistance, or another law")
             : FST_OK;
     if (status == FST_OK)
         status = fst_family_begin(&t->family, params, options->key, error);

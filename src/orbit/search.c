@@ -288,8 +288,7 @@ static int is_locked(const search *s)
 static const char *advice(fst_orbit_outcome outcome)
 {
     if (outcome == FST_ORBIT_ROLLS)
-        return "Try another start, or friction.rolling_resistance, which selects; festoon run describes the "
-               "motion";
+        return "Try another start, or friction.rolling_resistance, which selects";
     return outcome == FST_ORBIT_UNSETTLED
                ? "Try a longer run.periods or another start; fst_lyapunov_find() tells whether the motion is "
                  "chaotic"
