@@ -46,7 +46,7 @@ static fst_branch_point point_of(int i, int eigenvalues)
 /* Every type, kind and symmetry occurs, and every value that is not a number. */
 static fst_branch made_up(int over_two)
 {
-    enum { POINTS = 7, TYPES = FST_SPECIAL_TRANSCRITICAL + 1, ENDS = FST_END_LOST + 1 };
+    enum { POINTS = 7, TYPES = FST_SPECIAL_GRAZING + 1, ENDS = FST_END_LOST + 1 };
     fst_branch b;
     memset(&b, 0, sizeof b);
     b.kind = over_two ? FST_BRANCH_LOCKED : FST_BRANCH_ALL;

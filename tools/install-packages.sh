@@ -13,7 +13,8 @@ demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
 test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
 # A Slurm of its own for the sweep under Slurm: the daemons run as root without systemd, in a container too.
 long_packages="$test_packages slurmctld slurmd slurm-client munge"
-bench_packages="$build_packages g++ gnuplot-nox libgsl-dev libboost-dev python3-scipy auto-07p"
+bench_packages="$build_packages g++ gnuplot-nox libgsl-dev libboost-dev python3-scipy auto-07p libsiconos-numerics-dev
+    libsundials-dev"
 docs_packages="$build_packages doxygen"
 format_packages="clang-format"
 ci_packages="$long_packages clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev libboost-dev librsvg2-bin"

@@ -21,9 +21,10 @@ enum { FST_MULTIPLIER_COUNT = 8, FST_EIGENVALUE_COUNT = 9, FST_LYAPUNOV_TRACE = 
 /* Where a start leads. */
 typedef enum {
     FST_ORBIT_FOUND,
-    FST_ORBIT_LOCKED,   /* no orbit: the bead comes to rest in the turning frame */
-    FST_ORBIT_EJECTED,  /* no orbit: it flies away */
-    FST_ORBIT_UNSETTLED /* it settles on no stable orbit in the time that it was given */
+    FST_ORBIT_LOCKED,    /* no orbit: the bead comes to rest in the turning frame */
+    FST_ORBIT_EJECTED,   /* no orbit: it flies away */
+    FST_ORBIT_UNSETTLED, /* it settles on no stable orbit in the time that it was given */
+    FST_ORBIT_ROLLS      /* no orbit that attracts: the contact no longer slips, and the start decides */
 } fst_orbit_outcome;
 
 /* A periodic orbit of the turning frame. */
@@ -64,6 +65,31 @@ typedef struct fst_locked {
     int found; /* the number of starts from which Newton's method came here */
 } fst_locked;
 
+/* Dry friction: locked states whose contact does not slip form families.  Why one ends: static friction holds
+ * no more, the bead lifts off, it spins or stands too far away to be followed on, the family is a closed curve.
+ */
+typedef enum {
+    FST_ROLLING_CONE,
+    FST_ROLLING_LIFTED,
+    FST_ROLLING_SPIN,
+    FST_ROLLING_RADIUS,
+    FST_ROLLING_CLOSED,
+    FST_ROLLING_LOST
+} fst_rolling_end;
+/* "cone", "lifted", "spin", "radius", "closed", "lost" */
+FST_API const char *fst_rolling_end_name(fst_rolling_end end);
+
+typedef struct fst_rolling_lock {
+    double state[FST_STATE_SIZE];
+    double r, bead_angle_deg; /* Phi, NAN on the axis */
+    double use;               /* |f|/(mu_s N); NAN under the law rolling */
+    fst_rolling_end end;      /* why the family ends here */
+} fst_rolling_lock;
+
+typedef struct fst_rolling_family {
+    fst_rolling_lock from, to;
+} fst_rolling_family;
+
 typedef struct fst_locked_list {
     fst_locked *states; /* ordered by falling stability, then by r */
     size_t count;
@@ -71,6 +97,8 @@ typedef struct fst_locked_list {
     int index_sum; /* the sum of the signs of det(-J): the same at every omega, unless a state comes from
                       infinity */
     int truncated; /* there are more states than the list can hold: they form continua */
+    fst_rolling_family *families; /* of states that roll, under dry friction */
+    size_t family_count;
 } fst_locked_list;
 
 /* Find every equilibrium, by Newton's method from many starts.  Free the list with fst_locked_free().
@@ -93,9 +121,11 @@ typedef enum {
     FST_SPECIAL_HOPF,
     FST_SPECIAL_NEIMARK_SACKER,
     FST_SPECIAL_ORIGIN_CROSSING,
-    FST_SPECIAL_TRANSCRITICAL /* two families pass through each other */
+    FST_SPECIAL_TRANSCRITICAL, /* two families pass through each other */
+    FST_SPECIAL_GRAZING        /* dry friction: an orbit gains or loses a rest of the contact */
 } fst_special_type;
-/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing", "transcritical" */
+/* "fold", "pitchfork", "period-doubling", "hopf", "neimark-sacker", "origin-crossing", "transcritical",
+ * "grazing" */
 FST_API const char *fst_special_name(fst_special_type type);
 
 /* A point of a branch. */
@@ -135,10 +165,12 @@ typedef enum {
     FST_END_REAL_AXIS,       /* over two parameters: the critical pair meets on the real axis */
     FST_END_NOT_BEGUN,       /* over two parameters: the point is degenerate, and no curve leaves it */
     FST_END_COUNT_LIMIT,     /* so many points were followed that it was given up */
+    FST_END_ROLLS,           /* dry friction: the slip of a locked bead falls to nothing, beyond it rolls */
+    FST_END_LIFTED,          /* dry friction: a locked bead lifts off the plate */
     FST_END_LOST             /* no further point was found */
 } fst_end_type;
 /* "range", "closed", "symmetric-orbit", "equilibrium", "higher-symmetry", "other-branch", "period", "radius",
- * "spin", "real-axis", "not-begun", "count-limit", "lost"; "none" */
+ * "spin", "real-axis", "not-begun", "count-limit", "rolls", "lifted", "lost"; "none" */
 FST_API const char *fst_end_name(fst_end_type type);
 
 /* An end of a branch, and why it ends there. */

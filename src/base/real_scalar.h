@@ -8,7 +8,8 @@
 #define REAL_MASK int /* whether a comparison holds */
 #define REAL_LESS(a, b) ((a) < (b))
 #define REAL_LESS_EQUAL(a, b) ((a) <= (b))
-#define REAL_EVERYWHERE 1 /* the mask of all lanes */
+#define REAL_EVERYWHERE 1     /* the mask of all lanes */
+#define REAL_ANY(mask) (mask) /* whether a mask holds in some lane */
 #define REAL_SELECT(mask, yes, no) ((mask) ? (yes) : (no))
 #define REAL_ROUGH_RECIPROCAL(x) (R(1.0) / (x)) /* lanes may compute this to fewer digits */
 #define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))

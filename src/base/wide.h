@@ -30,6 +30,7 @@
 #undef REAL_LESS
 #undef REAL_LESS_EQUAL
 #undef REAL_EVERYWHERE
+#undef REAL_ANY
 #undef REAL_SELECT
 #undef REAL_RECIPROCAL_SQRT
 #undef REAL_OF
@@ -270,6 +271,7 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_LESS(a, b) WIDE_LESS(a, b)
 #define REAL_LESS_EQUAL(a, b) WIDE_LESS_EQUAL(a, b)
 #define REAL_EVERYWHERE fst_wide_mask_of((1u << FST_LANES) - 1u)
+#define REAL_ANY(mask) (fst_wide_lanes_of(mask) != 0)
 #define REAL_SELECT(mask, yes, no) fst_wide_select(mask, yes, no)
 
 #endif

@@ -8,7 +8,7 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-static void print_list(FILE *out, double omega, const fst_locked_list *list)
+static void print_list(FILE *out, double omega, int dry, const fst_locked_list *list)
 {
     (void)fprintf(out, "omega = %.10g: %zu locked states from %d starts, sum of indices %d\n\n", omega,
                   list->count, list->starts, list->index_sum);
@@ -17,7 +17,7 @@ static void print_list(FILE *out, double omega, const fst_locked_list *list)
             out,
             "There are more: without friction, torque or remanence locked states form continua, and these are "
             "members of them.\n\n");
-    else if (list->index_sum != 2)
+    else if (list->index_sum != 2 && !dry)
         (void)fprintf(
             out,
             "The sum of indices is 2 where all states are found and none is a member of a continuum: this list "
@@ -32,6 +32,23 @@ static void print_list(FILE *out, double omega, const fst_locked_list *list)
         (void)fprintf(out, "%14.10f %10.4f  %8.5f %8.5f %8.5f  %9.5f %9.5f %9.5f %12.6g %12.5g  %s\n", l->r,
                       l->bead_angle_deg, l->state[FST_NX], l->state[FST_NY], l->state[FST_NZ], l->state[FST_WX],
                       l->state[FST_WY], l->state[FST_WZ], l->slip, greatest, l->stable ? "stable" : "");
+    }
+}
+
+static void print_families(FILE *out, const fst_locked_list *list)
+{
+    (void)fprintf(out,
+                  "\n%zu families of locked beads whose contact does not slip, from one end to the other:\n",
+                  list->family_count);
+    if (list->family_count > 0)
+        (void)fprintf(out, "%14s %10s  %17s  %19s %10s  %s\n", "r (l)", "Phi (deg)", "n_X, n_Z",
+                      "W_X, W_Z (gamma)", "|f|/(mu N)", "ends by");
+    for (size_t i = 0; i < 2 * list->family_count; ++i) {
+        const fst_rolling_family *family = &list->families[i / 2];
+        const fst_rolling_lock *l = i % 2 ? &family->to : &family->from;
+        (void)fprintf(out, "%14.10f %10.4f  %8.5f %8.5f  %9.5f %9.5f %10.6f  %s%s\n", l->r, l->bead_angle_deg,
+                      l->state[FST_NX], l->state[FST_NZ], l->state[FST_WX], l->state[FST_WZ], l->use,
+                      fst_rolling_end_name(l->end), i % 2 ? "\n" : "");
     }
 }
 
@@ -56,7 +73,13 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         if (option_value(given, "json"))
             status = print_and_free(fst_locked_json(&params, omega, &list), out, error);
         else
-            print_list(out, omega, &list);
+            print_list(out, omega,
+                       params.friction_law == FST_FRICTION_COULOMB ||
+                           params.friction_law == FST_FRICTION_ROLLING,
+                       &list);
+        if (!option_value(given, "json") &&
+            (params.friction_law == FST_FRICTION_COULOMB || params.friction_law == FST_FRICTION_ROLLING))
+            print_families(out, &list);
         fst_locked_free(&list);
     }
     fst_model_free(model);

@@ -9,12 +9,7 @@
 #include "base/error.h"
 #include "draw/chart.h"
 
-enum {
-    CIRCLE = 181,
-    CIRCLE_SIZE = 680,
-    SPECIAL_TYPES = FST_SPECIAL_TRANSCRITICAL + 1,
-    CURVES = SPECIAL_TYPES + 4
-};
+enum { CIRCLE = 181, CIRCLE_SIZE = 680, SPECIAL_TYPES = FST_SPECIAL_GRAZING + 1, CURVES = SPECIAL_TYPES + 4 };
 
 static const struct observable {
     const char *name, *label;
@@ -140,7 +135,7 @@ static int add_diagram(const fst_branch *b, const struct observable *what, colum
     const int over_two = b->second_key[0] != 0;
     static const fst_colour colours[SPECIAL_TYPES] = {FST_COLOUR_BLACK,  FST_COLOUR_VERMILION, FST_COLOUR_GREEN,
                                                       FST_COLOUR_PURPLE, FST_COLOUR_GREY,      FST_COLOUR_BLUE,
-                                                      FST_COLOUR_ORANGE};
+                                                      FST_COLOUR_ORANGE, FST_COLOUR_SKY};
     int count = 0;
     put_pieces(&c[0], b, what, 1);
     put_pieces(&c[1], b, what, 0);

@@ -233,7 +233,7 @@ static void read_special(reader *r, const json_t *object, fst_special *s)
     const json_t *criticality = json_object_get(object, "criticality"),
                  *parameter = json_object_get(object, "parameter");
     const char *side = json_string_value(criticality), *key = json_string_value(parameter);
-    s->type = (fst_special_type)read_name(r, object, "type", special_name, FST_SPECIAL_TRANSCRITICAL + 1);
+    s->type = (fst_special_type)read_name(r, object, "type", special_name, FST_SPECIAL_GRAZING + 1);
     if (!key || strcmp(key, r->key) != 0)
         refuse(r, "parameter", parameter, "the branch's own parameter");
     read_number(r, object, "value", &s->value);
@@ -306,7 +306,7 @@ static void read_head(reader *r, const json_t *document, fst_branch *branch)
         read_finite(r, document, "second_from", &branch->second_from);
         read_finite(r, document, "second_to", &branch->second_to);
         branch->followed =
-            (fst_special_type)read_name(r, document, "followed", special_name, FST_SPECIAL_TRANSCRITICAL + 1);
+            (fst_special_type)read_name(r, document, "followed", special_name, FST_SPECIAL_GRAZING + 1);
     }
     branch->complete = read_flag(r, document, "complete");
     branch->branches = json_object_get(document, "branches")

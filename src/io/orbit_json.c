@@ -70,6 +70,19 @@ char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst
     return fst_json_dump(object, JSON_INDENT(INDENT));
 }
 
+static json_t *rolling_object(const fst_rolling_lock *l)
+{
+    json_t *state = json_object();
+    json_object_set_new(state, "r", fst_json_number(l->r));
+    json_object_set_new(state, "phi_deg", fst_json_number(l->bead_angle_deg));
+    json_object_set_new(state, "n", fst_json_numbers(l->state + FST_NX, 3));
+    json_object_set_new(state, "w", fst_json_numbers(l->state + FST_WX, 3));
+    json_object_set_new(state, "use", fst_json_number(l->use));
+    json_object_set_new(state, "end", json_string(fst_rolling_end_name(l->end)));
+    json_object_set_new(state, "state", fst_json_numbers(l->state, FST_STATE_SIZE));
+    return state;
+}
+
 char *fst_locked_json(const fst_params *params, double omega, const fst_locked_list *list)
 {
     json_t *states = json_array();
@@ -93,6 +106,16 @@ char *fst_locked_json(const fst_params *params, double omega, const fst_locked_l
     json_t *object = json_object();
     json_object_set_new(object, "omega", fst_json_number(omega));
     json_object_set_new(object, "states", states);
+    if (params->friction_law == FST_FRICTION_COULOMB || params->friction_law == FST_FRICTION_ROLLING) {
+        json_t *families = json_array();
+        for (size_t i = 0; i < list->family_count; ++i) {
+            json_t *family = json_object();
+            json_object_set_new(family, "from", rolling_object(&list->families[i].from));
+            json_object_set_new(family, "to", rolling_object(&list->families[i].to));
+            json_array_append_new(families, family);
+        }
+        json_object_set_new(object, "families", families);
+    }
     json_object_set_new(object, "starts", json_integer(list->starts));
     json_object_set_new(object, "index_sum", json_integer(list->index_sum));
     json_object_set_new(object, "truncated", json_boolean(list->truncated));

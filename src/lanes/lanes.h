@@ -7,6 +7,7 @@
 #ifndef FST_LANES_LANES_H
 #define FST_LANES_LANES_H
 
+#include "lanes/splitting.h"
 #include "lanes/tangents.h"
 #include "observe/quadrature.h"
 #include "ode/flow.h"
@@ -93,7 +94,8 @@ typedef struct fst_lane_engine {
     /* The time, size and counts of a lane, as its flow has them; the drive does not change in lanes. */
     void (*extract_clock)(const void *batch, int lane, fst_flow *flow);
 
-    fst_tangent_engine tangents; /* of the same width and form */
+    fst_tangent_engine tangents;    /* of the same width and form */
+    fst_splitting_engine splitting; /* so too */
 } fst_lane_engine;
 
 /* The engine of a form of arithmetic and a width (0: the widest of that form), or NULL where this processor or

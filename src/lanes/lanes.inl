@@ -46,10 +46,12 @@
 #include "model/bodies.inl"
 #include "ode/bead_step.inl"
 #include "ode/path.inl"
+#include "ode/splitting.inl"
 #include "ode/step_control.inl"
 #include "ode/tangent_step.inl"
 #include "observe/integrals.inl"
 #include "observe/peaks.inl"
+#include "observe/weighted.inl"
 
 typedef struct batch {
     FN(bead_step) step;
@@ -438,6 +440,9 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
 #define TANGENT_WIDTH FST_LANES
 #include "lanes/tangents.inl"
 
+#define SPLITTING_WIDTH FST_LANES
+#include "lanes/splitting_lanes.inl"
+
 const fst_lane_engine ENGINE = {
     .name = ENGINE_NAME,
     .width = FST_LANES,
@@ -458,6 +463,7 @@ const fst_lane_engine ENGINE = {
     .extract_clock = extract_clock,
     .extract_integrals = extract_integrals,
     .tangents = TANGENT_ENGINE,
+    .splitting = SPLITTING_ENGINE,
 #ifdef FST_FUSED
     .waiting_bytes = sizeof(waiting),
     .set_aside = set_aside,

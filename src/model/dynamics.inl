@@ -262,6 +262,21 @@ static inline REAL FN(pace)(const FN(coefficients) * c, const REAL *y)
     return FN(coulomb_pace)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]));
 }
 
+/* Its change along a tangent vector. */
+static inline REAL FN(pace_change)(const FN(coefficients) * c, const REAL *y, const REAL *tangent)
+{
+    REAL slip[2], change[2];
+    if (!c->kinds.paced)
+        return R(0.0);
+    FN(slip)(c, y, slip);
+    FN(slip)(c, tangent, change);
+    REAL by = R(2.0) * SUM_2(slip[0], change[0], slip[1], change[1]);
+    if (c->kinds.patch)
+        by = by + R(2.0) * (c->law.coulomb.patch.radius * c->law.coulomb.patch.radius) *
+                      (y[FST_WZ] * tangent[FST_WZ]);
+    return FN(coulomb_pace_change)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]), by);
+}
+
 /* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for a caller that observes the state. */
 RHS_KIND void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy, FN(pull) * p)
 {

@@ -73,5 +73,10 @@ fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
             "bead.b = %g has an effect on a bead of bead.material mixed only: choose that, or leave "
             "bead.b out",
             params->bead_b);
+    if (params->run_method == FST_METHOD_EVENTS && params->run_step != fst_default_params().run_step)
+        return fst_fail(error, FST_BAD_INPUT, "run.step",
+                        "run.step = %g has no effect on run.method events, whose steps follow run.rtol: choose "
+                        "splitting, or leave run.step out",
+                        params->run_step);
     return FST_OK;
 }

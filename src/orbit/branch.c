@@ -35,7 +35,7 @@
 const char *fst_special_name(fst_special_type type)
 {
     static const char *const names[] = {"fold",           "pitchfork",       "period-doubling", "hopf",
-                                        "neimark-sacker", "origin-crossing", "transcritical"};
+                                        "neimark-sacker", "origin-crossing", "transcritical",   "grazing"};
     return (unsigned)type < sizeof names / sizeof *names ? names[type] : "unknown";
 }
 
@@ -251,7 +251,15 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
         branch->second_to = options->second_to;
         branch->followed = options->special;
     }
-    status = fst_family_begin(&t->family, params, options->key, error);
+    status =
+        params->friction_law == FST_FRICTION_ROLLING && !(params->friction_rolling_resistance > 0)
+            ? fst_fail(error, FST_BAD_INPUT, "friction.law",
+                       "under friction.law: rolling a bead has no locked state and no orbit of its own: they "
+                       "come in continua, so that no branch can be followed. festoon locked lists the "
+                       "families; give friction.rolling_resistance, or another law")
+            : FST_OK;
+    if (status == FST_OK)
+        status = fst_family_begin(&t->family, params, options->key, error);
     t->family.scale = fst_family_scale(options->key, options->from, options->to);
     fst_family_tighten(&t->family, options->tolerance);
     t->family.watch = &t->watch;

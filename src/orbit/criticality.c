@@ -124,6 +124,8 @@ int fst_pair_criticality(const fst_family *family, const fst_solution *s, double
 {
     double coefficient, spread;
     fst_error ignored;
+    if (fst_family_rests(family) && s->segments > 0)
+        return 0; /* a return that rests somewhere need not have the second and third derivatives */
     if (fst_pair_coefficient(family, s, frequency, &coefficient, &spread, &ignored) != FST_OK ||
         !(fabs(coefficient) > 4.0 * spread))
         return 0;

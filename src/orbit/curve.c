@@ -24,6 +24,8 @@
 #include "base/error.h"
 
 #define SHORTEST_STEP 1e-7
+/* Dry friction: a step so short stands before a kink of the curve, which is leapt over. */
+#define STEP_AT_KINK 2e-4
 #define LARGEST_SPIN 60.0
 enum { MOST_NODES = 4000 };
 
@@ -47,7 +49,7 @@ static double length_of(const fst_family *family, const fst_solution *s, const f
  * at the start).  FST_NO_CONVERGENCE also where the solution found is not the curve's continuation: too far
  * from the prediction, or with a tangent of another direction. */
 static fst_status try_step(const fst_curve *curve, const fst_node *last, const fst_node *here, double h,
-                           fst_node *next, fst_error *error)
+                           int over_kink, fst_node *next, fst_error *error)
 {
     const fst_family *family = curve->family;
     fst_direction way = here->s.tangent, miss;
@@ -67,7 +69,8 @@ static fst_status try_step(const fst_curve *curve, const fst_node *last, const f
         return status;
     fst_direction_between(&predicted, &found, &miss);
     const double turn = fst_direction_product(family, &found, &found.tangent, &here->s.tangent);
-    if (length_of(family, &found, &miss) > 0.25 * h || turn < 0.95)
+    const double bound = over_kink ? 2.0 : 0.25;
+    if (length_of(family, &found, &miss) > bound * h || turn < (over_kink ? 0.0 : 0.95))
         return fst_fail(error, FST_NO_CONVERGENCE, "continuation", "a step of %.3g was too long at %.10g", h,
                         here->s.value);
     const int iterations = found.iterations + (found.segments > 0);
@@ -137,6 +140,9 @@ static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *he
         fst_curve_end_set(&curve->end, FST_END_SPIN,
                           "its spin grows without bound (W_z = %.4g) while n turns upright",
                           here->s.y[0][FST_WZ]);
+    else if (here->s.segments == 0 && here->floats)
+        fst_curve_end_set(&curve->end, FST_END_LIFTED,
+                          "the bead lifts off the plate, and nothing rubs any more");
     else if (nodes >= MOST_NODES)
         fst_curve_end_set(&curve->end, FST_END_COUNT_LIMIT, "%d points were followed", nodes);
     else if (nodes > 8 && is_closed(curve, start, here, h))
@@ -146,6 +152,25 @@ static int has_ended(fst_curve *curve, const fst_node *start, const fst_node *he
     return 1;
 }
 
+/* Dry friction: over a kink of the curve, where an orbit gains or loses a rest, Newton's method finds the other
+ * side from here, but no continuation does.  1 if there is one, at the distance *h. */
+static int leap(const fst_curve *curve, const fst_node *here, fst_node *next, double *h, int *left)
+{
+    static const double far[] = {5.0, 20.0, 80.0};
+    fst_error ignored;
+    for (size_t i = 0; i < sizeof far / sizeof *far; ++i) {
+        const double length = far[i] * STEP_AT_KINK;
+        if (try_step(curve, NULL, here, length, 1, next, &ignored) != FST_OK ||
+            (here->captures == 0 && next->captures == 0) || next->s.value > curve->to ||
+            next->s.value < curve->from)
+            continue;
+        *left = 0;
+        *h = length;
+        return 1;
+    }
+    return 0;
+}
+
 /* The next node, on the border if the step left the range (*left); the step is halved until it is found.  0
  * where none is. */
 static int next_node(fst_curve *curve, const fst_node *last, const fst_node *here, double *h, fst_node *next,
@@ -153,18 +178,33 @@ static int next_node(fst_curve *curve, const fst_node *last, const fst_node *her
 {
     fst_error why;
     for (;;) {
-        fst_status status = try_step(curve, last, here, *h, next, &why);
+        fst_status status = try_step(curve, last, here, *h, 0, next, &why);
         *left = status == FST_OK && (next->s.value > curve->to || next->s.value < curve->from);
         if (*left)
             status = land_on(curve, here, next->s.value > curve->to ? curve->to : curve->from, next, &why);
         if (status == FST_OK)
             return 1;
         *h *= 0.5;
-        if (*h < SHORTEST_STEP)
+        if (*h < SHORTEST_STEP || fst_watch_ask(curve->family->watch, &why) != FST_OK)
             break;
+        if (fst_family_rests(curve->family) && here->s.segments > 0 && *h < STEP_AT_KINK) {
+            if (leap(curve, here, next, h, left))
+                return 1;
+            break;
+        }
     }
-    fst_curve_end_set(&curve->end, FST_END_LOST, "it could not be followed beyond %.10g: %.110s", here->s.value,
-                      why.sentence);
+    if (here->s.segments == 0 && fst_family_rests(curve->family) && here->seen.slip < 1e-4)
+        fst_curve_end_set(&curve->end, FST_END_ROLLS,
+                          "its slip falls to nothing at %.10g: beyond, the bead rolls", here->s.value);
+    else if (here->captures > 0)
+        fst_curve_end_set(
+            &curve->end, FST_END_LOST,
+            "it could not be followed beyond %.10g, where a slip may just come to rest, or a rest "
+            "just begin, and the return jumps or bends",
+            here->s.value);
+    else
+        fst_curve_end_set(&curve->end, FST_END_LOST, "it could not be followed beyond %.10g: %.110s",
+                          here->s.value, why.sentence);
     return 0;
 }
 
@@ -200,7 +240,8 @@ static fst_status follow(fst_curve *curve, const fst_node *start, int sign, fst_
             return FST_OK;
         if (here.s.segments == 0) /* fast spins: in proportion */
             longest = density * curve->longest_step * (1.0 + fabs(here.s.y[0][FST_WZ]));
-        h *= iterations <= 3 ? 1.6 : iterations > 5 ? 0.6 : 1.0;
+        const int easy = fst_family_rests(curve->family) ? 4 : 3; /* columns are less exact where it rests */
+        h *= iterations <= easy ? 1.6 : iterations > easy + 2 ? 0.6 : 1.0;
         h = h > longest ? longest : h;
     }
 }

@@ -20,6 +20,8 @@ const char *fst_end_name(fst_end_type type)
         [FST_END_REAL_AXIS] = "real-axis",
         [FST_END_NOT_BEGUN] = "not-begun",
         [FST_END_COUNT_LIMIT] = "count-limit",
+        [FST_END_ROLLS] = "rolls",
+        [FST_END_LIFTED] = "lifted",
         [FST_END_LOST] = "lost",
     };
     return (unsigned)type < sizeof names / sizeof *names ? names[type] : "unknown";

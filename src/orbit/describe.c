@@ -172,6 +172,9 @@ static void conclude(const round_trip *trip, const fst_solution *s, fst_descript
     out->swing_ratio = out->turns == 0                                 ? NAN
                        : s->symmetric && trip->extremes_met.count == 4 ? 0.0
                                                                        : swing_ratio(&trip->extremes_met);
+    out->captures = (int)trip->flow->contact.captures;
+    if (trip->model->coefficients.kinds.dry && out->turns != 0)
+        means->captures_per_return = (double)out->captures / abs(out->turns);
     out->least_load = trip->window.extremes[FST_TRACK_LOAD].least;
 }
 

@@ -32,6 +32,7 @@
 #include "base/error.h"
 #include "model/tangent.inl"
 #include "ode/flow.h"
+#include "orbit/dry_carry.h"
 
 /* ------------------------------------------------------------------ the state with its tangents */
 
@@ -95,6 +96,8 @@ static fst_status carry_failed(double t, const double *y, int finite, fst_error 
 fst_status fst_carry(const fst_setup *setup, double tolerance, double duration, double y[FST_STATE_SIZE],
                      double tangent[FST_STATE_SIZE][FST_COLUMNS], fst_error *error)
 {
+    if (setup->model.coefficients.kinds.dry)
+        return fst_dry_carry(setup, tolerance, duration, y, tangent, error);
     fst_bundle_step_double s;
     double atol[FST_BUNDLE_SIZE];
     s.context.setup = setup;
@@ -271,6 +274,12 @@ fst_status fst_family_setup(const fst_family *family, double value, fst_setup *s
 void fst_setup_rhs(const fst_setup *setup, const double *y, double *dy)
 {
     fst_pull_double pull;
+    if (setup->model.coefficients.kinds.paced) {
+        fst_coefficients_double c;
+        fst_dry_coefficients(setup, y, &c);
+        fst_rhs_double(&c, c.omega, y, dy, &pull);
+        return;
+    }
     fst_rhs_double(&setup->model.coefficients, setup->model.coefficients.omega, y, dy, &pull);
 }
 

@@ -34,6 +34,7 @@ typedef struct fst_setup {
     fst_coefficients_double below, above;
     double spread;    /* of the parameter between them */
     fst_watch *watch; /* the family's */
+    int *sticks;      /* set to 1 where the contact comes to rest on a way (NULL: nobody asks) */
 } fst_setup;
 
 /* A family over `key` (NULL: none free); clears the other forms of the quantity.  FST_BAD_INPUT: no such key,
@@ -47,6 +48,13 @@ void fst_family_tighten(fst_family *family, double tolerance);
 
 /* The scale of a parameter for the length of arcs, on a range of it. */
 double fst_family_scale(const char *key, double from, double to);
+
+/* Whether the contact may come to rest and slip again on a way: then the flow is not smooth. */
+static inline int fst_family_rests(const fst_family *family)
+{
+    const fst_friction_law law = (fst_friction_law)family->params.friction_law;
+    return fst_law_in_effect(&family->params, law) == FST_FRICTION_COULOMB;
+}
 
 /* The parameters and the setup at a value of the free parameter. */
 fst_params fst_family_params(const fst_family *family, double value);

@@ -31,6 +31,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "orbit/branch_list.h"
+#include "orbit/rolling_lock.h"
 
 enum { STARTS = 3000, MOST = 256 };
 
@@ -110,12 +111,26 @@ static void note(finder *f, const fst_solution *s, int count)
         f->found[f->count++] = (found_state){*s, count};
 }
 
+/* Whether the bead touches the plate there, as dry friction must know: without a load it would act no more, and
+ * such states form continua. */
+static int touches(const finder *f, const fst_solution *s)
+{
+    fst_setup setup;
+    fst_error ignored;
+    fst_pull_double pull;
+    if (fst_family_setup(f->family, s->value, &setup, &ignored) != FST_OK)
+        return 0;
+    const fst_coefficients_double *c = &setup.model.coefficients;
+    fst_magnetic_pull_double(c, s->y[0], &pull);
+    return !c->kinds.dry || fst_load_double(c, pull.force) > 0.0;
+}
+
 /* Damped Newton iterations on the equations of rest; 1 if they end at an equilibrium. */
 static int settle(finder *f, fst_solution *s)
 {
     fst_error ignored;
     return fst_solution_correct(f->family, s, NULL, &ignored) == FST_OK &&
-           hypot(s->y[0][FST_X], s->y[0][FST_Y]) < 4.0 * FST_LARGEST_RADIUS;
+           hypot(s->y[0][FST_X], s->y[0][FST_Y]) < 4.0 * FST_LARGEST_RADIUS && touches(f, s);
 }
 
 /* Every start, every state's image under S2 as well. */
@@ -212,6 +227,11 @@ fst_status fst_locked_find(const fst_params *params, const fst_progress *progres
         list->index_sum += sign;
     }
     free(f.found);
+    fst_setup setup;
+    if (status == FST_OK)
+        status = fst_family_setup(&family, 0.0, &setup, error);
+    if (status == FST_OK)
+        status = fst_rolling_locks_find(&setup, list, error);
     if (status != FST_OK) {
         fst_locked_free(list);
         return status;
@@ -227,6 +247,7 @@ fst_status fst_locked_find(const fst_params *params, const fst_progress *progres
 void fst_locked_free(fst_locked_list *list)
 {
     free(list->states);
+    free(list->families);
     memset(list, 0, sizeof *list);
 }
 

@@ -44,6 +44,9 @@ static const double UNRESOLVED = 4.0;
 static const double SHARED = 3.0; /* what each is off by, in differences seen */
 static const double PIECE = 0.5;  /* gamma^-1: the fastest direction shrinks by e^-2 meanwhile */
 
+/* What is left of a column whose direction a contact at rest has taken, in lengths of what it was: rounding. */
+static const double LOST = 1e-11;
+
 /* Of the work of a time in which the tangents are carried, a time in which they are not. */
 static const double DISCARD_WORK = 0.1;
 
@@ -52,6 +55,7 @@ typedef struct spectrum {
     fst_setup setup;
     double tolerance;
     double y[FST_STATE_SIZE], tangent[FST_STATE_SIZE][FST_COLUMNS];
+    int lost[N];         /* under dry friction: at least once nothing was left of the column */
     double logarithm[N]; /* by which the columns grew in the last piece */
     double sum[N];       /* and since the measurement began */
     fst_growth growth[N], divergence;
@@ -60,12 +64,45 @@ typedef struct spectrum {
     double passed, whole; /* of the work: the time since the start, and all of it */
 } spectrum;
 
+/* Dry friction: a contact that came to rest has left nothing of this column that the ones before do not have.
+ * Its exponent is minus infinity; any direction across them takes its place. */
+static void lose_direction(spectrum *s, int c)
+{
+    s->lost[c] = 1;
+    for (int axis = 0; axis < FST_STATE_SIZE; ++axis) {
+        double v[FST_STATE_SIZE] = {0}, length = 0.0;
+        v[axis] = 1.0;
+        const double *n = s->y + FST_NX;
+        for (int pass = 0; pass < 2; ++pass) {
+            const double outward = v[FST_NX] * n[0] + v[FST_NY] * n[1] + v[FST_NZ] * n[2];
+            for (int i = 0; i < 3; ++i)
+                v[FST_NX + i] -= outward * n[i];
+            for (int before = 0; before < c; ++before) {
+                double along = 0.0;
+                for (int i = 0; i < FST_STATE_SIZE; ++i)
+                    along += v[i] * s->tangent[i][before];
+                for (int i = 0; i < FST_STATE_SIZE; ++i)
+                    v[i] -= along * s->tangent[i][before];
+            }
+        }
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            length += v[i] * v[i];
+        if (!(length > 0.05)) /* nine axes less at most eight columns: one of them is far enough across */
+            continue;
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            s->tangent[i][c] = v[i] / sqrt(length);
+        return;
+    }
+}
+
 /* Make the columns orthonormal (modified Gram-Schmidt, twice against rounding), and note how they grew. */
 static void orthonormalise(spectrum *s)
 {
     const double *n = s->y + FST_NX;
     for (int c = 0; c < N; ++c) {
-        double total = 1.0, outward = 0.0;
+        double total = 1.0, outward = 0.0, whole = 0.0;
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            whole += s->tangent[i][c] * s->tangent[i][c];
         /* Rounding along n, where nothing shrinks, would in time overgrow what does. */
         for (int i = 0; i < 3; ++i)
             outward += n[i] * s->tangent[FST_NX + i][c];
@@ -83,6 +120,11 @@ static void orthonormalise(spectrum *s)
             for (int i = 0; i < FST_STATE_SIZE; ++i)
                 length += s->tangent[i][c] * s->tangent[i][c];
             length = sqrt(length);
+            if (pass == 0 && s->setup.model.coefficients.kinds.dry &&
+                !(length > LOST * fmax(1.0, sqrt(whole)))) {
+                lose_direction(s, c);
+                break;
+            }
             for (int i = 0; i < FST_STATE_SIZE; ++i)
                 s->tangent[i][c] /= length;
             total *= length;
@@ -157,7 +199,9 @@ static void start_tangents(spectrum *s)
 static void conclude(const spectrum *s, fst_lyapunov *out)
 {
     for (int c = 0; c < N; ++c) {
-        const fst_growth_rate rate = fst_growth_conclude(&s->growth[c]);
+        fst_growth_rate rate = fst_growth_conclude(&s->growth[c]);
+        if (s->lost[c])
+            rate = (fst_growth_rate){.value = -INFINITY, .error = 0.0};
         int place = c;
         for (; place > 0 && out->exponents[place - 1] < rate.value; --place) {
             out->exponents[place] = out->exponents[place - 1];
@@ -221,7 +265,7 @@ static fst_status measure(spectrum *s, double duration, double period, fst_lyapu
         out->trace_count = row + 1;
         out->trace_time[row] = s->clock.passed;
         for (int c = 0; c < N; ++c)
-            out->trace[row][c] = s->sum[c] / s->clock.passed;
+            out->trace[row][c] = s->lost[c] ? -INFINITY : s->sum[c] / s->clock.passed;
     }
     if (status != FST_OK)
         return status;
@@ -231,6 +275,9 @@ static fst_status measure(spectrum *s, double duration, double period, fst_lyapu
         speed = fmax(speed, fabs(rate[i]));
     out->time = duration;
     out->divergence = fst_growth_conclude(&s->divergence).value;
+    for (int c = 0; c < N; ++c)
+        if (s->lost[c]) /* what comes to rest contracts all volumes to nothing */
+            out->divergence = -INFINITY;
     conclude(s, out);
     widen_pairs(out);
     judge(out, speed);

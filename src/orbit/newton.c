@@ -124,6 +124,22 @@ static void put_residual(fst_newton_system *l, fst_solution *s, int row, const d
     }
 }
 
+/* Under dry friction a locked bead whose contact slips is an isolated state like others.  Where it does not
+ * slip the equations have no derivative; these states come in families (rolling_lock.c). */
+static fst_status contact_slips(const fst_setup *setup, const fst_solution *s, fst_error *error)
+{
+    const double least = 1e-9;
+    double slip[2];
+    if (!setup->model.coefficients.kinds.dry || setup->model.coefficients.kinds.patch)
+        return FST_OK;
+    fst_slip_double(&setup->model.coefficients, s->y[0], slip);
+    if (setup->model.coefficients.kinds.paced && hypot(slip[0], slip[1]) > least)
+        return FST_OK;
+    return fst_fail(error, FST_NO_CONVERGENCE, "Newton's method",
+                    "the contact does not slip at %.10g: under dry friction such states are not isolated",
+                    s->value);
+}
+
 static void equilibrium_equations(const fst_setup *setup, fst_solution *s, fst_newton_system *l)
 {
     double f[FST_STATE_SIZE], jacobian[FST_STATE_SIZE][FST_STATE_SIZE], by[FST_STATE_SIZE],
@@ -214,13 +230,16 @@ static fst_status orbit_equations(const fst_family *family, const fst_setup *set
     if (s->symmetric && !setup->model.has_s2)
         return fst_fail(error, FST_NO_CONVERGENCE, "Newton's method",
                         "the magnet is not its own image under half a turn, so no orbit is");
+    fst_setup watched = *setup;
+    s->sticks = 0;
+    watched.sticks = &s->sticks;
     l->rows = FST_TANGENT_SIZE * s->segments + 1;
     l->size = l->rows + 1;
     memset(s->map, 0, sizeof s->map);
     for (int j = 0; j < FST_TANGENT_SIZE; ++j)
         s->map[j][j] = 1.0;
     for (int i = 0; i < s->segments; ++i) {
-        const fst_status status = segment_equations(family, setup, s, i, l, error);
+        const fst_status status = segment_equations(family, &watched, s, i, l, error);
         if (status != FST_OK)
             return status;
     }
@@ -252,8 +271,10 @@ fst_status fst_newton_equations(const fst_family *family, fst_solution *s, fst_n
         fst_tangent_basis(s->y[i], l->basis[i]);
     if (s->segments > 0)
         return orbit_equations(family, &setup, s, l, error);
-    equilibrium_equations(&setup, s, l);
-    return FST_OK;
+    status = contact_slips(&setup, s, error);
+    if (status == FST_OK)
+        equilibrium_equations(&setup, s, l);
+    return status;
 }
 
 /* ------------------------------------------------------------------ solving them */
@@ -319,7 +340,7 @@ static fst_status find_tangent(const fst_family *family, fst_solution *s, fst_ne
 fst_status fst_solution_approach(const fst_family *family, fst_solution *s, const fst_direction *across,
                                  fst_error *error)
 {
-    const double rough = 1e-8;
+    const double rough = fst_family_rests(family) ? 1e-10 : 1e-8; /* of releases more is left at either */
     if (s->segments == 0 || family->tolerance >= rough)
         return FST_OK;
     fst_family eased = *family;
@@ -347,6 +368,9 @@ fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const
     /* From far away, as equilibria are sought, the way is long and the residual may rise on it; an orbit's
      * iterations are dear, and its guess is good. */
     const int far = s->segments == 0 && !across, most = far ? 40 : 14, patience = far ? 20 : 4;
+    /* Dry friction: beside a motion that rolls the system is singular, and a way far longer than the guess is
+     * dear. */
+    const double longest = fst_family_rests(family) ? 2.0 * s->period : 1e4;
     for (s->iterations = 1; s->iterations <= most; ++s->iterations) {
         fst_status status = fst_newton_equations(family, s, &l, error);
         if (status != FST_OK)
@@ -365,7 +389,7 @@ fst_status fst_solution_correct(const fst_family *family, fst_solution *s, const
             break;
         const double limit = far ? 1.0 : LONGEST_CORRECTION;
         fst_solution_move(s, &step, size > limit ? limit / size : 1.0);
-        if (s->segments > 0 && !(s->period > 1e-3 && s->period < 1e4))
+        if (s->segments > 0 && !(s->period > 1e-3 && s->period < longest))
             break;
     }
     return fst_fail(error, FST_NO_CONVERGENCE, "Newton's method",

@@ -43,6 +43,7 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     memcpy(p->state, s->y[0], sizeof p->state);
     if (s->segments == 0) {
         see_equilibrium(&setup, s, p);
+        node->floats = setup.model.coefficients.kinds.dry && fst_observe(&setup.model, s->y[0]).load <= 0.0;
         return FST_OK;
     }
     fst_description d;
@@ -50,6 +51,7 @@ fst_status fst_node_make(const fst_family *family, const fst_solution *s, fst_no
     if (status != FST_OK)
         return status;
     node->closest = d.closest;
+    node->captures = d.captures;
     p->mean_r = d.means.mean_r;
     p->min_r = fabs(d.closest);
     p->mean_alpha_dot = d.means.mean_alpha_dot;

@@ -61,6 +61,7 @@ typedef struct search {
     int at_rest; /* the latest guess ended at an equilibrium that attracts */
     int leaves;  /* ... at one that does not: the bead is leaving it, or will */
     int tried_departure;
+    double slipped;              /* the time at which a contact that can stick last slipped */
     double rest[FST_STATE_SIZE]; /* that equilibrium */
     fst_orbit_outcome outcome;
 } search;
@@ -277,12 +278,18 @@ static double speed_of(const search *s)
 static int is_locked(const search *s)
 {
     fst_solution rest;
+    if (s->flow->step.context.coefficients.kinds.dry &&
+        fst_sticks_double(&s->flow->step.context.coefficients) > 0.5)
+        return speed_of(s) < REST; /* a contact at rest keeps what it has */
     return speed_of(s) < REST && attracts(s, s->flow->step.end, &rest);
 }
 
 /* What to try where there is no orbit to be found. */
 static const char *advice(fst_orbit_outcome outcome)
 {
+    if (outcome == FST_ORBIT_ROLLS)
+        return "Try another start, or friction.rolling_resistance, which selects; festoon run describes the "
+               "motion";
     return outcome == FST_ORBIT_UNSETTLED
                ? "Try a longer run.periods or another start; fst_lyapunov_find() tells whether the motion is "
                  "chaotic"
@@ -320,6 +327,30 @@ static fst_status never_settled(search *s, double t_end, fst_error *error)
         t_end / s->drive_period, s->model->groups.omega, motion, s->attempts);
 }
 
+/* Dry friction: whether the contact has not slipped for a while.  Then nothing damps the motion (unless the
+ * plate resists rolling), so that it approaches no orbit, and Newton's method has none to find: those that
+ * roll come in continua. */
+static int only_rolls(search *s)
+{
+    enum { DRIVE_PERIODS = 20 };
+    const fst_coefficients_double *c = &s->flow->step.context.coefficients;
+    if (!c->kinds.dry || c->resistance.arm > 0.0)
+        return 0;
+    if (!(fst_sticks_double(c) > 0.5))
+        s->slipped = s->flow->t.high;
+    return s->flow->t.high - s->slipped > DRIVE_PERIODS * s->drive_period;
+}
+
+static fst_status rolls_for_ever(search *s, fst_error *error)
+{
+    s->outcome = FST_ORBIT_ROLLS;
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "orbit",
+        "the contact does not slip from %.4g to %.4g drive periods at omega = %.10g: a bead that only "
+        "rolls approaches no orbit, and its start decides how it moves",
+        s->slipped / s->drive_period, s->flow->t.high / s->drive_period, s->model->groups.omega);
+}
+
 static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *error)
 {
     int turns = 0, peaks = 0, next_turn = 4, next_peak = 16;
@@ -334,6 +365,8 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
         if (r > 50.0)
             return went_elsewhere(s, FST_ORBIT_EJECTED, error);
         fst_error ignored;
+        if (only_rolls(s))
+            continue;
         if (note_passage(s)) {
             turns += 1;
             if (turns >= next_turn) {
@@ -359,7 +392,9 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
             return went_elsewhere(s, FST_ORBIT_LOCKED, error);
     }
     const fst_status status = fst_watch_ask(s->family->watch, error);
-    return status == FST_OK ? never_settled(s, t_end, error) : status;
+    if (status != FST_OK)
+        return status;
+    return only_rolls(s) ? rolls_for_ever(s, error) : never_settled(s, t_end, error);
 }
 
 fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_orbit_outcome *outcome,

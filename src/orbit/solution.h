@@ -37,6 +37,7 @@ typedef struct fst_solution {
     fst_direction tangent; /* of the curve of solutions, where the parameter is free */
     double map[FST_TANGENT_SIZE]
               [FST_TANGENT_SIZE]; /* the chain's derivative, or the Jacobian, in the basis at y[0] */
+    int sticks;                   /* an orbit under dry friction: the contact comes to rest on it */
     double trivial_error;         /* |M f - f|/|f|: how well the flow direction is mapped onto itself */
     int multipliers;              /* 8 for orbits, 9 eigenvalues for equilibria */
     double re[FST_MULTIPLIERS], im[FST_MULTIPLIERS];

@@ -13,7 +13,8 @@
  * (full lines attract, broken ones do not).  Orbits have the same with multipliers instead of eigenvalues: +1
  * is a fold, -1 a pitchfork of a symmetric orbit (its half map) or a period doubling of another, a pair on the
  * unit circle a Neimark-Sacker point.  Where an orbit passes through the axis r = 0 nothing happens to it but
- * that it ceases to turn round the axis; that is told too (origin-crossing).
+ * that it ceases to turn round the axis; that is told too (origin-crossing).  Under dry friction an orbit may
+ * gain or lose a rest; the return to itself is not smooth there (grazing).
  *
  * Each of these is the zero of one test (special_test.c): where a test has different signs at the two points,
  * the zero between is located, named, and the first point of the branch that is born there is sought
@@ -334,6 +335,30 @@ static int hides_something(const fst_node *a, const fst_node *b)
            change > 2 * pairs + fst_test_changes(a, b, FST_TEST_MINUS) + fst_test_changes(a, b, FST_TEST_PLUS);
 }
 
+/* Dry friction: between a and b an orbit gains or loses a rest, where a slip just dies, or a push just passes
+ * the edge of the cone of static friction.  The place is known as well as solutions can be found beside it,
+ * where the return has a kink or a jump. */
+static fst_status report_grazing(const interval *i, fst_error *error)
+{
+    enum { HALVINGS = 14 };
+    fst_node at = *i->a, middle;
+    fst_error ignored;
+    double here = 0.0, beyond = 1.0;
+    for (int k = 0; k < HALVINGS && (beyond - here) * i->b->length > 1e-8; ++k) {
+        const double x = 0.5 * (here + beyond);
+        if (fst_node_between(i->family, i->a, i->b, x, &middle, &ignored) != FST_OK)
+            break;
+        if (middle.captures == i->a->captures) {
+            here = x;
+            at = middle;
+        } else {
+            beyond = x;
+        }
+    }
+    const fst_status status = fst_watch_ask(i->family->watch, error);
+    return status == FST_OK ? tell(i, FST_SPECIAL_GRAZING, &at, 0, NULL, error) : status;
+}
+
 fst_status fst_specials_between(const fst_family *family, const fst_curve_sink *sink, const fst_node *a,
                                 const fst_node *b, fst_curve_end *end, fst_error *error)
 {
@@ -350,7 +375,11 @@ fst_status fst_specials_between(const fst_family *family, const fst_curve_sink *
                    : fst_specials_between(family, sink, &at, &last, end, error);
     }
     const int turn = fst_test_changes(a, b, FST_TEST_FOLD);
-    fst_status status = turn ? report_turn(&i, error) : FST_OK;
+    const int grazes = a->s.segments > 0 && a->captures != b->captures;
+    fst_status status = grazes ? report_grazing(&i, error) : FST_OK;
+    if (status != FST_OK)
+        return status;
+    status = turn ? report_turn(&i, error) : FST_OK;
     for (int test = FST_TEST_FOLD + 1; test < FST_TEST_COUNT && end->type == FST_END_NONE && status == FST_OK;
          ++test) {
         if (!fst_test_changes(a, b, test) || (test == FST_TEST_PLUS && turn))

@@ -121,6 +121,23 @@ fst_status fst_solution_section(const fst_family *family, const fst_solution *s,
     return status;
 }
 
+/* A contact that comes to rest loses both directions of its slip: two multipliers are exactly zero, those that
+ * rounding left next to it. */
+static void clear_lost_directions(fst_solution *s)
+{
+    int first = 0, second = 1;
+    for (int i = 1; i < s->multipliers; ++i) {
+        const double size = hypot(s->re[i], s->im[i]);
+        if (size < hypot(s->re[first], s->im[first])) {
+            second = first;
+            first = i;
+        } else if (i > 1 && size < hypot(s->re[second], s->im[second])) {
+            second = i;
+        }
+    }
+    s->re[first] = s->im[first] = s->re[second] = s->im[second] = 0.0;
+}
+
 fst_status fst_solution_spectrum(const fst_family *family, fst_solution *s, fst_error *error)
 {
     double matrix[FST_TANGENT_SIZE * FST_TANGENT_SIZE], q[FST_TANGENT_SIZE][FST_TANGENT_SIZE];
@@ -132,6 +149,8 @@ fst_status fst_solution_spectrum(const fst_family *family, fst_solution *s, fst_
     if (family->lapack->eigen(s->multipliers, matrix, s->re, s->im, NULL) != 0)
         return fst_fail(error, FST_NO_CONVERGENCE, "spectrum", "the eigenvalues at %.10g were not found",
                         s->value);
+    if (s->segments > 0 && s->sticks)
+        clear_lost_directions(s);
     return FST_OK;
 }
 

@@ -13,6 +13,8 @@
  * where a difference only means to be ahead on the same orbit, and along |n|, which does not change.  At first
  * the vector turns towards the direction that grows fastest; the growth counts from then on.
  *
+ * Under dry friction the vector follows the flow, step by step, through its changes of mode.
+ *
  * As many beads as the engine is wide are followed side by side, each with its own steps.  A bead with its
  * vector can be put down between two tries (keep_way()) and taken up again, so that an interrupted sweep loses
  * nothing.
@@ -27,6 +29,7 @@
 #include "base/watch.h"
 #include "lanes/lanes.h"
 #include "ode/flow.h"
+#include "ode/neighbours.h"
 #include "study/growth.h"
 
 /* Exponents are computed at these tolerances where the run's own is tighter: the regime comes out the same, and
@@ -135,6 +138,21 @@ static void take_up_way(batch *b, int l, fst_exponent *asked)
         b->y[i * b->engine->width + l] = asked->way_state[i];
 }
 
+static follower follower_of(fst_exponent *asked, double rtol)
+{
+    const double aligned = asked->duration * ALIGNING, measured = asked->duration - aligned;
+    const double finer = fmax(1.0, ceil(measured / PIECES / LONGEST_PIECE));
+    asked->rhs_calls = 0;
+    asked->failed = 0;
+    return (follower){.asked = asked,
+                      .piece = measured / PIECES / finer,
+                      .aligning = ALIGNING_PIECES * finer,
+                      .pieces = (ALIGNING_PIECES + PIECES) * finer,
+                      .rtol = rtol,
+                      .clock = {.duration = measured},
+                      .control = fst_begin_control_double(FIRST_SIZE, INFINITY)};
+}
+
 /* Put a bead and a fresh vector into a lane. */
 static void begin(batch *b, int l, fst_exponent *asked)
 {
@@ -150,17 +168,7 @@ static void begin(batch *b, int l, fst_exponent *asked)
     b->engine->load(b->memory, l, asked->coefficients, y, rtol, atol);
     if (l >= b->count || asked->has_way)
         return;
-    asked->rhs_calls = 0;
-    asked->failed = 0;
-    const double aligned = asked->duration * ALIGNING, measured = asked->duration - aligned;
-    const double finer = fmax(1.0, ceil(measured / PIECES / LONGEST_PIECE));
-    b->followers[l] = (follower){.asked = asked,
-                                 .piece = measured / PIECES / finer,
-                                 .aligning = ALIGNING_PIECES * finer,
-                                 .pieces = (ALIGNING_PIECES + PIECES) * finer,
-                                 .rtol = rtol,
-                                 .clock = {.duration = measured},
-                                 .control = fst_begin_control_double(FIRST_SIZE, INFINITY)};
+    b->followers[l] = follower_of(asked, rtol);
     fst_plan_step_double(&b->followers[l].control, REAL_EVERYWHERE, b->followers[l].piece);
 }
 
@@ -233,9 +241,84 @@ static double fraction_done(const batch *b)
     return least;
 }
 
+/* ------------------------------------------------------------------ dry friction */
+
+/* A piece of a motion whose contact slips and sticks is over: the vector's length, scaled to 1. */
+static double project_neighbour(fst_neighbours *b, const fst_flow *flow)
+{
+    double y[FST_TANGENT_DIM], direction[FST_STATE_SIZE];
+    fst_neighbours_at_equal_times(b, flow);
+    fst_flow_slope(flow, direction);
+    memcpy(y, flow->step.end, FST_STATE_SIZE * sizeof *y);
+    memcpy(y + FST_STATE_SIZE, b->d[0], FST_STATE_SIZE * sizeof *y);
+    const double length = project(y, direction);
+    memcpy(b->d[0], y + FST_STATE_SIZE, FST_STATE_SIZE * sizeof *y);
+    b->dt[0] /= length;
+    return length;
+}
+
+/* The vector follows the flow through its changes of mode (ode/neighbours.c), which lanes do not know.  Work
+ * that was interrupted begins anew, and ends with the same bits. */
+static fst_status follow_dry(fst_exponent *asked, fst_flow *flow, double rtol, const fst_progress *progress,
+                             fst_error *error)
+{
+    follower f = follower_of(asked, rtol);
+    fst_neighbours b = {.count = 1, .parameter = -1};
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        b.d[0][i] = 1.0 / (1.0 + i); /* any direction will do */
+    fst_neighbours_start(&b, flow);
+    for (unsigned steps = 1; !f.over; ++steps) {
+        const double end = (f.done + 1.0) * f.piece;
+        fst_status status =
+            progress && steps % STEPS_UNTOLD == 0 ? fst_tell(progress, f.done / f.pieces, NULL, error) : FST_OK;
+        if (status != FST_OK)
+            return status;
+        if (fst_flow_step(flow, end, error) != FST_OK) {
+            asked->failed = 1;
+            return FST_OK;
+        }
+        const double load = fst_load_function(flow, flow->step.end, FST_PATH_PULL(&flow->step, FST_PATH_END));
+        if (!fst_neighbours_known(flow) || (asked->coefficients->kinds.flies && load < 0)) {
+            asked->unknown = 1;
+            return FST_OK;
+        }
+        fst_neighbours_follow(&b, flow);
+        if (!(fst_twofold_difference((fst_twofold){end, 0.0}, flow->t) > 0.0))
+            end_piece(&f, project_neighbour(&b, flow));
+    }
+    asked->rhs_calls = flow->rhs_calls;
+    return FST_OK;
+}
+
+static fst_status dry_exponent(fst_exponent *asked, const fst_progress *progress, fst_error *error)
+{
+    const double rtol = fmax(asked->rtol, LOOSEST_WITHOUT_FRICTION); /* what it makes of the modes, too */
+    fst_model model;
+    fst_flow *flow;
+    fst_flow_options o = fst_default_flow_options();
+    memset(&model, 0, sizeof model);
+    model.coefficients = *asked->coefficients;
+    model.coefficients.kinds.flies = 0; /* follow_dry() looks for it */
+    model.groups.omega = asked->coefficients->omega;
+    o.rtol = rtol;
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        o.atol[i] = rtol;
+    fst_status status = fst_flow_new(&model, &o, asked->state, &flow, error);
+    if (status == FST_OK)
+        status = follow_dry(asked, flow, rtol, progress, error);
+    fst_flow_free(flow);
+    return status;
+}
+
 fst_status fst_largest_exponents(const fst_tangent_engine *engine, fst_exponent *const *asked, int count,
                                  const fst_progress *progress, fst_error *error)
 {
+    if (asked[0]->coefficients->kinds.dry) {
+        fst_status status = FST_OK;
+        for (int i = 0; i < count && status == FST_OK; ++i)
+            status = dry_exponent(asked[i], progress, error);
+        return status;
+    }
     batch b = {.engine = engine, .count = count};
     const size_t bytes = (engine->bytes + 63) / 64 * 64;
     b.memory = aligned_alloc(64, bytes);

@@ -9,6 +9,7 @@
 #include "model/params.h"
 #include "study/conclude.h"
 #include "study/simulation.h"
+#include "study/splitting_run.h"
 
 fst_run_options fst_default_run_options(void)
 {
@@ -93,6 +94,8 @@ fst_status fst_run(const fst_params *params, const fst_run_options *options, fst
     fst_status status = check_options(options, error);
     if (status != FST_OK)
         return status;
+    if (params->run_method == FST_METHOD_SPLITTING)
+        return fst_splitting_alone(params, options, result, error);
     fst_params at_start = *params; /* a ramp starts at its own frequency */
     if (!isnan(options->ramp_from))
         at_start.drive_omega = options->ramp_from;

@@ -111,13 +111,6 @@ static int is_sound_series(const fst_mark_series *s)
     return s->count >= 0 && s->count <= FST_MARKS && s->stride >= 1 && s->offered >= 0;
 }
 
-/* Under a law with modes the image tells in which one the bead is. */
-static int is_sound_mode(const fst_flow *flow)
-{
-    const fst_coefficients_double *c = &flow->step.context.coefficients;
-    return !c->kinds.paced || (c->law.coulomb.mode >= 0 && c->law.coulomb.mode < FST_MODES);
-}
-
 static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
 {
     const int count =
@@ -127,8 +120,7 @@ static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
            (unsigned)i->place.station < FST_STATION_COUNT &&
            (i->place.station == FST_STATION_ALONE) ==
                (numbers == 0 && i->place.station != FST_STATION_PARKED) &&
-           is_sound_mode(&i->flow) && is_sound_series(&i->window.returns.marks) &&
-           is_sound_series(&i->window.periods);
+           is_sound_series(&i->window.returns.marks) && is_sound_series(&i->window.periods);
 }
 
 /* The coefficients of a run that begins, with the mode of its contact in the image, which is kept in the law's
@@ -140,7 +132,8 @@ static int take_mode(fst_coefficients_double *c, const image *from)
         return 1;
     const double mode = then->coulomb.mode;
     c->law = *then;
-    return mode == FST_MODE_SLIP || mode == FST_MODE_STICK || mode == FST_MODE_ONSET;
+    return mode == FST_MODE_SLIP || mode == FST_MODE_STICK || mode == FST_MODE_ONSET ||
+           (mode == FST_MODE_FLIGHT && c->kinds.flies);
 }
 
 int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_run *run,
@@ -160,8 +153,6 @@ int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_
     run->end = from->end;
     *run->flow = from->flow;
     run->flow->step.context.coefficients = coefficients;
-    if (coefficients.kinds.paced) /* the mode belongs to the motion, not to the setup */
-        run->flow->step.context.coefficients.law.coulomb = from->flow.step.context.coefficients.law.coulomb;
     run->flow->groups = groups;
     *place = from->place;
     if (place->station == FST_STATION_PARKED) {

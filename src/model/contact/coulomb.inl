@@ -96,6 +96,9 @@ static inline REAL_MASK FN(coulomb_sticks)(const FN(coulomb) * law)
 
 /* ------------------------------------------------------------------ a disc */
 
+/* Not inlined: a point contact, which shares the equations of motion with a disc, should not pay for it. */
+#define OF_DISC static __attribute__((noinline, unused))
+
 /* A disc in motion: the greatest force mu N, its radius, |w| with its derivatives (pivoting_rate()), and the
  * shares that it gets of them. */
 typedef struct FN(rubbing) {
@@ -135,15 +138,15 @@ static inline FN(rubbing_change) FN(coulomb_rubbing_change)(const FN(coulomb) * 
 }
 
 /* The torque against pivoting; while the bead is held, what balances the torque `held`. */
-static inline REAL FN(coulomb_pivoting)(const FN(coulomb) * law, const FN(contact) * at, REAL held)
+OF_DISC REAL FN(coulomb_pivoting)(const FN(coulomb) * law, const FN(contact) * at, REAL held)
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const REAL torque = r.dry * r.radius * r.shares.twist * r.side;
     return REAL_SELECT(FN(coulomb_sticks)(law), -held, -torque);
 }
 
-static inline REAL FN(coulomb_pivoting_change)(const FN(coulomb) * law, const FN(contact) * at,
-                                               const FN(contact) * by, REAL dheld)
+OF_DISC REAL FN(coulomb_pivoting_change)(const FN(coulomb) * law, const FN(contact) * at,
+                                         const FN(contact) * by, REAL dheld)
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const FN(rubbing_change) d = FN(coulomb_rubbing_change)(law, at, by, &r);
@@ -161,7 +164,7 @@ static inline REAL FN(coulomb_pivoting_loss)(const FN(coulomb) * law, const FN(c
 
 /* ------------------------------------------------------------------ the force */
 
-static inline void FN(disc_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
+OF_DISC void FN(disc_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const REAL grip = REAL_MULADD(r.dry, r.shares.grip, law->rate);
@@ -169,8 +172,8 @@ static inline void FN(disc_force)(const FN(coulomb) * law, const FN(contact) * a
         force[i] = REAL_SELECT(FN(coulomb_sticks)(law), R(2.0) / R(7.0) * at->push[i], grip * at->slip[i]);
 }
 
-static inline void FN(disc_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
-                                   REAL change[2])
+OF_DISC void FN(disc_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
+                             REAL change[2])
 {
     const FN(rubbing) r = FN(coulomb_rubbing)(law, at);
     const FN(rubbing_change) d = FN(coulomb_rubbing_change)(law, at, by, &r);
@@ -206,7 +209,26 @@ static inline void FN(coulomb_force)(const FN(coulomb) * law, const FN(contact) 
     }
 }
 
-/* In onset, which lasts for moments, as in slip. */
+/* The change of the direction u of an onset (times mu N, and with that of mu N itself): the direction of A
+ * turns, and it lags behind by another slip.  `lean` is that of the release. */
+static inline void FN(coulomb_onset_change)(const FN(coulomb) * law, const FN(contact) * at,
+                                            const FN(contact) * by, REAL dry, REAL ddry, REAL change[2])
+{
+    const REAL *v = at->slip, *dv = by->slip, *a = at->push, *da = by->push;
+    const REAL inverse_a = REAL_RECIPROCAL_SQRT(SUM_2(a[0], a[0], a[1], a[1]) + R(1e-290));
+    const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a};
+    const REAL turned = SUM_2(ahead[0], da[1], -ahead[1], da[0]) * inverse_a; /* angle of A */
+    const REAL along = SUM_2(v[0], ahead[0], v[1], ahead[1]), across = SUM_2(ahead[0], v[1], -ahead[1], v[0]);
+    const REAL dalong = SUM_2(dv[0], ahead[0], dv[1], ahead[1]) + across * turned;
+    const REAL lag = along * REAL_MULADD(law->lean_slip, along, law->lean);
+    const REAL dlag = dalong * REAL_MULADD(R(2.0) * law->lean_slip, along, law->lean);
+    const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
+    const REAL u[2] = {(ahead[0] + lag * ahead[1]) * inverse_u, (ahead[1] - lag * ahead[0]) * inverse_u};
+    const REAL turning = dry * (turned - dlag * inverse_u * inverse_u); /* the lag is the tangent of an angle */
+    change[0] = REAL_MULADD(law->rate, dv[0], ddry * u[0] - turning * u[1]);
+    change[1] = REAL_MULADD(law->rate, dv[1], ddry * u[1] + turning * u[0]);
+}
+
 static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
                                       REAL change[2])
 {
@@ -219,16 +241,18 @@ static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact)
     const REAL u[2] = {v[0] * inverse_s, v[1] * inverse_s};
     const REAL mu = FN(coulomb_mu)(law, s2), load = FN(coulomb_load)(at);
     const REAL dload = REAL_SELECT(REAL_LESS(R(0.0), at->load), by->load, R(0.0));
-    const REAL along = SUM_2(u[0], dv[0], u[1], dv[1]), across = SUM_2(u[0], dv[1], -u[1], dv[0]);
+    const REAL across = SUM_2(u[0], dv[1], -u[1], dv[0]);
     const REAL ds2 = R(2.0) * SUM_2(v[0], dv[0], v[1], dv[1]);
     const REAL ddry = REAL_MULADD(mu, dload, FN(coulomb_mu_by_s2)(law, s2) * ds2 * load);
     const REAL turning = mu * load * across * inverse_s;
     const REAL turned[2] = {-u[1], u[0]};
-    const REAL_MASK sticks = FN(coulomb_sticks)(law);
-    (void)along;
+    const REAL_MASK sticks = FN(coulomb_sticks)(law), slips = REAL_LESS(law->mode, R(0.5));
+    REAL onset[2];
+    FN(coulomb_onset_change)(law, at, by, mu * load, ddry, onset);
     for (int i = 0; i < 2; ++i) {
         const REAL slipping = REAL_MULADD(law->rate, dv[i], REAL_MULADD(ddry, u[i], turning * turned[i]));
-        change[i] = REAL_SELECT(sticks, R(2.0) / R(7.0) * by->push[i], slipping);
+        const REAL released = REAL_SELECT(slips, slipping, onset[i]);
+        change[i] = REAL_SELECT(sticks, R(2.0) / R(7.0) * by->push[i], released);
     }
 }
 
@@ -256,3 +280,14 @@ static inline REAL FN(coulomb_pace)(const FN(coulomb) * law, REAL motion_2)
     const REAL pace = REAL_SQRT(motion_2 / (motion_2 + law->usual_slip_2));
     return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), pace, R(1.0));
 }
+
+/* Its change as motion_2 changes. */
+static inline REAL FN(coulomb_pace_change)(const FN(coulomb) * law, REAL motion_2, REAL change)
+{
+    const REAL whole = motion_2 + law->usual_slip_2;
+    const REAL by = R(0.5) * change * law->usual_slip_2 *
+                    REAL_RECIPROCAL_SQRT((motion_2 + R(1e-290)) * whole) / whole;
+    return REAL_SELECT(REAL_LESS(law->mode, R(0.5)), by, R(0.0));
+}
+
+#undef OF_DISC

@@ -1,0 +1,388 @@
+/* neighbours.c - tangent vectors carried along a motion with dry friction, through its changes of mode.
+ *
+ * The motion is the flow's own (ode/contact.c): slips, which are integrated in theta, dt = pace dtheta; rests,
+ * in which the bead rolls; and short onsets of slips.  Along each of its steps the tangent vectors are carried
+ * by the same method with the same stages, so that they are the derivatives of just the numbers that the step
+ * computed, to the order of the method.
+ *
+ * Two kinds of difference.  At equal theta, a neighbour of the motion is off by d, and its clock by dt:
+ *
+ *     d'  = pace Df d + f (Dpace d)        (' is the derivative by theta)
+ *     dt' = Dpace d
+ *
+ * What Newton's method wants is the difference at equal times, which is d - f dt.  While the slip dies,
+ * differences at equal times of |V| and of its direction become large against |V| itself; at equal theta they
+ * die with it.  So a tangent vector keeps its dt until the slip is over or the way ends.
+ *
+ * A bead that flies, and a disc that neither slips nor pivots, are not known here: fst_neighbours_known().
+ *
+ * Where the mode changes (w: what sticks or slips before, f: after):
+ *
+ *     slip -> stick     |V| has fallen to nothing in both at equal theta: what d still has of a slip is
+ *                       taken out by the plate's impulse, and d - f dt goes on
+ *     stick -> onset    f = w there: nothing happens (if static friction is hardly stronger: as below)
+ *     onset -> slip     nor here
+ *     stick -> slip     static friction was stronger: f != w.  The neighbour lets go at another time, off by
+ *                       dt = -Dg d/(Dg w), g being what static friction could still take: d + w dt goes on
+ *     onset -> stick    the slip has come back to nothing at the rate s': dt = -ds/s', d + (w - f) dt goes on
+ *
+ * A bead at rest has no slip, and neither has any neighbour: nine directions become seven.  So a return that
+ * sticks somewhere has two multipliers that are exactly zero.
+ *
+ * Not in the derivative: the angle by which an onset lags behind (`lean`, as it changes in time) is that of the motion for its
+ * neighbours too.  What they would feel of the difference is of the order (hand-over)^(3/2), 1e-8 at a
+ * tolerance of 1e-13; it bears on Newton's convergence alone, not on where it ends.
+ */
+#include "ode/neighbours.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "model/tangent.inl"
+
+enum { STAGES = 12 };
+
+/* ------------------------------------------------------------------ at one state */
+
+/* Whether the derivative by the parameter is taken as a difference of setups. */
+static int differs(const fst_neighbours *b)
+{
+    return b->parameter >= 0 && !b->exact;
+}
+
+/* The numbers of the law that the motion itself sets (ode/contact.c). */
+static void take_numbers(fst_coulomb_double *to, const fst_coulomb_double *from)
+{
+    to->mode = from->mode;
+    to->lean = from->lean;
+    to->lean_slip = from->lean_slip;
+    memcpy(to->lean_then, from->lean_then, sizeof to->lean_then);
+    to->since = from->since;
+    to->patch.slow_2 = from->patch.slow_2;
+}
+
+static void take_mode(fst_neighbours *b, const fst_coefficients_double *c)
+{
+    if (!c->kinds.paced || !differs(b))
+        return;
+    take_numbers(&b->below.law.coulomb, &c->law.coulomb);
+    take_numbers(&b->above.law.coulomb, &c->law.coulomb);
+}
+
+/* By how much v differs in a setup if the contact slips as it does in the motion: the slip depends on eps. */
+static void same_slip(const fst_coefficients_double *c, const fst_coefficients_double *other, const double *y,
+                      double by[2])
+{
+    double here[2], there[2];
+    fst_slip_double(c, y, here);
+    fst_slip_double(other, y, there);
+    for (int i = 0; i < 2; ++i)
+        by[i] = here[i] - there[i];
+}
+
+/* How v changes with the parameter at an unchanged slip. */
+static void at_same_slip(const fst_neighbours *b, const fst_coefficients_double *c, const double *y,
+                         double by[2])
+{
+    double below[2], above[2];
+    by[0] = by[1] = 0.0;
+    if (!differs(b))
+        return;
+    same_slip(c, &b->below, y, below);
+    same_slip(c, &b->above, y, above);
+    for (int i = 0; i < 2; ++i)
+        by[i] = (above[i] - below[i]) / b->spread;
+}
+
+/* d(state)/dtheta changes by this with the parameter, and the pace by *pace, at an unchanged slip: a slip that
+ * is nearly nothing would not be one in a setup with another eps. */
+static void by_parameter(const fst_neighbours *b, const fst_coefficients_double *c, const double *y, double *by,
+                         double *pace)
+{
+    memset(by, 0, FST_STATE_SIZE * sizeof *by);
+    *pace = 0.0;
+    if (b->parameter < 0)
+        return;
+    if (b->exact) {
+        const double here = fst_pace_double(c, y);
+        fst_rhs_by_omega_double(y, by);
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            by[i] *= here;
+        return;
+    }
+    double rate[2][FST_STATE_SIZE], paces[2];
+    for (int side = 0; side < 2; ++side) {
+        const fst_coefficients_double *other = side ? &b->above : &b->below;
+        fst_pull_double unused;
+        double state[FST_STATE_SIZE], change[2];
+        memcpy(state, y, sizeof state);
+        same_slip(c, other, y, change);
+        state[FST_VX] += change[0];
+        state[FST_VY] += change[1];
+        paces[side] = fst_pace_double(other, state);
+        fst_rhs_double(other, other->omega, state, rate[side], &unused);
+    }
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        by[i] = (paces[1] * rate[1][i] - paces[0] * rate[0][i]) / b->spread;
+    *pace = (paces[1] - paces[0]) / b->spread;
+}
+
+/* Neighbour `column` as the derivatives at an unchanged slip see it: all others differ by their start alone. */
+static void neighbour(const fst_neighbours *b, const fst_coefficients_double *c, const double *y, int column,
+                      const double *d, double *seen)
+{
+    double by[2];
+    memcpy(seen, d, FST_STATE_SIZE * sizeof *seen);
+    if (column != b->parameter)
+        return;
+    at_same_slip(b, c, y, by);
+    seen[FST_VX] -= by[0];
+    seen[FST_VY] -= by[1];
+}
+
+/* How the slip differs in neighbour `column`. */
+static void slip_of(const fst_neighbours *b, const fst_coefficients_double *c, const double *y, int column,
+                    double slip[2])
+{
+    double seen[FST_STATE_SIZE];
+    neighbour(b, c, y, column, b->d[column], seen);
+    fst_slip_double(c, seen, slip);
+}
+
+/* Take the slip out of all neighbours, as the plate's impulse does: the moment about the contact stays. */
+static void stop_slips(fst_neighbours *b, const fst_coefficients_double *c, const double *y)
+{
+    for (int column = 0; column < b->count; ++column) {
+        double slip[2], *d = b->d[column];
+        slip_of(b, c, y, column, slip);
+        d[FST_VX] -= 2.0 / 7.0 * slip[0];
+        d[FST_VY] -= 2.0 / 7.0 * slip[1];
+        d[FST_WX] -= 5.0 / (7.0 * c->eps) * slip[1];
+        d[FST_WY] += 5.0 / (7.0 * c->eps) * slip[0];
+        slip_of(b, c, y, column, slip); /* what rounding left */
+        d[FST_VX] -= slip[0];
+        d[FST_VY] -= slip[1];
+    }
+}
+
+/* ------------------------------------------------------------------ along a step */
+
+/* The derivatives of the differences by theta at a stage. */
+static void slopes(const fst_neighbours *b, const fst_coefficients_double *c, double omega, const double *y,
+                   double d[FST_NEIGHBOURS][FST_STATE_SIZE], double k[FST_NEIGHBOURS][FST_STATE_SIZE],
+                   double *kt)
+{
+    fst_linear_double linear;
+    double f[FST_STATE_SIZE], by[FST_STATE_SIZE], seen[FST_STATE_SIZE], pace_by;
+    const double pace = fst_pace_double(c, y);
+    fst_linearise_double(c, omega, y, &linear, f);
+    by_parameter(b, c, y, by, &pace_by);
+    for (int column = 0; column < b->count; ++column) {
+        neighbour(b, c, y, column, d[column], seen);
+        const double faster = fst_pace_change_double(c, y, seen);
+        fst_change_along_double(c, omega, y, &linear, seen, k[column]);
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            k[column][i] = pace * k[column][i] + faster * f[i];
+        kt[column] = faster;
+    }
+    for (int i = 0; i < FST_STATE_SIZE && b->parameter >= 0; ++i)
+        k[b->parameter][i] += by[i];
+    if (b->parameter >= 0)
+        kt[b->parameter] += pace_by;
+}
+
+/* Carry the differences along the flow's last step, by its own stages. */
+static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
+{
+    static const double weights[16][15] = DOP_WEIGHTS;
+    const fst_bead_step_double *s = &flow->step;
+    fst_coefficients_double here = s->context.coefficients, *c = &here;
+    const int onset = c->kinds.paced && fst_contact_mode(flow) == FST_MODE_ONSET;
+    double k[STAGES][FST_NEIGHBOURS][FST_STATE_SIZE], kt[STAGES][FST_NEIGHBOURS],
+        at[FST_NEIGHBOURS][FST_STATE_SIZE];
+    take_mode(b, c);
+    for (int stage = 0; stage <= STAGES; ++stage) { /* the last is the end of the step */
+        memcpy(at, b->d, sizeof at);
+        for (int before = 0; before < stage; ++before) {
+            const double weight = s->h * weights[stage][before];
+            for (int column = 0; column < b->count && weight != 0.0; ++column)
+                for (int i = 0; i < FST_STATE_SIZE; ++i)
+                    at[column][i] += weight * k[before][column][i];
+        }
+        if (onset) { /* the lag behind the push changes within the step */
+            fst_coulomb_lean_double(&here.law.coulomb, fst_stage_time_double(&s->context, s->h, stage));
+            take_mode(b, c);
+        }
+        if (stage < STAGES)
+            slopes(b, c, s->omega, s->stage[stage], at, k[stage], kt[stage]);
+    }
+    memcpy(b->d, at, sizeof at);
+    for (int stage = 0; stage < STAGES; ++stage)
+        for (int column = 0; column < b->count; ++column)
+            b->dt[column] += s->h * weights[STAGES][stage] * kt[stage][column];
+    if (fst_sticks_double(c) > 0.5)
+        stop_slips(b, c, s->end);
+}
+
+/* ------------------------------------------------------------------ where the mode changes */
+
+/* d(state)/dt in a mode. */
+static void rate_in(const fst_flow *flow, int mode, double *f)
+{
+    fst_coefficients_double c = flow->step.context.coefficients;
+    fst_pull_double unused;
+    if (c.kinds.paced)
+        c.law.coulomb.mode = mode;
+    fst_rhs_double(&c, flow->step.omega, flow->step.end, f, &unused);
+}
+
+/* Every neighbour, off by its dt, at the time of the motion: `sign` -1.  And the other way round: +1. */
+static void shift(fst_neighbours *b, const double *f, double sign)
+{
+    for (int column = 0; column < b->count; ++column)
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            b->d[column][i] += sign * b->dt[column] * f[i];
+}
+
+static void forget_clocks(fst_neighbours *b)
+{
+    memset(b->dt, 0, sizeof b->dt);
+}
+
+/* What static friction could still take. */
+double fst_grip(const fst_coefficients_double *c, const double *y)
+{
+    fst_pull_double p;
+    fst_magnetic_pull_double(c, y, &p);
+    const fst_contact_double at = fst_contact_of_double(c, y, &p);
+    return 3.5 * c->law.coulomb.holding * fst_coulomb_load_double(&at) -
+           sqrt(at.push[0] * at.push[0] + at.push[1] * at.push[1]);
+}
+
+static double grip_change(const fst_coefficients_double *c, double omega, const double *y, const double *along)
+{
+    fst_linear_double l;
+    double f[FST_STATE_SIZE], force[3], turning[3], twist[3], torque[3];
+    fst_contact_double by;
+    fst_linearise_double(c, omega, y, &l, f);
+    fst_pull_change_double(c, &l, y, along, force, turning);
+    by.load = l.contact.load > 0 ? -force[2] : 0.0;
+    fst_cross_double(along + FST_NX, l.at.b, twist);
+    fst_cross_double(y + FST_NX, turning, torque);
+    fst_dry_change_double(c, &l, y, along, force, twist, torque, &by);
+    const double *a = l.contact.push;
+    return 3.5 * c->law.coulomb.holding * by.load -
+           (a[0] * by.push[0] + a[1] * by.push[1]) / sqrt(a[0] * a[0] + a[1] * a[1]);
+}
+
+/* The neighbours let go when they do, not when the motion does. */
+static void let_go(fst_neighbours *b, const fst_flow *flow)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const double *y = flow->step.end, omega = flow->step.omega;
+    double w[FST_STATE_SIZE];
+    rate_in(flow, FST_MODE_STICK, w);
+    const double rate = grip_change(c, omega, y, w);
+    for (int column = 0; column < b->count; ++column)
+        b->dt[column] = -grip_change(c, omega, y, b->d[column]) / rate;
+    if (differs(b))
+        b->dt[b->parameter] -= (fst_grip(&b->above, y) - fst_grip(&b->below, y)) / b->spread / rate;
+    shift(b, w, 1.0);
+    stop_slips(b, c, y);
+}
+
+/* A slip that came to nothing before it was one: at times of their own, too. */
+static void sink_back(fst_neighbours *b, const fst_flow *flow)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const double *y = flow->step.end;
+    fst_pull_double p;
+    double w[FST_STATE_SIZE], f[FST_STATE_SIZE], slowing[2];
+    fst_magnetic_pull_double(c, y, &p);
+    const fst_contact_double at = fst_contact_of_double(c, y, &p);
+    rate_in(flow, FST_MODE_ONSET, w);
+    rate_in(flow, FST_MODE_STICK, f);
+    fst_slip_double(c, w, slowing);
+    const double rate = at.push[0] * slowing[0] + at.push[1] * slowing[1];
+    for (int column = 0; column < b->count; ++column) {
+        double slip[2];
+        slip_of(b, c, y, column, slip);
+        b->dt[column] = -(at.push[0] * slip[0] + at.push[1] * slip[1]) / rate;
+    }
+    shift(b, w, 1.0);
+    stop_slips(b, c, y);
+    shift(b, f, -1.0);
+    forget_clocks(b);
+}
+
+/* What is left of a slip dies at equal theta; compare at equal times in the mode that follows. */
+static void come_to_rest(fst_neighbours *b, const fst_flow *flow, int after)
+{
+    double f[FST_STATE_SIZE];
+    stop_slips(b, &flow->step.context.coefficients, flow->step.end);
+    rate_in(flow, after, f);
+    shift(b, f, -1.0);
+    forget_clocks(b);
+}
+
+/* The mode changes at the end of the flow's last step. */
+static void change_mode(fst_neighbours *b, const fst_flow *flow)
+{
+    const int before = fst_contact_mode(flow), after = flow->contact.next_mode;
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const int jumps = c->law.coulomb.holding > fst_coulomb_mu_double(&c->law.coulomb, 0.0);
+    double f[FST_STATE_SIZE];
+    if (before == FST_MODE_SLIP && after == FST_MODE_SLIP) { /* against a push that turns it round */
+        stop_slips(b, c, flow->step.end);
+    } else if (before == FST_MODE_SLIP) {
+        come_to_rest(b, flow, after);
+    } else if (before == FST_MODE_STICK && after == FST_MODE_SLIP) {
+        let_go(b, flow);
+    } else if (before == FST_MODE_STICK && jumps) {
+        let_go(b, flow);
+        rate_in(flow, after, f);
+        shift(b, f, -1.0);
+        forget_clocks(b);
+    } else if (before == FST_MODE_ONSET && after == FST_MODE_STICK) {
+        sink_back(b, flow);
+    }
+}
+
+/* ------------------------------------------------------------------ the way */
+
+void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    forget_clocks(b);
+    take_mode(b, c);
+    if (fst_sticks_double(c) > 0.5 || (c->kinds.paced && fst_contact_mode(flow) == FST_MODE_ONSET))
+        stop_slips(b, c, flow->step.y);
+}
+
+int fst_neighbours_known(const fst_flow *flow)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    if (!c->kinds.paced)
+        return 1;
+    const int now = fst_contact_mode(flow), next = flow->contact.next_mode;
+    const int held = c->kinds.patch && (now == FST_MODE_STICK || next == FST_MODE_STICK);
+    return now != FST_MODE_FLIGHT && next != FST_MODE_FLIGHT && !held;
+}
+
+void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow)
+{
+    carry_along_step(b, flow);
+    if (flow->step.context.coefficients.kinds.paced && flow->contact.next_mode >= 0)
+        change_mode(b, flow);
+}
+
+void fst_neighbours_at_equal_times(fst_neighbours *b, const fst_flow *flow)
+{
+    const int paced = flow->step.context.coefficients.kinds.paced;
+    double f[FST_STATE_SIZE];
+    if (!paced || flow->contact.next_mode >= 0) /* where a mode just ended, the clocks were set, or must wait */
+        return;
+    rate_in(flow, fst_contact_mode(flow), f);
+    shift(b, f, -1.0);
+    forget_clocks(b);
+}

@@ -1,0 +1,35 @@
+/* neighbours.h - the infinitesimal neighbours of a motion with dry friction. */
+#ifndef FST_ODE_NEIGHBOURS_H
+#define FST_ODE_NEIGHBOURS_H
+
+#include "ode/flow.h"
+
+enum { FST_NEIGHBOURS = 10 };
+
+typedef struct fst_neighbours {
+    int count;
+    int parameter; /* the one whose setup differs instead of its start; -1: none does */
+    int exact;     /* by the drive's omega alone */
+    double spread; /* else: of the parameter between these two setups */
+    fst_coefficients_double below, above;
+    double d[FST_NEIGHBOURS][FST_STATE_SIZE]; /* by how much the states differ */
+    double dt[FST_NEIGHBOURS];                /* at equal theta: by how much the clocks are ahead */
+} fst_neighbours;
+
+/* The flow is at its start, where the neighbours differ by d. */
+void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow);
+
+/* Carry them along the flow's last step, and through the change of mode at its end. */
+void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow);
+
+/* Whether the flow's last step, and what follows it, is a motion of which neighbours are known: no flight, and
+ * no disc that is held. */
+int fst_neighbours_known(const fst_flow *flow);
+
+/* Compare them with the motion at equal times from here on. */
+void fst_neighbours_at_equal_times(fst_neighbours *b, const fst_flow *flow);
+
+/* What static friction could still take, over the traction by which the slip feels it. */
+double fst_grip(const fst_coefficients_double *c, const double *state);
+
+#endif

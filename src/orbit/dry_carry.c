@@ -1,0 +1,78 @@
+/* dry_carry.c - a bundle of tangent vectors carried along a motion with dry friction (ode/neighbours.c), for
+ * Newton's method and multipliers.
+ */
+#include "orbit/dry_carry.h"
+
+#include <string.h>
+
+#include "base/error.h"
+#include "ode/neighbours.h"
+
+_Static_assert((int)FST_COLUMNS <= (int)FST_NEIGHBOURS, "every column has a neighbour");
+
+enum { STEP_WORK = 60 }; /* of a step with its columns, in evaluations of the equations */
+
+static const double NO_SLIP = 1e-13; /* a slip that is none: what rounding leaves */
+
+static fst_status follow(const fst_setup *setup, fst_neighbours *b, fst_flow *flow, double duration,
+                         fst_error *error)
+{
+    const fst_twofold end = {duration, 0.0};
+    fst_neighbours_start(b, flow);
+    while (fst_twofold_difference(end, flow->t) > 0.0) {
+        fst_status status = fst_watch_count(setup->watch, STEP_WORK, error);
+        if (status == FST_OK)
+            status = fst_flow_step(flow, duration, error);
+        if (status != FST_OK)
+            return status;
+        if (!fst_neighbours_known(flow))
+            return fst_fail(error, FST_NO_CONVERGENCE, "tangents",
+                            "how neighbours of a bead move that flies, or that a disc of contact holds, is not "
+                            "known to this program: it has no multipliers and no exponents of such a motion");
+        fst_neighbours_follow(b, flow);
+        if (setup->sticks && fst_sticks_double(&flow->step.context.coefficients) > 0.5)
+            *setup->sticks = 1;
+    }
+    fst_neighbours_at_equal_times(b, flow);
+    return FST_OK;
+}
+
+fst_status fst_dry_carry(const fst_setup *setup, double tolerance, double duration, double y[FST_STATE_SIZE],
+                         double tangent[FST_STATE_SIZE][FST_COLUMNS], fst_error *error)
+{
+    fst_neighbours b = {.count = FST_COLUMNS,
+                        .parameter = setup->differs ? FST_COLUMNS - 1 : -1,
+                        .exact = setup->exact,
+                        .spread = setup->spread,
+                        .below = setup->below,
+                        .above = setup->above};
+    fst_flow *flow;
+    fst_flow_options o = fst_default_flow_options();
+    o.rtol = tolerance;
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        o.atol[i] = tolerance;
+    fst_status status = fst_flow_new(&setup->model, &o, y, &flow, error);
+    if (status != FST_OK)
+        return status;
+    for (int column = 0; column < FST_COLUMNS; ++column)
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            b.d[column][i] = tangent[i][column];
+    status = follow(setup, &b, flow, duration, error);
+    memcpy(y, flow->step.end, FST_STATE_SIZE * sizeof *y);
+    for (int column = 0; column < FST_COLUMNS; ++column)
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            tangent[i][column] = b.d[column][i];
+    fst_flow_free(flow);
+    return status;
+}
+
+void fst_dry_coefficients(const fst_setup *setup, const double *y, fst_coefficients_double *out)
+{
+    double slip[2];
+    *out = setup->model.coefficients;
+    if (!out->kinds.paced)
+        return;
+    fst_slip_double(out, y, slip);
+    const int rests = !out->kinds.patch && slip[0] * slip[0] + slip[1] * slip[1] <= NO_SLIP * NO_SLIP && fst_grip(out, y) >= 0.0;
+    out->law.coulomb.mode = rests ? FST_MODE_STICK : FST_MODE_SLIP;
+}
