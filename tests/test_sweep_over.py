@@ -28,12 +28,12 @@ RANGES = {
     "model.lambda": ("0.3:0.5", 0.3, 0.5), "plate.radius": ("20cm:230mm", 0.2, 0.23),
     "plate.gravity": ("9.8 m/s2:10", 9.8, 10), "start.r": ("0.5:0.9", 0.5, 0.9),
     "start.phi": ("-90:0.25turn", -90, 90), "run.periods": ("2:3", 2, 3), "run.discard": ("0:1", 0, 1),
-    "run.rtol": ("1e-6:1e-5", 1e-6, 1e-5),
+    "run.rtol": ("1e-6:1e-5", 1e-6, 1e-5), "run.step": ("0.02:0.04", 0.02, 0.04),
 }
 DRY = "friction.law=coulomb"
 NEEDS = {"bead.a": ["bead.material=paramagnetic"], "bead.b": ["bead.material=mixed"], "friction.mu_static": [DRY],
          "friction.stribeck_speed": [DRY, "friction.mu_static=0.4"], "friction.rolling_resistance": [DRY],
-         "friction.contact_rate": [DRY], "contact.radius": [DRY, "contact.patch=hertz"],
+         "friction.contact_rate": [DRY], "run.step": [DRY, "run.method=splitting"], "contact.radius": [DRY, "contact.patch=hertz"],
          "contact.modulus": [DRY, "contact.patch=hertz"], "impact.restitution": [DRY]}
 # Parameters that no row shows: the tesla scale, masses if kappa is given, an edge that is not reached, and how a
 # bead bounces that does not leave the plate.

@@ -116,10 +116,16 @@ static void print_motion(FILE *out, const fst_groups *g, const fst_run_result *s
                1.0 / g->time_unit, "1/s");
 }
 
+/* The scaled unit of power in mW. */
+static double milliwatts(const fst_groups *g)
+{
+    return 1e3 * g->mass * g->length_unit * g->length_unit / pow(g->time_unit, 3);
+}
+
 /* Dry friction: how the contact moves. */
 static void print_contact(FILE *out, const fst_groups *g, const fst_run_result *s)
 {
-    const double power = 1e3 * g->mass * g->length_unit * g->length_unit / pow(g->time_unit, 3);
+    const double power = milliwatts(g);
     if (s->never_slips)
         (void)fprintf(out, "  the contact never slips: the motion that is reached depends on the start\n");
     print_line(out, "contact at rest, share of time", s->sticking, NAN, "", 1, NULL);
@@ -140,7 +146,7 @@ static void print_forces(FILE *out, const fst_groups *g, const fst_run_result *s
     const int tesla = isfinite(g->field_unit);
     const double mt = tesla ? 1e3 * g->field_unit : 1.0;
     const double speed = 1e3 * g->length_unit / g->time_unit;
-    const double power = 1e3 * g->mass * g->length_unit * g->length_unit / pow(g->time_unit, 3);
+    const double power = milliwatts(g);
     print_line(out, "field <|B|>", s->mean_b, NAN, "B0", mt, tesla ? "mT" : NULL);
     print_line(out, "  its variation", s->std_b, NAN, "B0", mt, tesla ? "mT" : NULL);
     print_line(out, "  least", s->min_b, NAN, "B0", mt, tesla ? "mT" : NULL);
