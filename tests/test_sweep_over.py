@@ -33,7 +33,8 @@ RANGES = {
 DRY = "friction.law=coulomb"
 NEEDS = {"bead.a": ["bead.material=paramagnetic"], "bead.b": ["bead.material=mixed"], "friction.mu_static": [DRY],
          "friction.stribeck_speed": [DRY, "friction.mu_static=0.4"], "friction.rolling_resistance": [DRY],
-         "friction.contact_rate": [DRY], "run.step": [DRY, "run.method=splitting"], "contact.radius": [DRY, "contact.patch=hertz"],
+         "friction.contact_rate": [DRY], "run.method": [DRY], "run.step": [DRY, "run.method=splitting"],
+         "contact.radius": [DRY, "contact.patch=hertz"],
          "contact.modulus": [DRY, "contact.patch=hertz"], "impact.restitution": [DRY]}
 # Parameters that no row shows: the tesla scale, masses if kappa is given, an edge that is not reached, and how a
 # bead bounces that does not leave the plate.
@@ -77,7 +78,7 @@ class Keys(Over):
         for key, row in keys.items():
             if row["names"]:
                 with self.subTest(key=key):
-                    rows = self.table(f"{key}=" + ",".join(row["names"]))
+                    rows = self.table(f"{key}=" + ",".join(row["names"]), sets=NEEDS.get(key, []))
                     self.assertEqual([found[key] for found in rows], row["names"])
                     self.assertEqual({found["status"] for found in rows}, {"done"})
                     self.says("is a choice", f"{key}={row['names'][0]}:{row['names'][-1]}:2")
