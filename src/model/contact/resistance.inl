@@ -2,7 +2,9 @@
  * rotation, m = -rho N W_h/|W_h|, where rho = c_rr eps is its arm.
  *
  * The direction of W_h is not defined where the bead does not roll at all.  A bead that comes to rest is slowed
- * over rotations below `rest`, which is far below those of any motion, instead of being held.
+ * over rotations below `rest`, which is far below those of any motion, instead of being held.  It grows with a
+ * resistance that is stronger than any plate's, so that the rate of slowing, on which the size of steps depends,
+ * stays within bounds.
  */
 typedef struct FN(resistance) {
     REAL arm;    /* rho */
@@ -11,7 +13,9 @@ typedef struct FN(resistance) {
 
 static inline FN(resistance) FN(make_resistance)(const fst_params *params, const fst_groups *g)
 {
-    const FN(resistance) made = {REAL_OF(params->friction_rolling_resistance) * REAL_OF(g->eps), R(1e-12)};
+    const double strong = 1e-4 * params->friction_rolling_resistance, rest = strong > 1e-6 ? strong : 1e-6;
+    const FN(resistance) made = {REAL_OF(params->friction_rolling_resistance) * REAL_OF(g->eps),
+                                 REAL_OF(rest * rest)};
     return made;
 }
 
