@@ -3,8 +3,8 @@
  *
  * The direction of W_h is not defined where the bead does not roll at all.  A bead that comes to rest is slowed
  * over rotations below `rest`, which is far below those of any motion, instead of being held.  It grows with a
- * resistance that is stronger than any plate's, so that the rate of slowing, on which the size of steps depends,
- * stays within bounds.
+ * resistance that is stronger than any plate's, so that the rate of slowing, on which the size of steps
+ * depends, stays within bounds.
  */
 typedef struct FN(resistance) {
     REAL arm;    /* rho */
@@ -14,8 +14,8 @@ typedef struct FN(resistance) {
 static inline FN(resistance) FN(make_resistance)(const fst_params *params, const fst_groups *g)
 {
     const double strong = 1e-4 * params->friction_rolling_resistance, rest = strong > 1e-6 ? strong : 1e-6;
-    const FN(resistance) made = {REAL_OF(params->friction_rolling_resistance) * REAL_OF(g->eps),
-                                 REAL_OF(rest * rest)};
+    const FN(resistance)
+        made = {REAL_OF(params->friction_rolling_resistance) * REAL_OF(g->eps), REAL_OF(rest * rest)};
     return made;
 }
 
