@@ -128,7 +128,7 @@ static void test_rolling_stops(void **unused)
     for (int i = 0; i < 2; ++i)
         for (int j = 0; j < 2; ++j) {
             fst_params p = plate_alone(laws[i], 0.3);
-            p.friction_rolling_resistance = j ? 0.05 : 0.001;
+            p.friction_rolling_resistance = j ? 0.01 : 0.001;
             fst_model *model = model_of(&p);
             const fst_groups g = fst_model_groups(model);
             const double v = 0.03, brake = 5.0 / 7 * p.friction_rolling_resistance * g.gravity,
