@@ -338,7 +338,7 @@ static void keep_integrands(batch *b, unsigned accepted)
     const unsigned kept = accepted & b->observed;
     const fst_wide_mask mask = fst_wide_mask_of(kept);
     FN(integrals) *q = &b->sums;
-    for (int i = 0; kept && i < FST_Q_COUNT; ++i)
+    for (int i = 0; kept && i < FST_Q_LANES; ++i)
         q->integrands[0][i] = fst_wide_select(mask, q->integrands[FST_PATH_END][i], q->integrands[0][i]);
     for (int i = 0; kept && i < FST_TRACK_COUNT; ++i)
         q->tracked[0][i] = fst_wide_select(mask, q->tracked[FST_PATH_END][i], q->tracked[0][i]);

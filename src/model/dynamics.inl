@@ -168,12 +168,12 @@ static inline __attribute__((always_inline)) FN(contact)
     FN(contact) at;
     FN(slip)(c, y, at.slip);
     at.load = FN(load)(c, p->force);
-    if (c->kinds.flies)
+    if (HAS(c->kinds, flies))
         at.load = REAL_SELECT(FN(in_flight)(c), R(0.0), at.load);
     at.push[0] = at.push[1] = at.torque[0] = at.torque[1] = at.torque[2] = R(0.0);
-    at.patch = c->kinds.patch;
+    at.patch = HAS(c->kinds, patch);
     at.pivot = w[2];
-    if (c->kinds.dry) {
+    if (HAS(c->kinds, dry)) {
         REAL turning[3], lost[3] = {R(0.0), R(0.0), R(0.0)};
         FN(resist)(&c->resistance, w, at.load, at.torque);
         FN(cross)(n, p->b, turning);
@@ -182,7 +182,7 @@ static inline __attribute__((always_inline)) FN(contact)
         if (c->kinds.gyroscopic_term_lost)
             FN(lost_term)(n, w, lost);
         FN(push)(c, p->force, turning, c->kinds.gyroscopic_term_lost ? lost : NULL, at.push);
-        if (c->kinds.patch)
+        if (HAS(c->kinds, patch))
             at.torque[2] = FN(coulomb_pivoting)(&c->law.coulomb, &at, turning[2] + lost[2] / c->torque);
     }
     return at;
@@ -224,7 +224,7 @@ static inline __attribute__((always_inline)) void FN(dynamics)(const FN(coeffici
     FN(friction)(&c->law, &c->kinds, &contact, friction);
     FN(cross)(n, p->b, twist);
     FN(accelerations)(c, omega, y, p->force, friction, p->strength, twist, dy);
-    for (int i = 0; c->kinds.dry && i < 3; ++i)
+    for (int i = 0; HAS(c->kinds, dry) && i < 3; ++i)
         dy[FST_WX + i] = REAL_MULADD(c->torque, contact.torque[i], dy[FST_WX + i]);
     if (c->kinds.gyroscopic_term_lost) {
         REAL lost[3];
@@ -237,9 +237,9 @@ static inline __attribute__((always_inline)) void FN(dynamics)(const FN(coeffici
 /* 1 where the contact rolls without slipping, by its law, else 0. */
 static inline REAL FN(sticks)(const FN(coefficients) * c)
 {
-    if (c->kinds.contact == FST_FRICTION_ROLLING)
+    if (HAS(c->kinds, dry) && c->kinds.contact == FST_FRICTION_ROLLING)
         return R(1.0);
-    if (!c->kinds.paced)
+    if (!HAS(c->kinds, paced))
         return R(0.0);
     const REAL distance = REAL_ABS(c->law.coulomb.mode - REAL_OF(FST_MODE_STICK));
     return REAL_SELECT(REAL_LESS(distance, R(0.5)), R(1.0), R(0.0));
@@ -249,14 +249,14 @@ static inline REAL FN(sticks)(const FN(coefficients) * c)
 static inline REAL FN(contact_motion_2)(const FN(coefficients) * c, const REAL slip[2], REAL pivot)
 {
     const REAL s2 = SUM_2(slip[0], slip[0], slip[1], slip[1]);
-    return c->kinds.patch ? FN(patch_motion_2)(&c->law.coulomb.patch, s2, pivot) : s2;
+    return HAS(c->kinds, patch) ? FN(patch_motion_2)(&c->law.coulomb.patch, s2, pivot) : s2;
 }
 
 /* dt/dtheta of the time in which a step is measured at the state; 1 for laws without modes. */
 static inline REAL FN(pace)(const FN(coefficients) * c, const REAL *y)
 {
     REAL slip[2];
-    if (!c->kinds.paced)
+    if (!HAS(c->kinds, paced))
         return R(1.0);
     FN(slip)(c, y, slip);
     return FN(coulomb_pace)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]));
@@ -266,12 +266,12 @@ static inline REAL FN(pace)(const FN(coefficients) * c, const REAL *y)
 static inline REAL FN(pace_change)(const FN(coefficients) * c, const REAL *y, const REAL *tangent)
 {
     REAL slip[2], change[2];
-    if (!c->kinds.paced)
+    if (!HAS(c->kinds, paced))
         return R(0.0);
     FN(slip)(c, y, slip);
     FN(slip)(c, tangent, change);
     REAL by = R(2.0) * SUM_2(slip[0], change[0], slip[1], change[1]);
-    if (c->kinds.patch)
+    if (HAS(c->kinds, patch))
         by = by + R(2.0) * (c->law.coulomb.patch.radius * c->law.coulomb.patch.radius) *
                       (y[FST_WZ] * tangent[FST_WZ]);
     return FN(coulomb_pace_change)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]), by);

@@ -56,9 +56,9 @@ static inline void FN(see)(const FN(coefficients) * c, REAL omega, const REAL *y
     o->slip_alpha = REAL_MULSUB(slip[1], ex, slip[0] * ey);
     o->slip2 = SUM_2(slip[0], slip[0], slip[1], slip[1]);
     o->friction_power = FN(friction_loss)(&c->law, &c->kinds, &contact);
-    o->rolling_power = c->kinds.dry ? FN(resistance_loss)(&c->resistance, w, contact.load) : R(0.0);
-    o->pivoting_power = c->kinds.patch ? FN(coulomb_pivoting_loss)(&c->law.coulomb, &contact) : R(0.0);
-    o->flying = c->kinds.flies ? REAL_SELECT(FN(in_flight)(c), R(1.0), R(0.0)) : R(0.0);
+    o->rolling_power = HAS(c->kinds, dry) ? FN(resistance_loss)(&c->resistance, w, contact.load) : R(0.0);
+    o->pivoting_power = HAS(c->kinds, patch) ? FN(coulomb_pivoting_loss)(&c->law.coulomb, &contact) : R(0.0);
+    o->flying = HAS(c->kinds, flies) ? REAL_SELECT(FN(in_flight)(c), R(1.0), R(0.0)) : R(0.0);
     o->sticking = FN(sticks)(c);
     o->load = contact.load;
     o->spin = SUM_3(w[0], n[0], w[1], n[1], w[2], n[2]);
@@ -119,8 +119,10 @@ static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, con
     q[FST_Q_N_ALPHAALPHA] = o->n[1] * o->n[1];
     q[FST_Q_N_ALPHAZ] = o->n[1] * o->n[2];
     q[FST_Q_N_ZZ] = o->n[2] * o->n[2];
+#ifdef REAL_IS_SCALAR /* lanes know no dry contact */
     q[FST_Q_STICKING] = o->sticking;
     q[FST_Q_ROLLING_POWER] = o->rolling_power;
     q[FST_Q_PIVOTING_POWER] = o->pivoting_power;
     q[FST_Q_FLYING] = o->flying;
+#endif
 }

@@ -31,11 +31,12 @@ enum {
     FST_Q_N_ALPHAALPHA,
     FST_Q_N_ALPHAZ,
     FST_Q_N_ZZ,
-    FST_Q_STICKING, /* 1 while the contact sticks */
+    FST_Q_STICKING, /* of dry contacts, from here on; 1 while the contact sticks */
     FST_Q_ROLLING_POWER,
     FST_Q_PIVOTING_POWER,
     FST_Q_FLYING, /* 1 while the bead is in the air */
-    FST_Q_COUNT
+    FST_Q_COUNT,
+    FST_Q_LANES = FST_Q_STICKING /* lanes, which know no dry contacts, add up those before */
 };
 
 /* Quantities whose extremes a run locates. */

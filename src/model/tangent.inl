@@ -97,9 +97,9 @@ static inline void FN(dry_change)(const FN(coefficients) * c, const FN(linear) *
     if (c->kinds.gyroscopic_term_lost)
         FN(add_lost_change)(n, w, dn, dw, lost);
     FN(push)(c, force, turning, c->kinds.gyroscopic_term_lost ? lost : NULL, by->push);
-    by->patch = c->kinds.patch;
+    by->patch = HAS(c->kinds, patch);
     by->pivot = dw[2];
-    if (c->kinds.patch)
+    if (HAS(c->kinds, patch))
         by->torque[2] =
             FN(coulomb_pivoting_change)(&c->law.coulomb, &l->contact, by, turning[2] + lost[2] / c->torque);
 }
@@ -118,13 +118,13 @@ static inline void FN(change_along)(const FN(coefficients) * c, REAL omega, cons
     by.patch = FST_PATCH_POINT;
     FN(cross)(dn, l->at.b, twist);
     FN(cross)(n, turning, torque);
-    if (c->kinds.dry)
+    if (HAS(c->kinds, dry))
         FN(dry_change)(c, l, y, tangent, force, twist, torque, &by);
     FN(friction_change)(&c->law, &c->kinds, &l->contact, &by, friction);
     FN(accelerations)(c, omega, tangent, force, friction, l->strength, twist, change);
     for (int i = 0; i < 3; ++i)
         change[FST_WX + i] = REAL_MULADD(c->torque, torque[i], change[FST_WX + i]);
-    for (int i = 0; c->kinds.dry && i < 3; ++i)
+    for (int i = 0; HAS(c->kinds, dry) && i < 3; ++i)
         change[FST_WX + i] = REAL_MULADD(c->torque, by.torque[i], change[FST_WX + i]);
     /* Of the kinematics, which are linear but for the product W x n, that of the tangent's own dW x dn is not
      * wanted: (W - omega e) x dn + dW x n stands in its place. */

@@ -17,6 +17,13 @@
  * digits are lost, where <r^2> - <r>^2 would lose them all for an orbit that is nearly round.
  */
 
+#undef SUMMED
+#ifdef REAL_IS_SCALAR
+#define SUMMED FST_Q_COUNT
+#else
+#define SUMMED FST_Q_LANES
+#endif
+
 /* The integrals of one trajectory, or of one in each lane.  Members are REALs only: lanes are copied as
  * numbers. */
 typedef struct FN(integrals) {
@@ -30,7 +37,7 @@ typedef struct FN(integrals) {
 /* A new step follows where `mask` holds: the increments belong to the past. */
 static inline void FN(add_increments)(FN(integrals) * q, REAL_MASK mask)
 {
-    for (int i = 0; i < FST_Q_COUNT; ++i) {
+    for (int i = 0; i < SUMMED; ++i) {
         const FN(twofold) sum = FN(twofold_add)(q->total[i], q->increment[i]);
         q->total[i].low = REAL_SELECT(mask, sum.low, q->total[i].low);
         q->total[i].high = REAL_SELECT(mask, sum.high, q->total[i].high);
@@ -65,7 +72,7 @@ static inline void FN(look_at_place)(FN(integrals) * q, const FN(bead_step) * s,
 /* The step's increments from the integrands at its places, where `mask` holds. */
 static inline void FN(integrate_step)(FN(integrals) * q, const FN(bead_step) * s, REAL_MASK mask)
 {
-    for (int i = 0; i < FST_Q_COUNT; ++i)
+    for (int i = 0; i < SUMMED; ++i)
         q->increment[i] =
             REAL_SELECT(mask, FN(path_integral)(s, &q->integrands[0][i], FST_Q_COUNT), q->increment[i]);
 }

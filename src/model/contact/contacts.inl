@@ -23,6 +23,21 @@
  * is a disc, on one that pivots (patch.inl).
  */
 
+/* Whether the contact has what only dry laws have: kinds.dry, paced, patch, flies.  Lanes know no contact that
+ * slips and sticks (rows of such beads are done alone); saying so here keeps its formulas out of their loops.
+ */
+#undef HAS
+#undef LAW_IS
+#ifdef REAL_IS_SCALAR
+#define HAS(kinds, what) ((kinds).what)
+#define LAW_IS(NAME) (kinds->contact == FST_FRICTION_##NAME)
+#else
+#define HAS(kinds, what) 0
+#define LAW_IS(NAME)                                                                                           \
+    (FST_FRICTION_##NAME != FST_FRICTION_COULOMB && FST_FRICTION_##NAME != FST_FRICTION_ROLLING &&             \
+     kinds->contact == FST_FRICTION_##NAME)
+#endif
+
 /* What a law sees of the contact.  A law that needs more adds it here and in contact_of() and its tangent
  * (dynamics.inl, tangent.inl). */
 typedef struct FN(contact) {
@@ -77,7 +92,7 @@ static inline __attribute__((always_inline)) void
 FN(friction)(const FN(law_numbers) * law, const fst_kinds *kinds, const FN(contact) * at, REAL force[2])
 {
 #define FORCE(NAME, name, modes, brakes, doc)                                                                  \
-    if (kinds->contact == FST_FRICTION_##NAME) {                                                               \
+    if (LAW_IS(NAME)) {                                                                                        \
         FN(name##_force)(&law->name, at, force);                                                               \
         return;                                                                                                \
     }
@@ -92,7 +107,7 @@ static inline __attribute__((always_inline)) void FN(friction_change)(const FN(l
                                                                       const FN(contact) * by, REAL change[2])
 {
 #define CHANGE(NAME, name, modes, brakes, doc)                                                                 \
-    if (kinds->contact == FST_FRICTION_##NAME) {                                                               \
+    if (LAW_IS(NAME)) {                                                                                        \
         FN(name##_change)(&law->name, at, by, change);                                                         \
         return;                                                                                                \
     }
@@ -105,7 +120,7 @@ static inline __attribute__((always_inline)) REAL
 FN(friction_loss)(const FN(law_numbers) * law, const fst_kinds *kinds, const FN(contact) * at)
 {
 #define LOSS(NAME, name, modes, brakes, doc)                                                                   \
-    if (kinds->contact == FST_FRICTION_##NAME)                                                                 \
+    if (LAW_IS(NAME))                                                                                          \
         return FN(name##_loss)(&law->name, at);
     FST_CONTACTS(LOSS)
 #undef LOSS
