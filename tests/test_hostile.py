@@ -127,6 +127,7 @@ class Hostile(unittest.TestCase):
                 bad.write_bytes("\n".join([*lines[:i], line, *lines[i + 1:], ""]).encode())
                 self.harmless("plot", bad, "-o", self.path(out + ".svg"), statuses=(0, 2), note=(i, line))
                 self.check_figure(out, poison)
+        bad.write_bytes("\n".join([*lines[:names], self.poisons[0], *lines[names + 1:], ""]).encode())
         self.harmless("movie", bad, "-o", self.path("no.mp4"), statuses=(2,))
         self.assertFalse(self.path("no.mp4").exists())
 

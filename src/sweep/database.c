@@ -58,7 +58,8 @@ fst_status fst_database_fail(sqlite3 *database, const char *path, fst_error *err
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
         return fst_fail(error, FST_IO, path,
-                        "another program is writing this database: wait for it, or end it");
+                        "another program, or another call of this process, is writing this database: wait for "
+                        "it, or end it");
     case SQLITE_NOMEM:
         return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     default:
