@@ -10,11 +10,11 @@
 
 const char *const fst_state_names[FST_STATE_SIZE] = {"X", "Y", "vX", "vY", "nX", "nY", "nZ", "WX", "WY", "WZ"};
 
-static const char TEXTS[] =
-    "status TEXT, carried INTEGER, regime TEXT, symmetry TEXT, reason TEXT, dynamics TEXT";
+static const char FIRST[] =
+    "status TEXT, carried INTEGER, regime TEXT, symmetry TEXT, reason TEXT, dynamics TEXT, never_slips INTEGER";
 static const char COUNTS[] =
     "returns INTEGER, rhs_calls INTEGER, steps_accepted INTEGER, steps_rejected INTEGER";
-enum { TEXT_COUNT = 6, COUNT_COUNT = 4 };
+enum { FIRST_COUNT = 7, COUNT_COUNT = 4 };
 
 static int is_choice(const fst_grid *grid, int axis)
 {
@@ -23,7 +23,7 @@ static int is_choice(const fst_grid *grid, int axis)
 
 int fst_sweep_column_count(const fst_grid *grid)
 {
-    return 1 + fst_grid_axis_count(grid) + TEXT_COUNT + fst_result_count() + COUNT_COUNT + FST_STATE_SIZE;
+    return 1 + fst_grid_axis_count(grid) + FIRST_COUNT + fst_result_count() + COUNT_COUNT + FST_STATE_SIZE;
 }
 
 char *fst_sweep_columns_sql(const fst_grid *grid)
@@ -36,7 +36,7 @@ char *fst_sweep_columns_sql(const fst_grid *grid)
     (void)fputs("point INTEGER PRIMARY KEY", out);
     for (int i = 0; i < fst_grid_axis_count(grid); ++i)
         (void)fprintf(out, ", \"%s\" %s", fst_grid_key(grid, i), is_choice(grid, i) ? "TEXT" : "REAL");
-    (void)fprintf(out, ", %s", TEXTS);
+    (void)fprintf(out, ", %s", FIRST);
     for (int i = 0; i < fst_result_count(); ++i)
         (void)fprintf(out, ", %s REAL", fst_result_at(i)->name);
     (void)fprintf(out, ", %s", COUNTS);
@@ -162,6 +162,10 @@ void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, c
     bind_text(&b, r->reason);
     name_choice("model.dynamics", record->dynamics, name, sizeof name);
     bind_text(&b, name);
+    if (r->never_slips < 0)
+        bind_null(&b);
+    else
+        bind_integer(&b, r->never_slips);
     for (int i = 0; i < fst_result_count(); ++i) {
         double value;
         memcpy(&value, (const char *)r + fst_result_at(i)->offset, sizeof value);

@@ -121,6 +121,11 @@ static fst_status json_row(exporter *e, fst_error *error)
         char column[COLUMN_SIZE];
         const char *name = tame_name(e->row, i, column);
         json_t *value = json_value(e->row, i);
+        if (strcmp(name, "never_slips") == 0 && json_is_integer(value)) { /* as `run` prints it */
+            const int never = json_integer_value(value) != 0;
+            json_decref(value);
+            value = json_boolean(never);
+        }
         if (strncmp(name, "final_", 6) == 0)
             (void)json_array_append_new(state, value);
         else
