@@ -29,7 +29,7 @@ typedef struct way {
 static void end_of(const fst_params *params, const double *start, double duration, double *end, way *did)
 {
     fst_model *model;
-    fst_flow *flow;
+    fst_flow *flow = NULL;
     fst_error error;
     fst_flow_options o = fst_default_flow_options();
     o.rtol = TOLERANCE;
