@@ -222,7 +222,7 @@ fst_status fst_locked_find(const fst_params *params, const fst_progress *progres
     if (status == FST_OK && !(list->states = calloc((size_t)f.count + 1, sizeof *list->states)))
         status = fst_fail(error, FST_NO_MEMORY, "locked", "out of memory");
     for (int i = 0; i < f.count && status == FST_OK; ++i) {
-        int sign;
+        int sign = 0;
         status = fill(&family, &f.found[i], &list->states[i], &sign, error);
         list->index_sum += sign;
     }
