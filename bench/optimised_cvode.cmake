@@ -4,12 +4,19 @@
 # needed of it, once, into DIRECTORY; the program finds these libraries, which have the same names, before
 # Debian's.  Without a network it says so, and the comparison is left out.
 set(name sundials-6.4.1)
-set(address http://deb.debian.org/debian/pool/main/s/sundials/sundials_6.4.1+dfsg1.orig.tar.xz)
+set(sources sundials_6.4.1+dfsg1.orig.tar.xz)
 set(hash c61157f1d4be06c704bea40cb131eb63ba2dada161989071604d0a0959cdf04a)
 if(EXISTS "${DIRECTORY}/lib/libsundials_cvode.so.6")
     return()
 endif()
 
+# The sources lie beside the package, wherever this machine gets its packages from.
+execute_process(COMMAND apt-get download --print-uris libsundials-dev OUTPUT_VARIABLE package ERROR_QUIET)
+if(NOT package MATCHES "'([^']*)/[^/']*'")
+    message("no CVODE with optimisation: apt-get does not know where libsundials-dev comes from")
+    return()
+endif()
+set(address "${CMAKE_MATCH_1}/${sources}")
 file(MAKE_DIRECTORY "${DIRECTORY}")
 set(archive "${DIRECTORY}/sources.tar.xz")
 file(DOWNLOAD ${address} "${archive}" STATUS status INACTIVITY_TIMEOUT 30)

@@ -1,5 +1,6 @@
-/* Dry friction on a plate without a magnet, where everything is known: how a slip ends, what it leaves behind,
- * and how rolling resistance brings a bead to rest.  The turning frame, which computes all this, must not show.
+/* Dry friction on a plate without a magnet, for which each number has a formula: how a slip ends, how fast the
+ * bead then rolls, and how rolling resistance brings a bead to rest.  The turning frame, which computes all
+ * this, must not show.
  */
 #include "physics.h"
 

@@ -18,7 +18,7 @@ static fst_params job_params(int i)
         p.friction_mu_static = 0.5;
     if (i == 6)
         p.friction_rolling_resistance = 1e-3;
-    if (i == 5) /* one that is done in lanes, among those that are not */
+    if (i == 5) /* lanes do this row; the others are done alone */
         p.friction_law = FST_FRICTION_VISCOUS;
     p.run_periods = 25;
     p.run_discard = 5;

@@ -42,7 +42,7 @@
 static const double SLOWER = 1e-3;       /* captured, in tolerances */
 static const double LEAST_SPEED = 1e-14; /* that rounding leaves of a slip's digits */
 static const double LEAST_FALL = 1e-12;  /* below this slip, or the tolerance, rounding may end it: */
-static const double ROUNDING = 2e-15;    /* by so much, in the speeds of which it is made */
+static const double ROUNDING = 2e-15;    /* of a slip, over the speeds whose difference it is */
 static const double HAND_OVER = 0.12;    /* times tolerance^(5/16) */
 static const double USUAL_GROWTH = 0.1; /* of a slip, in l gamma^3: the time of the hand-over follows from it */
 static const double FEW = 0.01;         /* slip then, in those of the hand-over */

@@ -327,8 +327,8 @@ static fst_status never_settled(search *s, double t_end, fst_error *error)
 }
 
 /* Dry friction: whether the contact has not slipped for a while.  Then nothing damps the motion (unless the
- * plate resists rolling), so that it approaches no orbit, and Newton's method has none to find: those that
- * roll come in continua. */
+ * plate resists rolling), so that it approaches no orbit, and Newton's method has none to find: orbits of
+ * rolling beads come in continua. */
 static int only_rolls(search *s)
 {
     enum { DRIVE_PERIODS = 20 };

@@ -121,8 +121,8 @@ fst_status fst_solution_section(const fst_family *family, const fst_solution *s,
     return status;
 }
 
-/* A contact that comes to rest loses both directions of its slip: two multipliers are exactly zero, those that
- * rounding left next to it. */
+/* A contact that comes to rest loses both directions of its slip: two multipliers are exactly zero, but
+ * rounding leaves something of them, which is taken away here. */
 static void clear_lost_directions(fst_solution *s)
 {
     int first = 0, second = 1;
