@@ -17,7 +17,7 @@ static fst_params job_params(int i)
     if (i == 2)
         p.friction_mu_static = 0.5;
     if (i == 6)
-        p.friction_rolling_resistance = 1e-3;
+        p.friction_rolling_resistance = 0.3;
     if (i == 5) /* lanes do this row; the others are done alone */
         p.friction_law = FST_FRICTION_VISCOUS;
     p.run_periods = 25;

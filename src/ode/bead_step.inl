@@ -100,7 +100,9 @@ static inline void FN(paced_rhs)(FN(bead) * bead, REAL h, REAL drive, const REAL
     if (FN(is_in_flight)(c))
         FN(rise)(bead, h, stage);
     if (c->kinds.paced && c->law.coulomb.mode == FST_MODE_ONSET)
-        FN(coulomb_lean)(&c->law.coulomb, FN(stage_time)(bead, h, stage));
+        FN(lag_at)(&c->law.coulomb.lag, FN(stage_time)(bead, h, stage));
+    if (c->kinds.resists && c->resistance.mode == FST_ROLL_STARTS)
+        FN(lag_at)(&c->resistance.lag, FN(stage_time)(bead, h, stage));
     FN(rhs)(c, drive, y, k, &bead->pull[stage]);
     if (!c->kinds.paced)
         return;
@@ -153,6 +155,14 @@ static inline void FN(stop_slip)(const FN(coefficients) * c, REAL *y)
 }
 
 #ifdef REAL_IS_SCALAR
+/* Take the rotation out of a state that does not roll, which keeps its slip. */
+static inline void FN(stop_rolling)(const FN(coefficients) * c, REAL *y)
+{
+    y[FST_VX] -= c->eps * y[FST_WY];
+    y[FST_VY] += c->eps * y[FST_WX];
+    y[FST_WX] = y[FST_WY] = R(0.0);
+}
+
 /* Change the slip by an impulse of the plate: the moment about the contact stays what it was. */
 static inline void FN(set_slip)(const FN(coefficients) * c, REAL *y, const REAL slip[2])
 {
@@ -181,6 +191,8 @@ static inline REAL FN(finish_step)(FN(bead_step) * s)
 {
     const REAL drift = FN(renormalise)(s->end);
 #ifdef REAL_IS_SCALAR
+    if (s->context.coefficients.kinds.resists && FN(rests)(&s->context.coefficients.resistance))
+        FN(stop_rolling)(&s->context.coefficients, s->end);
     if (s->context.coefficients.kinds.dry && FN(sticks)(&s->context.coefficients) > R(0.5))
         FN(stop_contact)(&s->context.coefficients, s->end);
 #endif

@@ -6,17 +6,31 @@
  * the end of the way is made anew, so short that it lands there.
  *
  * Errors.  While |V| falls over many orders of magnitude, a tolerance on v and W would stop seeing V long
- * before the end.  So a step must also keep some digits of V itself, however small it is.
+ * before the end.  So a step must also keep some digits of V itself, however small it is.  Where the plate
+ * resists rolling the same holds for W_h.
  */
 #include "ode/flight.h"
 
 #include "base/bracket.h"
 
-static const double LEAST_DIGITS = 0.03; /* relative error of V that a step may make */
+static const double LEAST_DIGITS = 0.03; /* relative error of V or W_h that a step may make */
 
 int fst_contact_mode(const fst_flow *flow)
 {
     return (int)flow->step.context.coefficients.law.coulomb.mode;
+}
+
+int fst_contact_roll(const fst_flow *flow)
+{
+    return (int)flow->step.context.coefficients.resistance.mode;
+}
+
+/* Whether the last step measured a time of its own. */
+static int has_pace(const fst_flow *flow)
+{
+    const int mode = fst_contact_mode(flow);
+    return mode == FST_MODE_SLIP || (flow->step.context.coefficients.kinds.resists && mode != FST_MODE_FLIGHT &&
+                                     fst_contact_roll(flow) == FST_ROLL_ROLLS);
 }
 
 static double size_of(const double v[2])
@@ -26,8 +40,8 @@ static double size_of(const double v[2])
 
 /* ------------------------------------------------------------------ errors */
 
-/* The embedded error of the slip in a step, as dop853.inl has it for the whole state. */
-static double slip_error(const fst_bead_step_double *s)
+/* The embedded errors of the slip and of W_h in a step, as dop853.inl has them for the whole state. */
+static void contact_errors(const fst_bead_step_double *s, double *of_slip, double *of_roll)
 {
     static const int slot[8] = {0, 5, 6, 7, 8, 9, 10, 11};
     static const double fifth[8] = {DOP_E5_1, DOP_E5_6,  DOP_E5_7,  DOP_E5_8,
@@ -37,24 +51,35 @@ static double slip_error(const fst_bead_step_double *s)
         for (int j = 0; j < 8; ++j)
             error[i] += s->h * fifth[j] * s->k[slot[j]][i];
     fst_slip_double(&s->context.coefficients, error, slip);
-    return size_of(slip);
+    *of_slip = size_of(slip);
+    *of_roll = size_of(error + FST_WX);
 }
 
 double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *atol)
 {
-    const double error = fst_bead_step_error_double(s, rtol, atol);
+    double error = fst_bead_step_error_double(s, rtol, atol), of_slip, of_roll;
     const fst_coefficients_double *c = &s->context.coefficients;
     if (fst_is_in_flight_double(c))
         return fmax(error, fst_flight_error(s, rtol));
-    if (!c->kinds.paced || c->law.coulomb.mode != FST_MODE_SLIP)
+    const int slips = c->kinds.paced && c->law.coulomb.mode == FST_MODE_SLIP;
+    const int rolls = c->kinds.resists && c->resistance.mode == FST_ROLL_ROLLS;
+    if (!slips && !rolls)
         return error;
-    double start[2], end[2];
-    fst_slip_double(c, s->y, start);
-    fst_slip_double(c, s->end, end);
-    const double least = fmin(fst_contact_motion_2_double(c, start, s->y[FST_WZ]),
-                              fst_contact_motion_2_double(c, end, s->end[FST_WZ]));
-    const double of_slip = slip_error(s) / (LEAST_DIGITS * sqrt(least));
-    return of_slip > error ? of_slip : error;
+    contact_errors(s, &of_slip, &of_roll);
+    if (slips) {
+        double start[2], end[2];
+        fst_slip_double(c, s->y, start);
+        fst_slip_double(c, s->end, end);
+        const double least = fmin(fst_contact_motion_2_double(c, start, s->y[FST_WZ]),
+                                  fst_contact_motion_2_double(c, end, s->end[FST_WZ]));
+        const double slip_error = of_slip / (LEAST_DIGITS * sqrt(least));
+        error = slip_error > error ? slip_error : error;
+    }
+    if (rolls) {
+        const double least = fmin(size_of(s->y + FST_WX), size_of(s->end + FST_WX));
+        error = fmax(error, of_roll / (LEAST_DIGITS * least));
+    }
+    return error;
 }
 
 /* ------------------------------------------------------------------ time within a step */
@@ -64,7 +89,7 @@ double fst_contact_elapsed(const fst_flow *flow)
 {
     const fst_bead_step_double *s = &flow->step;
     double pace[FST_PATH_PLACES];
-    if (fst_contact_mode(flow) != FST_MODE_SLIP)
+    if (!has_pace(flow))
         return s->h;
     for (int place = 0; place < FST_PATH_PLACES; ++place)
         pace[place] = FST_PATH_PACE(s, place);
@@ -87,7 +112,7 @@ static void make_clock(fst_flow *flow)
 
 double fst_contact_time(fst_flow *flow, double x)
 {
-    if (fst_contact_mode(flow) != FST_MODE_SLIP)
+    if (!has_pace(flow))
         return x * flow->step.h;
     double time;
     make_clock(flow);
@@ -98,7 +123,7 @@ double fst_contact_time(fst_flow *flow, double x)
 double fst_contact_fraction(fst_flow *flow, double since_start)
 {
     const double whole = fst_contact_elapsed(flow);
-    if (fst_contact_mode(flow) != FST_MODE_SLIP || !(since_start > 0 && since_start < whole))
+    if (!has_pace(flow) || !(since_start > 0 && since_start < whole))
         return since_start / whole;
     fst_bracket z = {0.0, 1.0, -since_start, whole - since_start, 0};
     for (int i = 0; i < 100 && z.hi - z.lo > 1e-16; ++i) {

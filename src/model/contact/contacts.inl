@@ -23,8 +23,9 @@
  * is a disc, on one that pivots (patch.inl).
  */
 
-/* Whether the contact has what only dry laws have: kinds.dry, paced, patch, flies.  Lanes know no contact that
- * slips and sticks (rows of such beads are done alone); saying so here keeps its formulas out of their loops.
+/* Whether the contact has what only dry laws have: kinds.dry, paced, resists, patch, flies.  Lanes know no
+ * contact that slips and sticks (rows of such beads are done alone); saying so here keeps its formulas out of
+ * their loops.
  */
 #undef HAS
 #undef LAW_IS
@@ -44,13 +45,15 @@ typedef struct FN(contact) {
     REAL slip[2]; /* V, velocity of the contact point */
     REAL load;    /* N, normal load per mass */
     /* For the dry laws only (kinds.dry): */
-    REAL push[2];   /* A: V' = A - (7/2) f */
-    REAL torque[3]; /* m, that of the resistances, per mass */
+    REAL push[2];    /* A: V' = A - (7/2) f */
+    REAL torque[3];  /* m, that of the resistances, per mass */
+    REAL balance[2]; /* T, of a bead that is kept from rolling (kinds.resists) */
     /* Where the contact is a disc (kinds.patch): */
     int patch;  /* FST_PATCH_* */
     REAL pivot; /* w = W.e */
 } FN(contact);
 
+#include "model/contact/lag.inl"
 #include "model/contact/patch.inl"
 #include "model/contact/resistance.inl"
 
