@@ -10,6 +10,7 @@
 
 #include "ode/bead_step.inl"
 #include "ode/path.inl"
+#include "ode/paced.inl"
 #include "ode/step_control.inl"
 
 /* The contact of a bead under a law with modes (contact.c). */
@@ -100,6 +101,12 @@ double fst_flow_drive_at_place(const fst_flow *flow, int place);
  * have; and one step. */
 void fst_contact_put_down(fst_flow *flow, double *state);
 fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error);
+
+/* The parts of such a step before and after the tries that are made until one is good, for lanes, which make
+ * these: the mode that is to follow begins, and the first stage is there; an event in the step or the end of the
+ * way is found, and the step is made anew up to there.  After the first part, the flow stands at step.y. */
+void fst_contact_begin_step(fst_flow *flow);
+void fst_contact_end_step(fst_flow *flow, double t_limit);
 
 /* Begin the mode onset in a state, at the release of a bead that stuck (onset.c). */
 void fst_contact_begin_onset(fst_flow *flow, const double *state);
