@@ -232,18 +232,18 @@ static double mode_ends(fst_flow *flow, int *next)
         *next = FST_MODE_FLIGHT;
         first = x;
     }
-    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x) &&
+    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_becomes_negative(flow, release_function, &x) &&
         x < first) {
         *next = released_mode(flow);
         first = x;
     }
     if (fst_contact_mode(flow) != FST_MODE_ONSET)
         return first;
-    if ((fst_flow_first_negative(flow, until_handed_over, 0.0, &x) || onset_is_long(flow, &x)) && x < first) {
+    if ((fst_flow_becomes_negative(flow, until_handed_over, &x) || onset_is_long(flow, &x)) && x < first) {
         *next = FST_MODE_SLIP;
         first = x;
     }
-    if (fst_flow_first_negative(flow, until_back_at_rest, 0.0, &x) && x < first) {
+    if (fst_flow_becomes_negative(flow, until_back_at_rest, &x) && x < first) {
         *next = FST_MODE_STICK;
         first = x;
     }
