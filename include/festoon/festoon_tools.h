@@ -298,4 +298,7 @@ FST_API const char *fst_tools_components(void);
 #ifdef __cplusplus
 }
 #endif
+
+#include <festoon/fit.h>
+
 #endif
