@@ -32,6 +32,15 @@ static fst_status read_time(const char *name, const char *text, double *seconds,
     return FST_OK;
 }
 
+/* A value with a unit; errors name the option. */
+static fst_status read_unit(const char *name, const char *text, fst_unit unit, double *value, fst_error *error)
+{
+    const fst_status status = fst_parse_value(text, unit, value, error);
+    if (status != FST_OK)
+        (void)snprintf(error->where, sizeof error->where, "%s", name);
+    return status;
+}
+
 static fst_status read_scale(const char *text, fst_track_options *how, char unit[FST_LENGTH_UNIT_SIZE],
                              fst_error *error)
 {
@@ -46,7 +55,7 @@ static fst_status read_scale(const char *text, fst_track_options *how, char unit
     if (end == text || !*end)
         return fail(error, FST_BAD_INPUT, "--scale", "\"%.40s\": a length with a unit was expected (px %s)",
                     text, fst_unit_accepted(FST_UNIT_LENGTH));
-    const fst_status status = fst_parse_value(text, FST_UNIT_LENGTH, &how->scale, error);
+    const fst_status status = read_unit("--scale", text, FST_UNIT_LENGTH, &how->scale, error);
     (void)snprintf(unit, FST_LENGTH_UNIT_SIZE, "%.7s", end);
     how->scale_unit = unit;
     return status;
@@ -61,7 +70,7 @@ static fst_status read_options(const arguments *given, fst_track_options *how, f
     *what = fst_default_measure_options();
     how->format = option_value(given, "format");
     how->name = option_value(given, "track");
-    fst_status status = drive ? fst_parse_value(drive, FST_UNIT_FREQUENCY, &what->drive, error) : FST_OK;
+    fst_status status = drive ? read_unit("--drive", drive, FST_UNIT_FREQUENCY, &what->drive, error) : FST_OK;
     if (status == FST_OK && fps)
         status = read_numbers("--fps", fps, &how->fps, 1, error);
     if (status == FST_OK && scale)

@@ -34,7 +34,7 @@ typedef struct track_work {
     int skipped[TRACK_HARMONICS]; /* harmonics that cannot be told from others at this frame rate */
     double peak;                  /* the strongest line of r; 0: none beyond the noise */
     int half;                     /* there is a line at half that frequency too */
-    double gain; /* by how much r oscillates more since an exposure was undone */
+    double gain;                  /* by how much r oscillates more since an exposure was undone */
     track_fit radial, angular;
 } track_work;
 
@@ -43,7 +43,8 @@ void track_work_free(track_work *work);
 /* Take the rows of the track that are seen. */
 void track_work_take(track_work *work);
 
-/* Mark places far outside of all others, or far from both neighbours by how fast the bead moves; returns how many. */
+/* Mark places far outside of all others, or far from both neighbours by how fast the bead moves; returns how
+ * many. */
 size_t track_reject_jumps(fst_track *track, const track_work *work);
 /* Mark places far from the model of the motion; returns how many. */
 size_t track_reject_far(fst_track *track, const track_work *work);
