@@ -299,6 +299,7 @@ FST_API const char *fst_tools_components(void);
 }
 #endif
 
+#include <festoon/fit.h>
 #include <festoon/tracks.h>
 
 #endif
