@@ -130,12 +130,41 @@ static void draw(const turn_sums *turns, size_t length, double variance[QUANTITI
     *covariance = product - mean[one] * mean[other];
 }
 
+/* The variances that noise which is new in every frame gives: turns are few, and the scatter of few is
+ * uncertain, but errors are not less than this. */
+static void white_variances(const track_work *work, double variance[QUANTITIES])
+{
+    const track_fit *r = &work->radial, *a = &work->angular;
+    const int first = r->columns - TRACK_GEOMETRY, last = a->columns - 1;
+    const int columns[QUANTITIES] = {[R0] = 0,
+                                     [F0] = first + TRACK_SLOPE,
+                                     [TILT_C] = first + TRACK_TILT_C,
+                                     [TILT_S] = first + TRACK_TILT_S,
+                                     [CENTRE_X] = first + TRACK_CENTRE_X,
+                                     [CENTRE_Y] = first + TRACK_CENTRE_Y};
+    double square_r = 0.0, square_a = 0.0;
+    for (size_t i = 0; i < work->count; ++i) {
+        square_r += work->r_off[i] * work->r_off[i] / (double)(work->count - (size_t)r->columns);
+        square_a += work->a_off[i] * work->a_off[i] / (double)(work->count - (size_t)a->columns);
+    }
+    for (int q = 0; q < QUANTITIES; ++q)
+        variance[q] = square_r * r->inverse[columns[q]][columns[q]];
+    variance[BEAD] = square_a * a->inverse[last][last];
+    variance[VARIANCE] = 0.0;
+    for (int i = 1; i < first; ++i)
+        for (int j = 1; j < first; ++j)
+            variance[VARIANCE] +=
+                square_r * work->gain * work->gain * r->coefficient[i] * r->inverse[i][j] * r->coefficient[j];
+}
+
 /* The variances of all quantities, and the covariance of bead and f0; NAN with too few turns. */
 static void variances(const track_work *work, const turn_sums *turns, double variance[QUANTITIES],
                       double *covariance)
 {
+    double white[QUANTITIES];
+    white_variances(work, white);
     for (int q = 0; q < QUANTITIES; ++q)
-        variance[q] = turns->count < LEAST_TURNS ? NAN : 0.0;
+        variance[q] = turns->count < LEAST_TURNS ? NAN : white[q];
     *covariance = 0.0;
     /* Residuals are smaller than errors, by the freedom that the fit took; and turns are few. */
     const double rows = (double)work->count, n = (double)turns->count;
@@ -176,8 +205,11 @@ static double take_tilt(const track_work *work, const turn_sums *turns, const do
     const double sure = sqrt(fmax(0.0, w * w - 2.0 * sigma * sigma));
     *factor = (1.0 + sure) / (1.0 + w);
     measured->tilt_deg = tilt_of(sure);
-    measured->tilt_deg_error =
-        fmax(measured->tilt_deg - tilt_of(fmax(0.0, sure - sigma)), tilt_of(sure + sigma) - measured->tilt_deg);
+    measured->tilt_deg_error = tilt_of(sure + sigma) - measured->tilt_deg;
+    /* Downwards over up to three errors, because the angle of a small tilt grows as a root. */
+    for (int k = 1; k <= 3; ++k)
+        measured->tilt_deg_error =
+            fmax(measured->tilt_deg_error, (measured->tilt_deg - tilt_of(fmax(0.0, sure - k * sigma))) / k);
     if (w < 3.0 * sigma)
         return sigma;
     /* A tilt that is there: its part along the known direction, together with that of r0. */
