@@ -11,6 +11,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "made_tracks.h"
 
 enum { COVERED_MEAN, COVERED_STD, COVERED_BEAD, COVERED_FESTOONS, COVERED_DRIVE, COVERED_TILT, COVERED };
