@@ -49,6 +49,11 @@ static const struct {
     {"fst_branch_options.second_key", "--with"},
     {"fst_branch_options.second_from", "--with"},
     {"fst_branch_options.special", "--follow"},
+    {"fst_track_options.format", "--format"},
+    {"fst_track_options.scale", "--scale"},
+    {"fst_track_options.fps", "--fps"},
+    {"fst_measure_options.drive", "--drive"},
+    {"fst_measure_options.exposure", "--exposure"},
 };
 
 const char *option_of_field(const char *field)
