@@ -336,4 +336,7 @@ FST_API const char *fst_tools_components(void);
 #ifdef __cplusplus
 }
 #endif
+
+#include <festoon/tracks.h>
+
 #endif
