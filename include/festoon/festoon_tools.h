@@ -338,5 +338,6 @@ FST_API const char *fst_tools_components(void);
 #endif
 
 #include <festoon/tracks.h>
+#include <festoon/film_tracks.h>
 
 #endif

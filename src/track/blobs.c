@@ -13,7 +13,8 @@ fst_status track_blobs_begin(track_blobs *blobs, const track_still *still, fst_e
 {
     const size_t size = (size_t)still->width * (size_t)still->height;
     *blobs = (track_blobs){.still = still, .mask = malloc(size), .stack = malloc(size * sizeof *blobs->stack)};
-    return blobs->mask && blobs->stack ? FST_OK : fst_fail(error, FST_NO_MEMORY, "track", "no memory for a frame");
+    return blobs->mask && blobs->stack ? FST_OK
+                                       : fst_fail(error, FST_NO_MEMORY, "track", "no memory for a frame");
 }
 
 void track_blobs_end(track_blobs *blobs)
@@ -30,13 +31,15 @@ void track_blobs_end(track_blobs *blobs)
 static void make_mask(track_blobs *b, const unsigned char *frame, double gain, double sign, double threshold)
 {
     const size_t size = (size_t)b->still->width * (size_t)b->still->height;
-    const float *level = b->still->level, factor = (float)(sign * gain), least = (float)threshold, s = (float)sign;
+    const float *level = b->still->level, factor = (float)(sign * gain), least = (float)threshold,
+                s = (float)sign;
     for (size_t i = 0; i < size; ++i)
         b->mask[i] = factor * level[i] - s * (float)frame[i] > least;
 }
 
 /* Give all pixels that are connected with `start`, across corners too, the label; returns the spot. */
-static track_box flood(track_blobs *b, const unsigned char *frame, double gain, double sign, int start, int label)
+static track_box flood(track_blobs *b, const unsigned char *frame, double gain, double sign, int start,
+                       int label)
 {
     const int width = b->still->width, height = b->still->height;
     track_box box = {width, 0, height, 0, label, 0, 0.0};
@@ -61,14 +64,15 @@ static track_box flood(track_blobs *b, const unsigned char *frame, double gain, 
     return box;
 }
 
-void track_blobs_find(track_blobs *blobs, const unsigned char *frame, double gain, double sign, double threshold)
+void track_blobs_find(track_blobs *blobs, const unsigned char *frame, double gain, double sign,
+                      double threshold)
 {
     const size_t size = (size_t)blobs->still->width * (size_t)blobs->still->height;
     make_mask(blobs, frame, gain, sign, threshold);
     blobs->count = 0;
     blobs->crowded = 0;
-    for (const unsigned char *at = blobs->mask; (at = memchr(at, FOUND, size - (size_t)(at - blobs->mask))) != NULL;
-         ++at) {
+    for (const unsigned char *at = blobs->mask;
+         (at = memchr(at, FOUND, size - (size_t)(at - blobs->mask))) != NULL; ++at) {
         const int room = blobs->count < TRACK_MOST_BOXES, label = room ? FIRST_LABEL + blobs->count : NO_LABEL;
         const track_box box = flood(blobs, frame, gain, sign, (int)(at - blobs->mask), label);
         if (box.pixels < LEAST_PIXELS)
@@ -87,9 +91,9 @@ static int level_at(const float *cover, int at)
     return (int)fmaxf(0.0f, fminf(LEVELS - 1, cover[at] * (LEVELS - 1)));
 }
 
-/* Raise every hollow of the cover to the lowest level by which water would leave it: a highlight or a mark on the
- * bead becomes bead.  The water comes in from the edge, lowest level first: heads[] lists the pixels of each
- * level that it has reached. */
+/* Raise every hollow of the cover to the lowest level by which water would leave it: a highlight or a mark on
+ * the bead becomes bead.  The water comes in from the edge, lowest level first: heads[] lists the pixels of
+ * each level that it has reached. */
 static void fill_hollows(float *cover, int *links, int width, int height)
 {
     int heads[LEVELS];
@@ -189,8 +193,8 @@ static void sum_up(const track_blobs *b, const track_box *box, const int window[
                  box->bottom + 1 == b->still->height;
 }
 
-fst_status track_blobs_cover(track_blobs *blobs, const unsigned char *frame, double gain, const track_look *look,
-                             const track_box *box, track_cover *cover, fst_error *error)
+fst_status track_blobs_cover(track_blobs *blobs, const unsigned char *frame, double gain,
+                             const track_look *look, const track_box *box, track_cover *cover, fst_error *error)
 {
     const int width = blobs->still->width, height = blobs->still->height;
     const int window[4] = {box->left > MARGIN ? box->left - MARGIN : 0,
@@ -204,7 +208,8 @@ fst_status track_blobs_cover(track_blobs *blobs, const unsigned char *frame, dou
     for (int row = window[2]; row <= window[3]; ++row)
         for (int column = window[0]; column <= window[1]; ++column) {
             const size_t at = (size_t)row * (size_t)width + (size_t)column;
-            const double behind = gain * (double)blobs->still->level[at], off = look->sign * (behind - frame[at]);
+            const double behind = gain * (double)blobs->still->level[at],
+                         off = look->sign * (behind - frame[at]);
             const double full = look->sign > 0.0 ? look->contrast * behind : look->contrast;
             blobs->cover[(row - window[2]) * across + column - window[0]] =
                 (float)fmax(0.0, fmin(1.0, off / fmax(full, look->threshold)));

@@ -4,8 +4,8 @@
  *                                                                          holes filled, summed to a centroid
  *
  * The cover of a pixel is how far its level is from the background, over how far a bead's level is: a pixel on
- * the outline is covered in part, and a moving bead covers the pixels on its way in part of the exposure.  The sum
- * of the cover is then the area of the bead, however it is blurred, and the centroid is its mean place.
+ * the outline is covered in part, and a moving bead covers the pixels on its way in part of the exposure.  The
+ * sum of the cover is then the area of the bead, however it is blurred, and the centroid is its mean place.
  */
 #ifndef FST_TRACK_BLOBS_H
 #define FST_TRACK_BLOBS_H
@@ -14,11 +14,11 @@
 
 /* How the bead differs from the background. */
 typedef struct track_look {
-    double sign;     /* 1: darker than the background; -1: brighter */
-    double contrast; /* by which part of the background's level it is darker, or by how many levels brighter */
+    double sign;      /* 1: darker than the background; -1: brighter */
+    double contrast;  /* by which part of the background's level it is darker, or by how many levels brighter */
     double threshold; /* gray levels; less is noise */
-    double area;     /* of the bead, pixels */
-    double diameter; /* pixels */
+    double area;      /* of the bead, pixels */
+    double diameter;  /* pixels */
 } track_look;
 
 /* A connected spot of the mask. */
@@ -31,8 +31,8 @@ typedef struct track_box {
 /* The cover of a spot, summed. */
 typedef struct track_cover {
     double area, column, row; /* pixels; the centroid */
-    double narrow, wide;      /* diameters of a disc that has the same second moment, across and along the motion */
-    int cut;                  /* the spot touches the edge of the picture */
+    double narrow, wide; /* diameters of a disc that has the same second moment, across and along the motion */
+    int cut;             /* the spot touches the edge of the picture */
 } track_cover;
 
 enum { TRACK_MOST_BOXES = 200 };
@@ -52,10 +52,12 @@ fst_status track_blobs_begin(track_blobs *blobs, const track_still *still, fst_e
 void track_blobs_end(track_blobs *blobs);
 
 /* Find the spots of a frame that differ by `threshold` in the direction of `sign`. */
-void track_blobs_find(track_blobs *blobs, const unsigned char *frame, double gain, double sign, double threshold);
+void track_blobs_find(track_blobs *blobs, const unsigned char *frame, double gain, double sign,
+                      double threshold);
 
 /* The cover of a spot that was found.  FST_NO_MEMORY. */
-fst_status track_blobs_cover(track_blobs *blobs, const unsigned char *frame, double gain, const track_look *look,
-                             const track_box *box, track_cover *cover, fst_error *error);
+fst_status track_blobs_cover(track_blobs *blobs, const unsigned char *frame, double gain,
+                             const track_look *look, const track_box *box, track_cover *cover,
+                             fst_error *error);
 
 #endif

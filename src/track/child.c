@@ -76,7 +76,8 @@ fst_status track_child_start(track_child *child, const char *const *arguments, i
     close_end(&child->words);
     return failed == ENOENT
                ? fst_fail(error, FST_UNAVAILABLE, "track",
-                          "films are read by %s, which is not installed: install the package ffmpeg", arguments[0])
+                          "films are read by %s, which is not installed: install the package ffmpeg",
+                          arguments[0])
                : fst_fail(error, FST_IO, "track", "cannot start %s: %s", arguments[0], strerror(failed));
 }
 

@@ -28,9 +28,9 @@ typedef struct track_child {
     double fraction; /* told while waiting */
 } track_child;
 
-/* Start a program (arguments[0], the list ends with NULL).  `input` is its standard input, -1 for nothing; where
- * the child has `feed`, it is a pipe from there instead.  The other members of `child` are set by the caller:
- * feed, user, progress.  FST_UNAVAILABLE: it is not installed. */
+/* Start a program (arguments[0], the list ends with NULL).  `input` is its standard input, -1 for nothing;
+ * where the child has `feed`, it is a pipe from there instead.  The other members of `child` are set by the
+ * caller: feed, user, progress.  FST_UNAVAILABLE: it is not installed. */
 fst_status track_child_start(track_child *child, const char *const *arguments, int input, fst_error *error);
 
 /* Read up to `size` bytes of what it writes; *got is 0 at the end. */

@@ -52,20 +52,42 @@ static char *choice(const int *chosen, int count)
 fst_status track_decoder_start(track_decoder *decoder, const track_source *source, const int *chosen, int count,
                                const fst_progress *progress, fst_error *error)
 {
-    *decoder = (track_decoder){.source = source, .child = {.progress = progress, .input = -1, .output = -1, .words = -1}};
+    *decoder = (track_decoder){.source = source,
+                               .child = {.progress = progress, .input = -1, .output = -1, .words = -1}};
     decoder->buffer = malloc(ROOM);
     char *filter = chosen ? choice(chosen, count) : strdup("null");
-    fst_status status = decoder->buffer && filter ? FST_OK : fst_fail(error, FST_NO_MEMORY, source->path, "no memory");
+    fst_status status =
+        decoder->buffer && filter ? FST_OK : fst_fail(error, FST_NO_MEMORY, source->path, "no memory");
     const int images = source->descriptor < 0;
     if (images) {
         decoder->child.feed = feed_image;
         decoder->child.user = decoder;
     }
-    const char *const arguments[] = {
-        "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-protocol_whitelist", TRACK_PROTOCOLS,
-        images ? "-f" : "-format_whitelist", images ? source->demuxer : TRACK_FORMATS, "-i",
-        images ? "pipe:0" : TRACK_FILM_URL, "-map", "0:v:0", "-fps_mode", "passthrough", "-vf",
-        filter, "-pix_fmt", "gray", "-c:v", "pgm", "-f", "image2pipe", "pipe:1", NULL};
+    const char *const arguments[] = {"ffmpeg",
+                                     "-nostdin",
+                                     "-hide_banner",
+                                     "-loglevel",
+                                     "error",
+                                     "-protocol_whitelist",
+                                     TRACK_PROTOCOLS,
+                                     images ? "-f" : "-format_whitelist",
+                                     images ? source->demuxer : TRACK_FORMATS,
+                                     "-i",
+                                     images ? "pipe:0" : TRACK_FILM_URL,
+                                     "-map",
+                                     "0:v:0",
+                                     "-fps_mode",
+                                     "passthrough",
+                                     "-vf",
+                                     filter,
+                                     "-pix_fmt",
+                                     "gray",
+                                     "-c:v",
+                                     "pgm",
+                                     "-f",
+                                     "image2pipe",
+                                     "pipe:1",
+                                     NULL};
     if (status == FST_OK)
         status = track_child_start(&decoder->child, arguments, source->descriptor, error);
     free(filter);
@@ -111,8 +133,8 @@ static fst_status read_head(track_decoder *d, int *width, int *height, int *ther
     if (sscanf(head, "P5 %6d %6d %6d", width, height, &most) != 3 || most != 255 || *width < 1 || *height < 1)
         return fst_fail(error, FST_IO, d->source->path, "ffmpeg made no gray pictures of it");
     if ((int64_t)*width * *height > MOST_PIXELS)
-        return fst_fail(error, FST_BAD_INPUT, d->source->path, "pictures of %d x %d pixels are too large", *width,
-                        *height);
+        return fst_fail(error, FST_BAD_INPUT, d->source->path, "pictures of %d x %d pixels are too large",
+                        *width, *height);
     *there = 1;
     return FST_OK;
 }
@@ -133,8 +155,8 @@ fst_status track_decoder_next(track_decoder *decoder, int *there, fst_error *err
     }
     if (width != decoder->width || height != decoder->height)
         return fst_fail(error, FST_BAD_INPUT, decoder->source->path,
-                        "frame %d has %d x %d pixels, and those before have %d x %d", decoder->frame, width, height,
-                        decoder->width, decoder->height);
+                        "frame %d has %d x %d pixels, and those before have %d x %d", decoder->frame, width,
+                        height, decoder->width, decoder->height);
     for (size_t done = 0; done < size;) {
         if (decoder->begin == decoder->end) {
             status = refill(decoder, error);

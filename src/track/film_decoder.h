@@ -10,10 +10,10 @@ typedef struct track_decoder {
     track_child child;
     int width, height; /* of the pictures as they are meant to be shown; 0 before the first */
     unsigned char *pixels;
-    int frame;         /* how many were read */
+    int frame;             /* how many were read */
     unsigned char *buffer; /* what was read of the pipe and not yet used */
     size_t begin, end;
-    int image;         /* images handed over so far */
+    int image; /* images handed over so far */
     char *image_bytes;
 } track_decoder;
 
@@ -22,8 +22,8 @@ typedef struct track_decoder {
 fst_status track_decoder_start(track_decoder *decoder, const track_source *source, const int *chosen, int count,
                                const fst_progress *progress, fst_error *error);
 
-/* The next frame into decoder->pixels; *there is 0 at the end.  FST_BAD_INPUT: it has another size than the frames
- * before. */
+/* The next frame into decoder->pixels; *there is 0 at the end.  FST_BAD_INPUT: it has another size than the
+ * frames before. */
 fst_status track_decoder_next(track_decoder *decoder, int *there, fst_error *error);
 
 /* Stop; `abandon` ends ffmpeg at once.  Returns whether ffmpeg ended well; child.said has its words. */

@@ -25,8 +25,8 @@ enum { MOST_FRAMES = 20000000, LINE_SIZE = 256, MOST_IMAGES = 1000000 };
 /* What the lines of ffprobe's answer tell. */
 typedef struct answer {
     track_source *source;
-    double expected;    /* frames, as the head of the film says; 0: unknown */
-    double unit;        /* s of a tick of its clock */
+    double expected; /* frames, as the head of the film says; 0: unknown */
+    double unit;     /* s of a tick of its clock */
     double seconds, rate;
     int streams, without_time, capacity;
     int64_t *ticks;
@@ -92,10 +92,22 @@ static fst_status take_line(answer *a, const char *line, fst_error *error)
 /* Ask ffprobe for `entries`, and take its answer line by line. */
 static fst_status ask(answer *a, const char *entries, const fst_progress *progress, fst_error *error)
 {
-    const char *const arguments[] = {"ffprobe",         "-hide_banner",    "-loglevel",         "error",
-                                     "-protocol_whitelist", TRACK_PROTOCOLS, "-format_whitelist", TRACK_FORMATS,
-                                     "-select_streams", "v:0",             "-show_entries",     entries,
-                                     "-of",             "default=nw=1",    "-i",                TRACK_FILM_URL,
+    const char *const arguments[] = {"ffprobe",
+                                     "-hide_banner",
+                                     "-loglevel",
+                                     "error",
+                                     "-protocol_whitelist",
+                                     TRACK_PROTOCOLS,
+                                     "-format_whitelist",
+                                     TRACK_FORMATS,
+                                     "-select_streams",
+                                     "v:0",
+                                     "-show_entries",
+                                     entries,
+                                     "-of",
+                                     "default=nw=1",
+                                     "-i",
+                                     TRACK_FILM_URL,
                                      NULL};
     track_child child = {.progress = progress};
     char line[LINE_SIZE], piece[8192];
@@ -141,10 +153,11 @@ static fst_status make_times(track_source *s, const answer *a, double fps, fst_e
     for (int i = 0; i < s->frames; ++i) {
         s->times[i] = isnan(fps) ? (double)a->ticks[i] * a->unit : i / fps;
         if (i > 0 && !(s->times[i] > s->times[i - 1]))
-            return fst_fail(error, FST_BAD_INPUT, s->path,
-                            "its clock goes wrong: frame %d is not later than frame %d; give the frames a second "
-                            "(fps) instead",
-                            i, i - 1);
+            return fst_fail(
+                error, FST_BAD_INPUT, s->path,
+                "its clock goes wrong: frame %d is not later than frame %d; give the frames a second "
+                "(fps) instead",
+                i, i - 1);
     }
     return FST_OK;
 }
@@ -231,7 +244,8 @@ static fst_status add_image(track_source *s, int folder, const char *name, int *
     if (s->image_count == MOST_IMAGES)
         return fst_fail(error, FST_BAD_INPUT, s->path, "it has more than %d images", MOST_IMAGES);
     s->images[s->image_count] = strdup(name);
-    return s->images[s->image_count++] ? FST_OK : fst_fail(error, FST_NO_MEMORY, s->path, "no memory for a name");
+    return s->images[s->image_count++] ? FST_OK
+                                       : fst_fail(error, FST_NO_MEMORY, s->path, "no memory for a name");
 }
 
 static fst_status open_folder(track_source *s, double fps, fst_error *error)
@@ -263,8 +277,8 @@ fst_status track_source_open(track_source *source, const char *path, double fps,
     struct stat about;
     *source = (track_source){.path = path, .descriptor = -1};
     if (!isnan(fps) && !(fps > 0.0 && fps <= 1e6))
-        return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.fps", "%g frames a second: more than 0, at most 1e6",
-                        fps);
+        return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.fps",
+                        "%g frames a second: more than 0, at most 1e6", fps);
     if (stat(path, &about) == 0 && S_ISDIR(about.st_mode))
         return open_folder(source, fps, error);
     return open_film(source, fps, progress, error);

@@ -9,11 +9,12 @@
 
 #define LEAST_AREA 0.55 /* of the bead's: a spot with less is cut off, or something else */
 #define MOST_AREA 1.8
-#define FAR 3.0         /* a spot so many times as far as the bead may be is not the bead */
+#define FAR 3.0       /* a spot so many times as far as the bead may be is not the bead */
 #define FORGET 8.0    /* lost for so many frames, the bead may be anywhere */
 #define TWIN_LEVELS 2 /* a frame whose pixels are all within so many levels of the one before is the same */
 
-fst_status track_follow_begin(track_follower *follower, track_blobs *blobs, const track_look *look, fst_error *error)
+fst_status track_follow_begin(track_follower *follower, track_blobs *blobs, const track_look *look,
+                              fst_error *error)
 {
     const size_t size = (size_t)blobs->still->width * (size_t)blobs->still->height;
     *follower = (track_follower){.blobs = blobs, .look = look, .before = malloc(size)};
@@ -70,8 +71,8 @@ static int is_twin(const track_follower *f, const unsigned char *frame)
     return 1;
 }
 
-static fst_status choose(track_follower *f, const unsigned char *frame, double gain, double time, track_place *place,
-                         fst_error *error)
+static fst_status choose(track_follower *f, const unsigned char *frame, double gain, double time,
+                         track_place *place, fst_error *error)
 {
     double column = 0.0, row = 0.0, best = INFINITY;
     const double reach = expect(f, time, &column, &row);

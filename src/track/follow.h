@@ -16,7 +16,7 @@ typedef struct track_follower {
     const track_look *look;
     track_place last[2]; /* where it was seen last, and before */
     double when[2];
-    int seen; /* how many of these there are */
+    int seen;              /* how many of these there are */
     unsigned char *before; /* the frame before */
     int frames;
 } track_follower;
@@ -25,8 +25,8 @@ fst_status track_follow_begin(track_follower *follower, track_blobs *blobs, cons
                               fst_error *error);
 void track_follow_end(track_follower *follower);
 
-/* Find the bead in the next frame, which was taken at a time (s).  What is found depends on this frame and on those
- * before alone. */
+/* Find the bead in the next frame, which was taken at a time (s).  What is found depends on this frame and on
+ * those before alone. */
 fst_status track_follow(track_follower *follower, const unsigned char *frame, double time, track_place *place,
                         fst_error *error);
 

@@ -11,12 +11,12 @@
 #include "base/error.h"
 #include "base/watch.h"
 
-#define LEAST_CONTRAST 8.0  /* gray levels: less is no bead that can be followed */
-#define OF_NOISE 6.0        /* a bead's difference, in deviations of a pixel */
-#define OF_CONTRAST 0.2     /* where a spot ends, in parts of the contrast */
-#define SECOND 0.5          /* a second spot of this part of the first one's area is another bead */
-#define SEEN 0.5            /* part of the samples in which a bead must be seen */
-#define TWICE 0.3           /* part of the samples in which two of them are too many */
+#define LEAST_CONTRAST 8.0 /* gray levels: less is no bead that can be followed */
+#define OF_NOISE 6.0       /* a bead's difference, in deviations of a pixel */
+#define OF_CONTRAST 0.2    /* where a spot ends, in parts of the contrast */
+#define SECOND 0.5         /* a second spot of this part of the first one's area is another bead */
+#define SEEN 0.5           /* part of the samples in which a bead must be seen */
+#define TWICE 0.3          /* part of the samples in which two of them are too many */
 
 static int ascending(const void *a, const void *b)
 {
@@ -73,7 +73,8 @@ static double contrast_of(const track_blobs *b, const unsigned char *frame, doub
                 const size_t at = (size_t)row * (size_t)b->still->width + (size_t)column;
                 const double behind = gain * (double)b->still->level[at];
                 if (is_inside(b, box, column, row, depth))
-                    values[count++] = sign > 0.0 ? (behind - frame[at]) / fmax(behind, 1.0) : frame[at] - behind;
+                    values[count++] =
+                        sign > 0.0 ? (behind - frame[at]) / fmax(behind, 1.0) : frame[at] - behind;
             }
     }
     return quantile(values, count, 0.33);
@@ -102,13 +103,13 @@ static fst_status find_sign(track_blobs *b, double threshold, const fst_progress
 }
 
 /* What the samples say of the bead. */
-typedef struct lesson {
+typedef struct learnt {
     double contrasts[TRACK_SAMPLES], areas[TRACK_SAMPLES], widths[TRACK_SAMPLES];
     double behind; /* level of the background behind it, summed over the samples */
     int seen, twice;
-} lesson;
+} learnt;
 
-static fst_status measure_size(track_blobs *b, int k, const track_look *look, lesson *lesson, fst_error *error)
+static fst_status measure_size(track_blobs *b, int k, const track_look *look, learnt *lesson, fst_error *error)
 {
     const double gain = track_still_gain(b->still, sample(b, k));
     double best = 0.0, second = 0.0, width = 0.0;
@@ -134,7 +135,7 @@ static fst_status measure_size(track_blobs *b, int k, const track_look *look, le
     return FST_OK;
 }
 
-static void measure_contrast(track_blobs *b, int k, double sign, double threshold, lesson *lesson)
+static void measure_contrast(track_blobs *b, int k, double sign, double threshold, learnt *lesson)
 {
     const double gain = track_still_gain(b->still, sample(b, k));
     track_blobs_find(b, sample(b, k), gain, sign, threshold);
@@ -150,22 +151,25 @@ static fst_status no_bead(const char *path, const track_blobs *b, int seen, doub
                           fst_error *error)
 {
     if (crowded > b->still->count / 2)
-        return fst_fail(error, FST_BAD_INPUT, path,
-                        "the picture changes in many places at once: the camera must not move while it films, and "
-                        "the light must stay");
-    return fst_fail(error, FST_BAD_INPUT, path,
-                    "no bead was found: in %d of %d frames looked at, something stands out from what stays still by "
-                    "%.0f gray levels of 255 or more; a bead that rests, or hardly moves, cannot be told from the "
-                    "plate",
-                    seen, b->still->count, threshold);
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "the picture changes in many places at once: the camera must not move while it films, and "
+            "the light must stay");
+    return fst_fail(
+        error, FST_BAD_INPUT, path,
+        "no bead was found: in %d of %d frames looked at, something stands out from what stays still by "
+        "%.0f gray levels of 255 or more; a bead that rests, or hardly moves, cannot be told from the "
+        "plate",
+        seen, b->still->count, threshold);
 }
 
 static fst_status two_beads(const char *path, int twice, int count, fst_error *error)
 {
-    return fst_fail(error, FST_BAD_INPUT, path,
-                    "two things of about the same size move in %d of %d frames looked at: one bead can be followed; "
-                    "cut the other, or its reflection, out of the picture",
-                    twice, count);
+    return fst_fail(
+        error, FST_BAD_INPUT, path,
+        "two things of about the same size move in %d of %d frames looked at: one bead can be followed; "
+        "cut the other, or its reflection, out of the picture",
+        twice, count);
 }
 
 fst_status track_learn(track_blobs *blobs, const char *path, const fst_progress *progress, track_look *look,
@@ -173,7 +177,7 @@ fst_status track_learn(track_blobs *blobs, const char *path, const fst_progress 
 {
     const int count = blobs->still->count;
     const double least = fmax(OF_NOISE * blobs->still->noise, LEAST_CONTRAST);
-    lesson lesson = {.seen = 0};
+    learnt lesson = {.seen = 0};
     int crowded;
     *look = (track_look){.threshold = least};
     fst_status status = find_sign(blobs, least, progress, &look->sign, &crowded, error);

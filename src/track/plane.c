@@ -16,11 +16,12 @@ static const char where[] = "fst_film_track_options.scale";
 static fst_status no_scale(const char *text, fst_error *error)
 {
     char quoted[FST_QUOTE_SIZE];
-    return fst_fail(error, FST_BAD_INPUT, where,
-                    "%s is no scale: write \"bead 5 mm\" or \"plate 460 mm\" (diameters), "
-                    "\"120,80:620,84=50mm\" (two pixels and their distance), or four corners of a rectangle and its "
-                    "sides, \"X1,Y1:X2,Y2:X3,Y3:X4,Y4=80x60mm\"",
-                    fst_quote(text, quoted));
+    return fst_fail(
+        error, FST_BAD_INPUT, where,
+        "%s is no scale: write \"bead 5 mm\" or \"plate 460 mm\" (diameters), "
+        "\"120,80:620,84=50mm\" (two pixels and their distance), or four corners of a rectangle and its "
+        "sides, \"X1,Y1:X2,Y2:X3,Y3:X4,Y4=80x60mm\"",
+        fst_quote(text, quoted));
 }
 
 /* A length in mm, more than 0. */
@@ -130,8 +131,14 @@ double track_plane_step(const track_plane *plane, double column, double row)
 {
     double x[4], y[4];
     for (int i = 0; i < 4; ++i) /* half a pixel to each side */
-        track_plane_map(plane, column + (i == 0 ? -0.5 : i == 1 ? 0.5 : 0.0),
-                        row + (i == 2 ? -0.5 : i == 3 ? 0.5 : 0.0), &x[i], &y[i]);
+        track_plane_map(plane,
+                        column + (i == 0   ? -0.5
+                                  : i == 1 ? 0.5
+                                           : 0.0),
+                        row + (i == 2   ? -0.5
+                               : i == 3 ? 0.5
+                                        : 0.0),
+                        &x[i], &y[i]);
     return sqrt(fabs((x[1] - x[0]) * (y[3] - y[2]) - (y[1] - y[0]) * (x[3] - x[2])));
 }
 
@@ -140,7 +147,8 @@ track_plane track_plane_even(double factor, double last_row)
     return (track_plane){{{factor, 0.0, 0.0}, {0.0, -factor, factor * last_row}, {0.0, 0.0, 1.0}}};
 }
 
-static void multiply(const double a[3][3], const double b[3][3], double out[3][3])
+/* out = a b; out may be one of them. */
+static void multiply(double a[3][3], double b[3][3], double out[3][3])
 {
     double product[3][3];
     for (int i = 0; i < 3; ++i)
@@ -155,8 +163,9 @@ static void straighten(track_plane *plane, double column, double row)
     double x[2], y[2];
     track_plane_map(plane, column - 0.5, row, &x[0], &y[0]);
     track_plane_map(plane, column + 0.5, row, &x[1], &y[1]);
-    const double length = hypot(x[1] - x[0], y[1] - y[0]), c = (x[1] - x[0]) / length, s = (y[1] - y[0]) / length;
-    const double turn[3][3] = {{c, s, 0.0}, {-s, c, 0.0}, {0.0, 0.0, 1.0}};
+    const double length = hypot(x[1] - x[0], y[1] - y[0]), c = (x[1] - x[0]) / length,
+                 s = (y[1] - y[0]) / length;
+    double turn[3][3] = {{c, s, 0.0}, {-s, c, 0.0}, {0.0, 0.0, 1.0}};
     multiply(turn, plane->m, plane->m);
 }
 
@@ -208,14 +217,16 @@ fst_status track_plane_of_rectangle(const track_scale *scale, track_plane *plane
     }
     for (int i = 0; i < 4; ++i)
         if (!(turns[i] * turns[0] > 0.0) || !(fabs(turns[i]) > 4.0))
-            return fst_fail(error, FST_BAD_INPUT, where,
-                            "the four points must go round the rectangle, corner by corner, with no three in a line");
+            return fst_fail(
+                error, FST_BAD_INPUT, where,
+                "the four points must go round the rectangle, corner by corner, with no three in a line");
     for (int i = 0; i < 4; ++i)
         spread = fmax(spread, hypot(scale->points[i][0] - middle[0], scale->points[i][1] - middle[1]));
     const double side = turns[0] > 0.0 ? 1.0 : -1.0, half[2] = {0.5 * scale->length[0], 0.5 * scale->length[1]};
     static const int corner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     for (int i = 0; i < 4; ++i) { /* two equations a point; pixels about the middle, in units of the spread */
-        const double u = (scale->points[i][0] - middle[0]) / spread, v = (scale->points[i][1] - middle[1]) / spread;
+        const double u = (scale->points[i][0] - middle[0]) / spread,
+                     v = (scale->points[i][1] - middle[1]) / spread;
         const double to[2] = {corner[i][0] * half[0], side * corner[i][1] * half[1]};
         for (int k = 0; k < 2; ++k) {
             double *row = a + 8 * (2 * i + k);
@@ -229,10 +240,9 @@ fst_status track_plane_of_rectangle(const track_scale *scale, track_plane *plane
     }
     if (!track_solve(a, b, 8))
         return fst_fail(error, FST_BAD_INPUT, where, "no rectangle has its corners at the four points");
-    const double centred[3][3] = {{1.0 / spread, 0.0, -middle[0] / spread},
-                                  {0.0, 1.0 / spread, -middle[1] / spread},
-                                  {0.0, 0.0, 1.0}};
-    const double found[3][3] = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}, {b[6], b[7], 1.0}};
+    double centred[3][3] = {
+        {1.0 / spread, 0.0, -middle[0] / spread}, {0.0, 1.0 / spread, -middle[1] / spread}, {0.0, 0.0, 1.0}};
+    double found[3][3] = {{b[0], b[1], b[2]}, {b[3], b[4], b[5]}, {b[6], b[7], 1.0}};
     multiply(found, centred, plane->m);
     straighten(plane, middle[0], middle[1]);
     return FST_OK;
@@ -294,9 +304,10 @@ fst_status track_plane_of_circle(const track_ellipse *seen, const double horizon
 {
     enum { POINTS = 16 };
     /* First the perspective alone, which leaves an ellipse ... */
-    const track_plane flat = {{{1.0, 0.0, -seen->centre[0]},
-                               {0.0, 1.0, -seen->centre[1]},
-                               {horizon[0], horizon[1], 1.0 - horizon[0] * seen->centre[0] - horizon[1] * seen->centre[1]}}};
+    track_plane flat = {
+        {{1.0, 0.0, -seen->centre[0]},
+         {0.0, 1.0, -seen->centre[1]},
+         {horizon[0], horizon[1], 1.0 - horizon[0] * seen->centre[0] - horizon[1] * seen->centre[1]}}};
     double points[2 * POINTS];
     track_ellipse e;
     for (int i = 0; i < POINTS; ++i) {
@@ -308,8 +319,8 @@ fst_status track_plane_of_circle(const track_ellipse *seen, const double horizon
         return fst_fail(error, FST_BAD_INPUT, where, "the edge of the plate is no ellipse");
     /* ... then along its axes, each stretched to the radius, with y up. */
     const double c = cos(e.angle), s = sin(e.angle), p = radius / e.axes[0], q = radius / e.axes[1];
-    const double move[3][3] = {{1.0, 0.0, -e.centre[0]}, {0.0, 1.0, -e.centre[1]}, {0.0, 0.0, 1.0}};
-    const double stretch[3][3] = {{p * c, p * s, 0.0}, {q * s, -q * c, 0.0}, {0.0, 0.0, 1.0}};
+    double move[3][3] = {{1.0, 0.0, -e.centre[0]}, {0.0, 1.0, -e.centre[1]}, {0.0, 0.0, 1.0}};
+    double stretch[3][3] = {{p * c, p * s, 0.0}, {q * s, -q * c, 0.0}, {0.0, 0.0, 1.0}};
     multiply(move, flat.m, plane->m);
     multiply(stretch, plane->m, plane->m);
     straighten(plane, seen->centre[0], seen->centre[1]);

@@ -1,7 +1,7 @@
 /* plane.h - from pixels to millimetres: what a person says of the scale, and the map that follows from it.
  *
- * All maps are homographies: they take straight lines to straight lines, as a pinhole camera does.  Pixels come as
- * column and row (down); places leave with x to the right and y up in the picture.
+ * All maps are homographies: they take straight lines to straight lines, as a pinhole camera does.  Pixels come
+ * as column and row (down); places leave with x to the right and y up in the picture.
  */
 #ifndef FST_TRACK_PLANE_H
 #define FST_TRACK_PLANE_H
@@ -23,8 +23,8 @@ typedef struct track_scale {
     double points[4][2]; /* column, row */
 } track_scale;
 
-/* Read "bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm", "X1,Y1:X2,Y2:X3,Y3:X4,Y4=80mm" (a square) or "...=80x60mm";
- * pixels count from the top left, as in viewers of pictures. */
+/* Read "bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm", "X1,Y1:X2,Y2:X3,Y3:X4,Y4=80mm" (a square) or
+ * "...=80x60mm"; pixels count from the top left, as in viewers of pictures. */
 fst_status track_scale_read(const char *text, track_scale *scale, fst_error *error);
 
 /* A homography: place = M (column, row, 1), divided by its third component. */
@@ -40,13 +40,14 @@ double track_plane_step(const track_plane *plane, double column, double row);
 /* x = factor column, y = factor (last_row - row). */
 track_plane track_plane_even(double factor, double last_row);
 
-/* The plane in which four points are the corners of a rectangle around the origin, the first side from the first to
- * the second point; turned so that x points to the right in the picture.  FST_BAD_INPUT: they are no corners of a
- * rectangle seen from any side. */
+/* The plane in which four points are the corners of a rectangle around the origin, the first side from the
+ * first to the second point; turned so that x points to the right in the picture.  FST_BAD_INPUT: they are no
+ * corners of a rectangle seen from any side. */
 fst_status track_plane_of_rectangle(const track_scale *scale, track_plane *plane, fst_error *error);
 
-/* The plane in which an ellipse with this centre, these semi-axes and this angle (rad) of the longer one is a circle of
- * `radius` around the origin, where the picture is first divided by 1 + horizon (pixel - centre): a perspective. */
+/* The plane in which an ellipse with this centre, these semi-axes and this angle (rad) of the longer one is a
+ * circle of `radius` around the origin, where the picture is first divided by 1 + horizon (pixel - centre): a
+ * perspective. */
 typedef struct track_ellipse {
     double centre[2], axes[2], angle;
 } track_ellipse;

@@ -149,7 +149,8 @@ double track_still_gain(const track_still *still, const unsigned char *frame)
     const double middle = (bin + 0.5) * 4.0 / BINS;
     double over = 0.0, under = 0.0;
     for (size_t i = step / 2; i < size; i += step)
-        if (still->level[i] >= 16.0f && fabs(frame[i] - middle * (double)still->level[i]) < 0.08 * (double)still->level[i]) {
+        if (still->level[i] >= 16.0f &&
+            fabs(frame[i] - middle * (double)still->level[i]) < 0.08 * (double)still->level[i]) {
             over += frame[i];
             under += (double)still->level[i];
         }

@@ -1,8 +1,8 @@
 /* still.h - the picture without the bead: what stays while the bead goes round.
  *
  * Each pixel's level is the median over some 41 frames at random times.  Regular times would meet a bead that
- * circles regularly in the same places again and again.  The choice of times depends on the film's length alone,
- * so the same film gives the same track.
+ * circles regularly in the same places again and again.  The choice of times depends on the film's length
+ * alone, so the same film gives the same track.
  */
 #ifndef FST_TRACK_STILL_H
 #define FST_TRACK_STILL_H

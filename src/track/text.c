@@ -14,8 +14,9 @@
 #include "base/text.h"
 #include "host/regular_file.h"
 
-#define MOST_BYTES ((size_t)256 << 20) /* of a file: a day of film at 200 frames a second takes about as much  \
-                                        */
+#define MOST_BYTES                                                                                             \
+    ((size_t)256 << 20) /* of a file: a day of film at 200 frames a second takes about as much                 \
+                         */
 
 fst_status track_fail_line(const char *path, size_t line, fst_error *error, const char *format, ...)
 {
