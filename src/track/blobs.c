@@ -28,17 +28,23 @@ void track_blobs_end(track_blobs *blobs)
 
 /* ------------------------------------------------------------------ spots */
 
-static void make_mask(track_blobs *b, const unsigned char *frame, double gain, double sign, double threshold)
+static void make_mask(track_blobs *b, const unsigned char *frame, const float *gains, double sign,
+                      double threshold)
 {
-    const size_t size = (size_t)b->still->width * (size_t)b->still->height;
-    const float *level = b->still->level, factor = (float)(sign * gain), least = (float)threshold,
-                s = (float)sign;
-    for (size_t i = 0; i < size; ++i)
-        b->mask[i] = factor * level[i] - s * (float)frame[i] > least;
+    const int width = b->still->width;
+    const float s = (float)sign, least = (float)threshold;
+    for (int row = 0; row < b->still->height; ++row) {
+        const size_t begin = (size_t)row * (size_t)width;
+        const float *level = b->still->level + begin, factor = s * gains[row];
+        const unsigned char *line = frame + begin;
+        unsigned char *mask = b->mask + begin;
+        for (int i = 0; i < width; ++i)
+            mask[i] = factor * level[i] - s * (float)line[i] > least;
+    }
 }
 
 /* Give all pixels that are connected with `start`, across corners too, the label; returns the spot. */
-static track_box flood(track_blobs *b, const unsigned char *frame, double gain, double sign, int start,
+static track_box flood(track_blobs *b, const unsigned char *frame, const float *gains, double sign, int start,
                        int label)
 {
     const int width = b->still->width, height = b->still->height;
@@ -53,7 +59,7 @@ static track_box flood(track_blobs *b, const unsigned char *frame, double gain, 
         box.top = row < box.top ? row : box.top;
         box.bottom = row > box.bottom ? row : box.bottom;
         ++box.pixels;
-        box.sum += sign * (gain * (double)b->still->level[at] - frame[at]);
+        box.sum += sign * ((double)(gains[row] * b->still->level[at]) - frame[at]);
         for (int y = row > 0 ? row - 1 : 0; y <= row + 1 && y < height; ++y)
             for (int x = column > 0 ? column - 1 : 0; x <= column + 1 && x < width; ++x)
                 if (b->mask[y * width + x] == FOUND) {
@@ -64,17 +70,17 @@ static track_box flood(track_blobs *b, const unsigned char *frame, double gain, 
     return box;
 }
 
-void track_blobs_find(track_blobs *blobs, const unsigned char *frame, double gain, double sign,
+void track_blobs_find(track_blobs *blobs, const unsigned char *frame, const float *gains, double sign,
                       double threshold)
 {
     const size_t size = (size_t)blobs->still->width * (size_t)blobs->still->height;
-    make_mask(blobs, frame, gain, sign, threshold);
+    make_mask(blobs, frame, gains, sign, threshold);
     blobs->count = 0;
     blobs->crowded = 0;
     for (const unsigned char *at = blobs->mask;
          (at = memchr(at, FOUND, size - (size_t)(at - blobs->mask))) != NULL; ++at) {
         const int room = blobs->count < TRACK_MOST_BOXES, label = room ? FIRST_LABEL + blobs->count : NO_LABEL;
-        const track_box box = flood(blobs, frame, gain, sign, (int)(at - blobs->mask), label);
+        const track_box box = flood(blobs, frame, gains, sign, (int)(at - blobs->mask), label);
         if (box.pixels < LEAST_PIXELS)
             continue; /* its label goes to the next spot too, which is far from these few pixels of noise */
         if (room)
@@ -193,7 +199,7 @@ static void sum_up(const track_blobs *b, const track_box *box, const int window[
                  box->bottom + 1 == b->still->height;
 }
 
-fst_status track_blobs_cover(track_blobs *blobs, const unsigned char *frame, double gain,
+fst_status track_blobs_cover(track_blobs *blobs, const unsigned char *frame, const float *gains,
                              const track_look *look, const track_box *box, track_cover *cover, fst_error *error)
 {
     const int width = blobs->still->width, height = blobs->still->height;
@@ -208,7 +214,7 @@ fst_status track_blobs_cover(track_blobs *blobs, const unsigned char *frame, dou
     for (int row = window[2]; row <= window[3]; ++row)
         for (int column = window[0]; column <= window[1]; ++column) {
             const size_t at = (size_t)row * (size_t)width + (size_t)column;
-            const double behind = gain * (double)blobs->still->level[at],
+            const double behind = (double)(gains[row] * blobs->still->level[at]),
                          off = look->sign * (behind - frame[at]);
             const double full = look->sign > 0.0 ? look->contrast * behind : look->contrast;
             blobs->cover[(row - window[2]) * across + column - window[0]] =

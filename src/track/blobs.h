@@ -51,12 +51,13 @@ typedef struct track_blobs {
 fst_status track_blobs_begin(track_blobs *blobs, const track_still *still, fst_error *error);
 void track_blobs_end(track_blobs *blobs);
 
-/* Find the spots of a frame that differ by `threshold` in the direction of `sign`. */
-void track_blobs_find(track_blobs *blobs, const unsigned char *frame, double gain, double sign,
+/* Find the spots of a frame (its rows are `gains` times as bright as the still picture) that differ by
+ * `threshold` in the direction of `sign`. */
+void track_blobs_find(track_blobs *blobs, const unsigned char *frame, const float *gains, double sign,
                       double threshold);
 
 /* The cover of a spot that was found.  FST_NO_MEMORY. */
-fst_status track_blobs_cover(track_blobs *blobs, const unsigned char *frame, double gain,
+fst_status track_blobs_cover(track_blobs *blobs, const unsigned char *frame, const float *gains,
                              const track_look *look, const track_box *box, track_cover *cover,
                              fst_error *error);
 

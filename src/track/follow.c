@@ -17,14 +17,21 @@ fst_status track_follow_begin(track_follower *follower, track_blobs *blobs, cons
                               fst_error *error)
 {
     const size_t size = (size_t)blobs->still->width * (size_t)blobs->still->height;
-    *follower = (track_follower){.blobs = blobs, .look = look, .before = malloc(size)};
-    return follower->before ? FST_OK : fst_fail(error, FST_NO_MEMORY, "track", "no memory for a frame");
+    *follower = (track_follower){.blobs = blobs,
+                                 .look = look,
+                                 .before = malloc(size),
+                                 .gains = malloc((size_t)blobs->still->height * sizeof *follower->gains)};
+    return follower->before && follower->gains
+               ? FST_OK
+               : fst_fail(error, FST_NO_MEMORY, "track", "no memory for a frame");
 }
 
 void track_follow_end(track_follower *follower)
 {
     free(follower->before);
+    free(follower->gains);
     follower->before = NULL;
+    follower->gains = NULL;
 }
 
 /* Where the bead should be, and how far from there it may be; 0: nothing is known. */
@@ -71,8 +78,8 @@ static int is_twin(const track_follower *f, const unsigned char *frame)
     return 1;
 }
 
-static fst_status choose(track_follower *f, const unsigned char *frame, double gain, double time,
-                         track_place *place, fst_error *error)
+static fst_status choose(track_follower *f, const unsigned char *frame, double time, track_place *place,
+                         fst_error *error)
 {
     double column = 0.0, row = 0.0, best = INFINITY;
     const double reach = expect(f, time, &column, &row);
@@ -81,7 +88,7 @@ static fst_status choose(track_follower *f, const unsigned char *frame, double g
         track_cover cover;
         if (box->pixels < 0.3 * f->look->area || box->pixels > 20.0 * f->look->area)
             continue;
-        const fst_status status = track_blobs_cover(f->blobs, frame, gain, f->look, box, &cover, error);
+        const fst_status status = track_blobs_cover(f->blobs, frame, f->gains, f->look, box, &cover, error);
         if (status != FST_OK)
             return status;
         if (cover.cut || !(cover.area > LEAST_AREA * f->look->area && cover.area < MOST_AREA * f->look->area))
@@ -101,10 +108,10 @@ fst_status track_follow(track_follower *follower, const unsigned char *frame, do
                         fst_error *error)
 {
     const size_t size = (size_t)follower->blobs->still->width * (size_t)follower->blobs->still->height;
-    const double gain = track_still_gain(follower->blobs->still, frame);
+    track_still_gains(follower->blobs->still, frame, follower->gains);
     *place = (track_place){NAN, NAN, NAN, 0};
-    track_blobs_find(follower->blobs, frame, gain, follower->look->sign, follower->look->threshold);
-    const fst_status status = choose(follower, frame, gain, time, place, error);
+    track_blobs_find(follower->blobs, frame, follower->gains, follower->look->sign, follower->look->threshold);
+    const fst_status status = choose(follower, frame, time, place, error);
     if (status != FST_OK)
         return status;
     place->twin = follower->frames++ > 0 && is_twin(follower, frame);

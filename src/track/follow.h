@@ -18,6 +18,7 @@ typedef struct track_follower {
     double when[2];
     int seen;              /* how many of these there are */
     unsigned char *before; /* the frame before */
+    float *gains;          /* of the rows of this one */
     int frames;
 } track_follower;
 

@@ -7,14 +7,16 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/error.h"
 #include "base/watch.h"
 
 #define LEAST_CONTRAST 8.0 /* gray levels: less is no bead that can be followed */
 #define OF_NOISE 6.0       /* a bead's difference, in deviations of a pixel */
-#define OF_CONTRAST 0.2    /* where a spot ends, in parts of the contrast */
+#define OF_CONTRAST 0.15   /* where a spot ends, in parts of the contrast */
 #define SECOND 0.5         /* a second spot of this part of the first one's area is another bead */
+#define SHARP 0.85         /* of the samples are blurred more: a blurred bead has less contrast */
 #define SEEN 0.5           /* part of the samples in which a bead must be seen */
 #define TWICE 0.3          /* part of the samples in which two of them are too many */
 
@@ -35,6 +37,11 @@ static const unsigned char *sample(const track_blobs *blobs, int k)
 {
     const track_still *s = blobs->still;
     return s->samples + (size_t)k * (size_t)s->width * (size_t)s->height;
+}
+
+static const float *gains_of(const track_blobs *blobs, int k)
+{
+    return blobs->still->gains + (size_t)k * (size_t)blobs->still->height;
 }
 
 /* The spot with the greatest sum; NULL: there is none. */
@@ -60,7 +67,7 @@ static int is_inside(const track_blobs *b, const track_box *box, int column, int
 
 /* The contrast of a spot: of its pixels well inside, the lower third: highlights and the lit side of a ball are
  * the lighter part of it, and count as covered then. */
-static double contrast_of(const track_blobs *b, const unsigned char *frame, double gain, double sign,
+static double contrast_of(const track_blobs *b, const unsigned char *frame, const float *gains, double sign,
                           const track_box *box)
 {
     enum { MOST = 4096 };
@@ -71,7 +78,7 @@ static double contrast_of(const track_blobs *b, const unsigned char *frame, doub
         for (int row = box->top; row <= box->bottom && count < MOST; ++row)
             for (int column = box->left; column <= box->right && count < MOST; ++column) {
                 const size_t at = (size_t)row * (size_t)b->still->width + (size_t)column;
-                const double behind = gain * (double)b->still->level[at];
+                const double behind = (double)(gains[row] * b->still->level[at]);
                 if (is_inside(b, box, column, row, depth))
                     values[count++] =
                         sign > 0.0 ? (behind - frame[at]) / fmax(behind, 1.0) : frame[at] - behind;
@@ -87,9 +94,9 @@ static fst_status find_sign(track_blobs *b, double threshold, const fst_progress
     double sums[2] = {0.0, 0.0};
     *crowded = 0;
     for (int k = 0; k < b->still->count; ++k) {
-        const double gain = track_still_gain(b->still, sample(b, k));
+        const float *gains = gains_of(b, k);
         for (int bright = 0; bright < 2; ++bright) {
-            track_blobs_find(b, sample(b, k), gain, bright ? -1.0 : 1.0, threshold);
+            track_blobs_find(b, sample(b, k), gains, bright ? -1.0 : 1.0, threshold);
             const track_box *box = greatest(b);
             sums[bright] += box ? box->sum : 0.0;
             *crowded += b->count > 30;
@@ -104,25 +111,27 @@ static fst_status find_sign(track_blobs *b, double threshold, const fst_progress
 
 /* What the samples say of the bead. */
 typedef struct learnt {
-    double contrasts[TRACK_SAMPLES], areas[TRACK_SAMPLES], widths[TRACK_SAMPLES];
+    double contrasts[TRACK_SAMPLES], areas[TRACK_SAMPLES];
+    double widths[TRACK_SAMPLES], blurs[TRACK_SAMPLES]; /* pixels; and how much longer than wide it looks */
     double behind; /* level of the background behind it, summed over the samples */
     int seen, twice;
 } learnt;
 
 static fst_status measure_size(track_blobs *b, int k, const track_look *look, learnt *lesson, fst_error *error)
 {
-    const double gain = track_still_gain(b->still, sample(b, k));
-    double best = 0.0, second = 0.0, width = 0.0;
-    track_blobs_find(b, sample(b, k), gain, look->sign, look->threshold);
+    const float *gains = gains_of(b, k);
+    double best = 0.0, second = 0.0, width = 0.0, blur = 0.0;
+    track_blobs_find(b, sample(b, k), gains, look->sign, look->threshold);
     for (int i = 0; i < b->count; ++i) {
         track_cover cover;
-        const fst_status status = track_blobs_cover(b, sample(b, k), gain, look, &b->boxes[i], &cover, error);
+        const fst_status status = track_blobs_cover(b, sample(b, k), gains, look, &b->boxes[i], &cover, error);
         if (status != FST_OK)
             return status;
         if (cover.area > best) {
             second = best;
             best = cover.area;
             width = cover.narrow;
+            blur = cover.wide / fmax(cover.narrow, 0.1);
         } else if (cover.area > second) {
             second = cover.area;
         }
@@ -130,21 +139,22 @@ static fst_status measure_size(track_blobs *b, int k, const track_look *look, le
     if (!(best > 0.0))
         return FST_OK;
     lesson->areas[lesson->seen] = best;
-    lesson->widths[lesson->seen++] = width;
+    lesson->widths[lesson->seen] = width;
+    lesson->blurs[lesson->seen++] = blur;
     lesson->twice += second > SECOND * best;
     return FST_OK;
 }
 
 static void measure_contrast(track_blobs *b, int k, double sign, double threshold, learnt *lesson)
 {
-    const double gain = track_still_gain(b->still, sample(b, k));
-    track_blobs_find(b, sample(b, k), gain, sign, threshold);
+    const float *gains = gains_of(b, k);
+    track_blobs_find(b, sample(b, k), gains, sign, threshold);
     const track_box *box = greatest(b);
     if (!box)
         return;
-    const int middle = (box->top + box->bottom) / 2 * b->still->width + (box->left + box->right) / 2;
-    lesson->behind += gain * (double)b->still->level[middle];
-    lesson->contrasts[lesson->seen++] = contrast_of(b, sample(b, k), gain, sign, box);
+    const int row = (box->top + box->bottom) / 2, middle = row * b->still->width + (box->left + box->right) / 2;
+    lesson->behind += (double)(gains[row] * b->still->level[middle]);
+    lesson->contrasts[lesson->seen++] = contrast_of(b, sample(b, k), gains, sign, box);
 }
 
 static fst_status no_bead(const char *path, const track_blobs *b, int seen, double threshold, int crowded,
@@ -172,6 +182,20 @@ static fst_status two_beads(const char *path, int twice, int count, fst_error *e
         twice, count);
 }
 
+/* The width of the bead, by those samples in which it is blurred least: a path that bends within an exposure
+ * makes a blurred bead look wider, too. */
+static double width_of(const learnt *lesson)
+{
+    double sorted[TRACK_SAMPLES], widths[TRACK_SAMPLES];
+    int count = 0;
+    memcpy(sorted, lesson->blurs, sizeof sorted);
+    const double most = quantile(sorted, lesson->seen, 0.4);
+    for (int i = 0; i < lesson->seen; ++i)
+        if (lesson->blurs[i] <= most)
+            widths[count++] = lesson->widths[i];
+    return quantile(widths, count, 0.5);
+}
+
 fst_status track_learn(track_blobs *blobs, const char *path, const fst_progress *progress, track_look *look,
                        fst_error *error)
 {
@@ -185,7 +209,7 @@ fst_status track_learn(track_blobs *blobs, const char *path, const fst_progress 
         measure_contrast(blobs, k, look->sign, least, &lesson);
     if (status == FST_OK && lesson.seen < SEEN * count)
         return no_bead(path, blobs, lesson.seen, least, crowded, error);
-    look->contrast = quantile(lesson.contrasts, lesson.seen, 0.5);
+    look->contrast = quantile(lesson.contrasts, lesson.seen, SHARP);
     const double behind = lesson.seen ? lesson.behind / lesson.seen : 0.0;
     look->threshold = fmax(least, OF_CONTRAST * look->contrast * (look->sign > 0.0 ? behind : 1.0));
     lesson.seen = 0;
@@ -201,6 +225,6 @@ fst_status track_learn(track_blobs *blobs, const char *path, const fst_progress 
     if (lesson.twice > TWICE * count)
         return two_beads(path, lesson.twice, count, error);
     look->area = quantile(lesson.areas, lesson.seen, 0.5);
-    look->diameter = quantile(lesson.widths, lesson.seen, 0.5);
+    look->diameter = width_of(&lesson);
     return FST_OK;
 }

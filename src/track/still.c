@@ -9,7 +9,18 @@
 #include "base/watch.h"
 #include "track/film_decoder.h"
 
-enum { MOST_MEMORY = 1 << 29, LEAST_SAMPLES = 15, LEVELS = 256, BINS = 1024, ROWS_BETWEEN_QUESTIONS = 16 };
+#define DARK 16.0f /* gray levels: of less a ratio tells little */
+#define NEAR 0.08f /* part of the level within which a pixel counts as background */
+
+enum {
+    BAND = 30,
+    MOST_BANDS = 48,
+    MOST_MEMORY = 1 << 29,
+    LEAST_SAMPLES = 15,
+    LEVELS = 256,
+    BINS = 1024,
+    ROWS_BETWEEN_QUESTIONS = 16
+};
 
 /* ------------------------------------------------------------------ which frames */
 
@@ -93,12 +104,13 @@ static int median_of(const unsigned char *levels, int count, unsigned short coun
 }
 
 /* The mean of the samples near the median has finer steps and less noise than the median itself. */
-static double level_of(const unsigned char *levels, const double *gains, int count, int median, double near)
+static double level_of(const unsigned char *levels, const float *gains, int stride, int count, int median,
+                       double near)
 {
     double sum = 0.0;
     int used = 0;
     for (int i = 0; i < count; ++i) {
-        const double level = levels[i] / gains[i];
+        const double level = levels[i] / (double)gains[i * stride];
         if (fabs(level - median) <= near) {
             sum += level;
             ++used;
@@ -107,21 +119,22 @@ static double level_of(const unsigned char *levels, const double *gains, int cou
     return used ? sum / used : median;
 }
 
-static fst_status make_picture(track_still *s, const double *gains, double near, const fst_progress *progress,
-                               double fraction, fst_error *error)
+static fst_status make_picture(track_still *s, double near, const fst_progress *progress, double fraction,
+                               fst_error *error)
 {
     const size_t size = (size_t)s->width * (size_t)s->height;
     unsigned short counts[LEVELS] = {0};
     unsigned char column[TRACK_SAMPLES];
     for (size_t i = 0; i < size; ++i) {
+        const float *gains = s->gains + i / (size_t)s->width;
         for (int k = 0; k < s->count; ++k) {
-            const double level = s->samples[(size_t)k * size + i] / gains[k] + 0.5;
+            const float level = s->samples[(size_t)k * size + i] / gains[k * s->height] + 0.5f;
             column[k] = (unsigned char)(level < LEVELS ? level : LEVELS - 1);
         }
         const int median = median_of(column, s->count, counts);
         for (int k = 0; k < s->count; ++k)
             column[k] = s->samples[(size_t)k * size + i];
-        s->level[i] = (float)level_of(column, gains, s->count, median, near);
+        s->level[i] = (float)level_of(column, gains, s->height, s->count, median, near);
         if (i % ((size_t)s->width * ROWS_BETWEEN_QUESTIONS) == 0) {
             const fst_status told = fst_tell(progress, fraction, NULL, error);
             if (told != FST_OK)
@@ -131,12 +144,14 @@ static fst_status make_picture(track_still *s, const double *gains, double near,
     return FST_OK;
 }
 
-double track_still_gain(const track_still *still, const unsigned char *frame)
+/* The factor of some rows: the median of the ratios of pixels, then their mean near it. */
+static double gain_of_rows(const track_still *still, const unsigned char *frame, int from, int to)
 {
-    const size_t size = (size_t)still->width * (size_t)still->height, step = size > 40000 ? size / 10007 : 3;
+    const size_t begin = (size_t)from * (size_t)still->width, end = (size_t)to * (size_t)still->width;
+    const size_t step = end - begin > 4000 ? (end - begin) / 1999 : 1;
     int counts[BINS] = {0}, all = 0, seen = 0, bin = 0;
-    for (size_t i = step / 2; i < size; i += step) {
-        if (still->level[i] < 16.0f)
+    for (size_t i = begin; i < end; i += step) {
+        if (still->level[i] < DARK)
             continue;
         const float part = (float)frame[i] / still->level[i] * (BINS / 4);
         ++counts[part < BINS - 1 ? (int)part : BINS - 1];
@@ -146,25 +161,42 @@ double track_still_gain(const track_still *still, const unsigned char *frame)
         return 1.0;
     while ((seen += counts[bin]) * 2 <= all)
         ++bin;
-    const double middle = (bin + 0.5) * 4.0 / BINS;
+    const float middle = ((float)bin + 0.5f) * 4.0f / BINS;
     double over = 0.0, under = 0.0;
-    for (size_t i = step / 2; i < size; i += step)
-        if (still->level[i] >= 16.0f &&
-            fabs(frame[i] - middle * (double)still->level[i]) < 0.08 * (double)still->level[i]) {
+    for (size_t i = begin; i < end; i += step)
+        if (still->level[i] >= DARK &&
+            fabsf((float)frame[i] - middle * still->level[i]) < NEAR * still->level[i]) {
             over += frame[i];
             under += (double)still->level[i];
         }
-    return under > 0.0 ? over / under : middle;
+    return fmax(0.05, under > 0.0 ? over / under : (double)middle);
+}
+
+void track_still_gains(const track_still *still, const unsigned char *frame, float *gains)
+{
+    double bands[MOST_BANDS];
+    const int count = still->height / BAND < 1            ? 1
+                      : still->height / BAND < MOST_BANDS ? still->height / BAND
+                                                          : MOST_BANDS;
+    for (int k = 0; k < count; ++k)
+        bands[k] = gain_of_rows(still, frame, still->height * k / count, still->height * (k + 1) / count);
+    for (int row = 0; row < still->height; ++row) { /* straight lines between the middles of the bands */
+        const double at = fmax(0.0, fmin(count - 1.0, (row + 0.5) * count / still->height - 0.5));
+        const int k = (int)at < count - 1 ? (int)at : count - 1, next = k + 1 < count ? k + 1 : k;
+        gains[row] = (float)(bands[k] + (at - k) * (bands[next] - bands[k]));
+    }
 }
 
 /* The deviation of the samples from the picture, by its median: what moves does not count. */
-static double noise_of(const track_still *s, const double *gains)
+static double noise_of(const track_still *s)
 {
     const size_t size = (size_t)s->width * (size_t)s->height, step = size > 40000 ? size / 20011 : 1;
     int counts[4 * LEVELS] = {0}, all = 0, seen = 0, bin = 0;
     for (int k = 0; k < s->count; ++k)
         for (size_t i = step / 2; i < size; i += step) {
-            const double off = fabs(s->samples[(size_t)k * size + i] - gains[k] * (double)s->level[i]);
+            const double off =
+                fabs(s->samples[(size_t)k * size + i] -
+                     (double)(s->gains[(size_t)k * (size_t)s->height + i / (size_t)s->width] * s->level[i]));
             ++counts[off < LEVELS - 1 ? (int)(4.0 * off) : 4 * LEVELS - 1];
             ++all;
         }
@@ -176,34 +208,40 @@ static double noise_of(const track_still *s, const double *gains)
 fst_status track_still_make(track_still *still, const track_source *source, const fst_progress *progress,
                             fst_error *error)
 {
-    double gains[TRACK_SAMPLES];
     *still = (track_still){.width = 0};
     fst_status status = read_samples(still, source, progress, error);
     if (status != FST_OK)
         return status;
-    const size_t size = (size_t)still->width * (size_t)still->height;
-    for (int k = 0; k < still->count; ++k)
-        gains[k] = 1.0;
+    const size_t size = (size_t)still->width * (size_t)still->height, rows = (size_t)still->height;
+    still->gains = malloc(rows * (size_t)still->count * sizeof *still->gains);
+    if (!still->gains)
+        return fst_fail(error, FST_NO_MEMORY, source->path, "no memory for the brightness of its rows");
+    for (size_t i = 0; i < rows * (size_t)still->count; ++i)
+        still->gains[i] = 1.0f;
     /* First as if all frames were equally bright, then with the brightness that each turned out to have. */
-    status = make_picture(still, gains, 1.0, progress, 0.92, error);
-    for (int k = 0; k < still->count; ++k)
-        gains[k] = fmax(0.1, track_still_gain(still, still->samples + (size_t)k * size));
-    still->noise = noise_of(still, gains);
+    status = make_picture(still, 1.0, progress, 0.92, error);
+    for (int k = 0; k < still->count && status == FST_OK; ++k)
+        track_still_gains(still, still->samples + (size_t)k * size, still->gains + (size_t)k * rows);
+    still->noise = noise_of(still);
     if (status == FST_OK)
-        status = make_picture(still, gains, 2.0 * still->noise + 1.0, progress, 0.96, error);
-    still->noise = noise_of(still, gains);
+        status = make_picture(still, 2.0 * still->noise + 1.0, progress, 0.96, error);
+    for (int k = 0; k < still->count && status == FST_OK; ++k)
+        track_still_gains(still, still->samples + (size_t)k * size, still->gains + (size_t)k * rows);
+    still->noise = noise_of(still);
     return status;
 }
 
 void track_still_drop_samples(track_still *still)
 {
     free(still->samples);
+    free(still->gains);
     still->samples = NULL;
+    still->gains = NULL;
 }
 
 void track_still_free(track_still *still)
 {
-    free(still->samples);
+    track_still_drop_samples(still);
     free(still->level);
     *still = (track_still){.width = 0};
 }

@@ -16,6 +16,7 @@ typedef struct track_still {
     float *level;           /* gray levels */
     double noise;           /* deviation of a pixel where nothing moves, in gray levels */
     unsigned char *samples; /* the frames it was made of, one after another */
+    float *gains;           /* of each row of each sample */
     int count;
 } track_still;
 
@@ -25,8 +26,8 @@ fst_status track_still_make(track_still *still, const track_source *source, cons
 void track_still_drop_samples(track_still *still);
 void track_still_free(track_still *still);
 
-/* How much brighter a frame is as a whole than the still picture: a factor, which lamps and the camera's
- * exposure change from frame to frame. */
-double track_still_gain(const track_still *still, const unsigned char *frame);
+/* How much brighter each row of a frame is than the still picture: factors, which lamps and the camera's
+ * exposure change from frame to frame, and a rolling shutter under lamps that flicker from row to row. */
+void track_still_gains(const track_still *still, const unsigned char *frame, float *gains);
 
 #endif
