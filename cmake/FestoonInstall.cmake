@@ -21,7 +21,8 @@ install(FILES "${PROJECT_BINARY_DIR}/festoon.pc" DESTINATION "${pkgconfig_dir}")
 
 if(FESTOON_TOOLS)
     list(APPEND exported_libraries festoon_tools_library)
-    install(FILES include/festoon/festoon_tools.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/festoon")
+    install(FILES include/festoon/festoon_tools.h include/festoon/tracks.h include/festoon/fit.h
+            DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/festoon")
     configure_file(cmake/festoon-tools.pc.in festoon-tools.pc @ONLY)
     install(FILES "${PROJECT_BINARY_DIR}/festoon-tools.pc" DESTINATION "${pkgconfig_dir}")
     install(TARGETS festoon_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")

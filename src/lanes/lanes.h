@@ -18,7 +18,7 @@ enum { FST_MOST_LANES = 8 };
 typedef struct fst_lane_view {
     const double *y, *end;         /* states at the step's start and end */
     double *turns[2];              /* whole turns of Phi and of phi at the end (base/winding.h) */
-    const double *turns_before[2]; /* and at the start */
+    double *turns_before[2];       /* and at the start */
     double *activity;              /* greatest |component of d(state)/dt| since it was last set */
     const double *speed;           /* the same at the end of the step */
     double *next_mark;             /* time of the next mark */
@@ -42,6 +42,7 @@ typedef struct fst_lane_tries {
     unsigned accepted; /* the step's error is within the tolerance: time has gone on */
     unsigned landed;   /* of these, those at their limit of time */
     unsigned failed;   /* the step was given up */
+    unsigned contact;  /* dry contacts: the step is good, but its mode or the way may end in it; not accepted */
 } fst_lane_tries;
 
 typedef struct fst_lane_engine {
@@ -54,6 +55,11 @@ typedef struct fst_lane_engine {
     /* Put a trajectory that has its first stage into a lane, to go on to t_limit; and take it out. */
     void (*load)(void *batch, int lane, const fst_flow *flow, double t_limit);
     void (*release)(void *batch, int lane);
+
+    /* Dry contacts: put the trajectory of a lane back, which was taken out to end its step, and its integrals;
+     * everything else that the lane knows stays. */
+    void (*reload)(void *batch, int lane, const fst_flow *flow, double t_limit);
+    void (*load_integrals)(void *batch, int lane, const fst_integrals_double *from);
 
     /* All that a lane knows between two steps, as `numbers` doubles.  restore() follows load() of the same
      * trajectory, which then goes on with the same bits as if it had never left. */
@@ -94,12 +100,16 @@ typedef struct fst_lane_engine {
     /* The time, size and counts of a lane, as its flow has them; the drive does not change in lanes. */
     void (*extract_clock)(const void *batch, int lane, fst_flow *flow);
 
-    fst_tangent_engine tangents;    /* of the same width and form */
-    fst_splitting_engine splitting; /* so too */
+    /* Of the same width and form; the engines of dry contacts have none. */
+    fst_tangent_engine tangents;
+    fst_splitting_engine splitting;
 } fst_lane_engine;
 
 /* The engine of a form of arithmetic and a width (0: the widest of that form), or NULL where this processor or
  * this build has none. */
 const fst_lane_engine *fst_lane_engine_of(fst_arithmetic arithmetic, int lanes);
+
+/* The one for dry contacts, of the width and form of another. */
+const fst_lane_engine *fst_dry_lane_engine_of(const fst_lane_engine *engine);
 
 #endif

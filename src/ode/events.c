@@ -10,6 +10,9 @@
  *       |  o           o       spread or more.  In the others the function is sampled at 16 places, and the
  *     --|------o---o------x    neighbourhood of each low one is searched.
  *       |        v
+ *
+ * Where the values at the places rise all the time, or fall all the time, there is no dip to be found, and the
+ * ends tell it all.  Contacts, which have an event in every sixth step or so, look at that first.
  */
 #include "ode/flow.h"
 
@@ -159,6 +162,33 @@ double fst_flow_extreme(fst_flow *flow, fst_step_function function, const void *
 static double state_function_at(fst_flow *flow, double x, const void *function)
 {
     return fst_flow_function_at(flow, x, *(const fst_state_function *)function);
+}
+
+/* Whether the values at the places of the path never rise, or never fall; *end: the one at the end. */
+static int is_monotonic(const fst_flow *flow, fst_state_function function, double *start, double *end)
+{
+    int rises = 0, falls = 0;
+    const fst_bead_step_double *s = &flow->step;
+    double before = *start = function(flow, FST_PATH_STATE(s, FST_PATH_START), FST_PATH_PULL(s, FST_PATH_START));
+    for (int n = FST_PATH_START + 1; n <= FST_PATH_END; ++n) {
+        if (n == FST_PATH_END - 1) /* only a guess of the end */
+            continue;
+        *end = function(flow, FST_PATH_STATE(s, n), FST_PATH_PULL(s, n));
+        rises |= *end > before;
+        falls |= *end < before;
+        before = *end;
+    }
+    return !(rises && falls);
+}
+
+int fst_flow_becomes_negative(fst_flow *flow, fst_state_function function, double *x)
+{
+    double start, end;
+    if (!is_monotonic(flow, function, &start, &end) || !(start > 0))
+        return fst_flow_first_negative(flow, function, 0.0, x);
+    if (end < 0)
+        *x = fst_flow_locate(flow, function, 0.0, 1.0, start, end);
+    return end < 0;
 }
 
 int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double lo, double *x)

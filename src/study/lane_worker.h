@@ -33,7 +33,8 @@ typedef struct fst_lane_batch {
 typedef struct fst_row_worker {
     const fst_row_work *work;
     const fst_row_images *images; /* NULL: none are made */
-    const fst_lane_engine *engine;
+    const fst_lane_engine *usual, *dry; /* engines: of most contacts, and of dry ones; */
+    const fst_lane_engine *engine;      /* the one of the runs at work */
     fst_lane_batch run_up;   /* the fast form: runs before their windows */
     fst_lane_batch observed; /* the others */
     /* Lanes of the observed batch, one bit each: */
@@ -70,6 +71,14 @@ void fst_worker_extract_step(const fst_row_worker *w, const fst_lane_batch *b, i
 
 /* Whether such a step, which may end the run, does. */
 int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l);
+
+/* Tell the lane of an observed run what its window made of a step. */
+void fst_worker_follow_window(fst_row_worker *w, int l);
+
+/* Dry contacts: end a lane's step that is good, but in which its mode or its way may end, as the flow of a single
+ * run does. OVER: the run has ended; LANDED: a run before its window has reached it; else it is back in its lane. */
+typedef enum fst_lane_fate { FST_LANE_GOES_ON, FST_LANE_LANDED, FST_LANE_OVER } fst_lane_fate;
+fst_lane_fate fst_worker_end_step(fst_row_worker *w, fst_lane_batch *b, int l);
 
 /* Look at the accepted steps of the observed runs that may hold something; the lanes whose runs are over. */
 unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events);
