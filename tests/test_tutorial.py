@@ -1,5 +1,5 @@
-"""The shorter half of docs/tutorial.md is true: its commands run and print what it says.  (test_tutorial_long.py runs
-the whole page.)
+"""The shorter half of docs/tutorial.md is true, and what README.md shows of a run: the commands run and print what the
+pages say.  (test_tutorial_long.py runs both pages.)
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
@@ -17,14 +17,17 @@ SOURCE = pathlib.Path(os.environ["SOURCE_DIR"])
 LONG_SECTIONS = ("The regimes", "A map, and a film")
 
 
-class Page(unittest.TestCase):
-    titles = [title for title in tutorial.sections() if title not in LONG_SECTIONS]
+def can_draw(command):
+    return shutil.which("ffmpeg" if " movie " in command else "gnuplot") is not None
 
-    def test_commands_print_what_the_page_says(self):
-        steps = tutorial.sections()
+
+class Commands(unittest.TestCase):
+    def do(self, steps):
+        """Run the commands of a page in one folder."""
+        self.assertTrue(steps)
         with tempfile.TemporaryDirectory(prefix="festoon-tutorial-") as folder:
-            for command, lines in (step for title in self.titles for step in steps[title]):
-                if re.match(r"festoon (plot|movie)", command) and not self.can_draw(command):
+            for command, lines in steps:
+                if re.search("festoon (plot|movie) ", command) and not can_draw(command):
                     continue
                 with self.subTest(command=command):
                     done = tutorial.run(os.environ["FESTOON"], command, folder)
@@ -35,9 +38,15 @@ class Page(unittest.TestCase):
                     for target in re.findall(r" -o (\S+)", command):
                         self.assertGreater(os.path.getsize(os.path.join(folder, target)), 100)
 
-    @staticmethod
-    def can_draw(command):
-        return shutil.which("ffmpeg" if " movie " in command else "gnuplot") is not None
+
+class Pages(Commands):
+    def test_half_of_the_tutorial(self):
+        self.do([step for title, steps in tutorial.sections().items() if title not in LONG_SECTIONS for step in steps])
+
+    def test_the_run_of_the_readme(self):
+        steps = tutorial.sections(tutorial.README)["First minutes"]
+        self.assertGreater(len(steps[0][1]), 4)
+        self.do(steps[:1])
 
     def test_every_picture_is_there_and_small(self):
         """Each is made by a command of the page, and all together are less than 600 kB."""

@@ -1,4 +1,4 @@
-"""All of docs/tutorial.md is true: every command runs and prints what the page says.
+"""docs/tutorial.md and the first minutes of README.md are true: every command runs and prints what the page says.
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
@@ -9,9 +9,13 @@ import test_tutorial
 import tutorial
 
 
-class WholePage(test_tutorial.Page):
-    titles = list(tutorial.sections())
+class WholePages(test_tutorial.Commands):
+    def test_the_tutorial(self):
+        self.do([step for steps in tutorial.sections().values() for step in steps])
+
+    def test_the_readme(self):
+        self.do(tutorial.sections(tutorial.README)["First minutes"])
 
 
 if __name__ == "__main__":
-    unittest.main(defaultTest="WholePage")
+    unittest.main()

@@ -1,8 +1,9 @@
-"""docs/tutorial.md as a list of steps: its commands, the lines that they print, and its pictures.
+"""docs/tutorial.md and README.md as lists of steps: their commands, the lines that these print, and the pictures.
 
-    python3 tests/tutorial.py PROGRAM IMAGES     runs the whole page, and writes its pictures to the folder IMAGES
+    python3 tests/tutorial.py PROGRAM IMAGES     runs the tutorial, and writes its pictures to the folder IMAGES
 
-Indented lines that begin with "festoon" are commands; other indented lines are printed by the command above them.  The
+Indented lines that begin with "festoon" or "build/festoon" are commands; other indented lines behind a command are
+printed by it ("..." stands for more of them), but comments ("#") and lines before the first command are not.  The
 picture images/tutorial-NAME.png is NAME.png of a command, reduced by ffmpeg to twice the width at which it is shown.
 """
 
@@ -14,22 +15,24 @@ import subprocess
 import sys
 import tempfile
 
-PAGE = pathlib.Path(__file__).resolve().parent.parent / "docs" / "tutorial.md"
+SOURCE = pathlib.Path(__file__).resolve().parent.parent
+PAGE = SOURCE / "docs" / "tutorial.md"
+README = SOURCE / "README.md"
 
 
-def text():
-    return PAGE.read_text(encoding="utf-8")
+def text(page=PAGE):
+    return page.read_text(encoding="utf-8")
 
 
-def sections():
+def sections(page=PAGE):
     """{title: [(command, [printed lines])]} in the order of the page."""
     found = {}
-    for title, body in re.findall(r"^## (.*?)\n(.*?)(?=^## |\Z)", text(), re.M | re.S):
+    for title, body in re.findall(r"^## (.*?)\n(.*?)(?=^## |\Z)", text(page), re.M | re.S):
         steps = []
         for line in re.findall(r"^    (.*)", body, re.M):
-            if line.startswith("festoon "):
+            if re.match(r"(build/)?festoon ", line):
                 steps.append((line, []))
-            else:
+            elif steps and line.strip() != "..." and not line.startswith("#"):
                 steps[-1][1].append(line)
         found[title] = steps
     return found
