@@ -26,7 +26,7 @@ typedef struct command {
 /* The commands, a file each. */
 extern const command run_command, sweep_command, export_command, field_command, plot_command, movie_command,
     paper_command, init_command, check_command, schema_command, orbit_command, locked_command, branch_command,
-    lyapunov_command;
+    lyapunov_command, fit_command;
 
 /* The options of every command that reads a scene: the first rows of its table. */
 #define SCENE_OPTIONS                                                                                          \

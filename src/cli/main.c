@@ -10,7 +10,7 @@
 static const command *const commands[] = {
     &run_command,    &sweep_command,  &export_command,   &field_command,  &orbit_command,
     &locked_command, &branch_command, &lyapunov_command, &plot_command,   &movie_command,
-    &paper_command,  &init_command,   &check_command,    &schema_command,
+    &paper_command,  &init_command,   &check_command,    &schema_command, &fit_command,
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 
