@@ -8,8 +8,10 @@
 #include <string.h>
 
 #include "base/error.h"
+#include "track/fit_bootstrap.h"
 #include "track/fit_curve.h"
 #include "track/fit_outliers.h"
+#include "track/fit_rivals.h"
 #include "track/fit_words.h"
 
 #define FIT_COOKIE 0x66697431u
@@ -100,7 +102,7 @@ static double robust_sum(const fit_problem *p)
 }
 
 /* Where the scene's parameters have not the motion that was measured, look for a start around them. */
-static fst_status find_start(fit_problem *p, double *u, fst_error *error)
+fst_status fit_find_start(fit_problem *p, double *u, fst_error *error)
 {
     static const double steps[] = {-0.25, 0.25, -0.5, 0.5, -1.0, 1.0};
     const int m = fit_residual_count(p);
@@ -170,7 +172,7 @@ static fst_status check_distinct(fit_problem *p, const double *u, fst_error *err
 
 fst_status fit_search_all(fit_problem *p, double *u, double *chi2, int *too_many, fst_error *error)
 {
-    fst_status status = find_start(p, u, error);
+    fst_status status = fit_find_start(p, u, error);
     if (status == FST_OK)
         status = fit_solve(p, u, chi2, error);
     if (status == FST_OK)
@@ -386,6 +388,10 @@ static fst_status report_all(fit_problem *p, fit_stage *stage, fit_estimate *e, 
         status = fit_weakest(p, e, fit->error_scale, fit->weakest, sizeof fit->weakest, error);
     if (status == FST_OK)
         status = report_curve(p, e, options->curve_points, fit, error);
+    if (status == FST_OK && options->rivals)
+        status = fit_rivals(p, stage, points, options, fit, error);
+    if (status == FST_OK && options->bootstrap > 0)
+        status = fit_bootstrap(p, e, stage, options->bootstrap, options->seed, fit, error);
     return status;
 }
 

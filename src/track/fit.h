@@ -14,6 +14,10 @@ typedef struct fit_stage {
 
 void fit_stage_begin(fit_stage *s, const char *what, double from, double to, double expected);
 
+/* Evaluate at u; where the model has another motion there than the measured one, look around for a better
+ * start, which is left in u.  FST_NO_CONVERGENCE: there is none. */
+fst_status fit_find_start(fit_problem *p, double *u, fst_error *error);
+
 /* The whole search from the coordinates u on: a start, the minimum, outliers. */
 fst_status fit_search_all(fit_problem *p, double *u, double *chi2, int *too_many, fst_error *error);
 
