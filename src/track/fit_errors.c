@@ -21,6 +21,33 @@
 
 #include "base/error.h"
 
+/* Eigenvalues and eigenvectors of J^T J. */
+static void find_information(const double *jacobian, int m, int n, double values[FIT_MOST], fit_matrix *vectors)
+{
+    fit_matrix information = {.size = n};
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b < n; ++b)
+            for (int i = 0; i < m; ++i)
+                information.a[a][b] += jacobian[i + m * a] * jacobian[i + m * b];
+    fit_eigen(&information, values, vectors);
+    for (int k = 0; k < n; ++k) /* rounding may leave nothing, or less, of what is not known at all */
+        values[k] = fmax(values[k], 1e-18 * values[n - 1] + 1e-200);
+}
+
+static int is_distinct(const double *eigenvalues, int n)
+{
+    return eigenvalues[0] > 1e-9 * eigenvalues[n - 1] && eigenvalues[0] > 1e-4;
+}
+
+int fit_covariance(const double *jacobian, int m, int n, fit_matrix *covariance)
+{
+    double values[FIT_MOST];
+    fit_matrix vectors;
+    find_information(jacobian, m, n, values, &vectors);
+    fit_inverse(n, values, &vectors, covariance);
+    return is_distinct(values, n);
+}
+
 fst_status fit_estimate_make(fit_problem *p, const double *u, fit_estimate *e, fst_error *error)
 {
     const int m = fit_residual_count(p), n = p->space.count;
@@ -36,15 +63,7 @@ fst_status fit_estimate_make(fit_problem *p, const double *u, fit_estimate *e, f
     if (status != FST_OK)
         return status;
     e->chi2 = fit_sum_of_squares(e->f, m);
-    fit_matrix information = {.size = n};
-    for (int a = 0; a < n; ++a)
-        for (int b = 0; b < n; ++b)
-            for (int i = 0; i < m; ++i)
-                information.a[a][b] += e->jacobian[i + m * a] * e->jacobian[i + m * b];
-    fit_eigen(&information, e->eigenvalues, &e->vectors);
-    double greatest = e->eigenvalues[n - 1];
-    for (int k = 0; k < n; ++k) /* rounding may leave nothing, or less, of what is not known at all */
-        e->eigenvalues[k] = fmax(e->eigenvalues[k], 1e-18 * greatest + 1e-200);
+    find_information(e->jacobian, m, n, e->eigenvalues, &e->vectors);
     fit_inverse(n, e->eigenvalues, &e->vectors, &e->covariance);
     return FST_OK;
 }
@@ -61,7 +80,7 @@ void fit_estimate_free(fit_estimate *e)
 fst_status fit_estimate_check(const fit_problem *p, const fit_estimate *e, fst_error *error)
 {
     const int n = p->space.count;
-    if (e->eigenvalues[0] > 1e-9 * e->eigenvalues[n - 1] && e->eigenvalues[0] > 1e-4)
+    if (is_distinct(e->eigenvalues, n))
         return FST_OK;
     double q[FIT_MOST], greatest = 0.0;
     for (int i = 0; i < n; ++i) {

@@ -16,6 +16,9 @@ typedef struct fit_estimate {
 fst_status fit_estimate_make(fit_problem *p, const double *u, fit_estimate *e, fst_error *error);
 void fit_estimate_free(fit_estimate *e);
 
+/* The inverse of J^T J; 0: some direction is not known at all. */
+int fit_covariance(const double *jacobian, int m, int n, fit_matrix *covariance);
+
 /* FST_BAD_INPUT: the numbers do not depend on a parameter, or not on a combination of some; the sentence says
  * which. */
 fst_status fit_estimate_check(const fit_problem *p, const fit_estimate *e, fst_error *error);

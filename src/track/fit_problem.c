@@ -81,6 +81,8 @@ fst_status fit_problem_begin(fit_problem *p, const fst_params *params, const fst
     if (status != FST_OK)
         return status;
     p->rows.progress = progress;
+    p->tolerance = 1e-7;
+    p->most_calls = 100;
     p->values = calloc((size_t)p->rows.count, sizeof *p->values);
     p->slopes = calloc((size_t)p->rows.count * (size_t)p->space.count, sizeof *p->slopes);
     return p->values && p->slopes ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
@@ -247,34 +249,42 @@ static void space_derivatives(const fit_problem *p, const double *u, double *jac
     }
 }
 
-fst_status fit_derivatives(fit_problem *p, const double *u, double *jacobian, fst_error *error)
+void fit_weighted_derivatives(const fit_problem *p, double *jacobian)
 {
     const int m = fit_residual_count(p), n = p->space.count;
-    double *r = calloc((size_t)m, sizeof *r);
-    fst_status status = r ? FST_OK : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
-    if (status == FST_OK)
-        status = fit_residuals(p, u, r, error);
-    if (status == FST_OK) {
-        fit_rows_keep(&p->rows, u, p->values);
-        status = fit_rows_slopes(&p->rows, p->slopes, error);
-    }
-    for (int j = 0; j < n && status == FST_OK; ++j) {
+    double raw[FIT_MOST];
+    for (int j = 0; j < n; ++j) {
         double *column = jacobian + (size_t)m * (size_t)j;
         memset(column, 0, (size_t)m * sizeof *column);
         for (int i = 0; i < p->count; ++i) {
             const fit_number *number = &p->numbers[i];
-            const double slope = p->slopes[number->row * n + j][number->what] / number->error;
-            r[i] = p->values[number->row].origin == FIT_NOTHING ? 0.0 : slope;
-            if (p->robust > 0.0)
-                column[i] = sqrt(number->weight) * r[i] / widening(p, number) *
-                            taming(fit_plain_residual(p, i), p->robust);
+            fit_plain_slope(p, i, raw);
+            column[i] = p->robust > 0.0
+                            ? sqrt(number->weight) * raw[j] * taming(fit_plain_residual(p, i), p->robust)
+                            : raw[j] * widening(p, number);
         }
         if (!(p->robust > 0.0))
-            join_rows(p, r, column);
+            join_rows(p, column, column);
+    }
+    space_derivatives(p, p->slopes_at, jacobian);
+}
+
+fst_status fit_derivatives(fit_problem *p, const double *u, double *jacobian, fst_error *error)
+{
+    const size_t size = (size_t)p->space.count * sizeof *u;
+    double *f = calloc((size_t)fit_residual_count(p), sizeof *f);
+    fst_status status =
+        f ? fit_residuals(p, u, f, error) : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
+    free(f);
+    if (status == FST_OK && !(p->has_slopes && memcmp(u, p->slopes_at, size) == 0)) {
+        p->has_slopes = 0;
+        fit_rows_keep(&p->rows, u, p->values);
+        status = fit_rows_slopes(&p->rows, p->slopes, error);
+        memcpy(p->slopes_at, u, size);
+        p->has_slopes = status == FST_OK;
     }
     if (status == FST_OK)
-        space_derivatives(p, u, jacobian);
-    free(r);
+        fit_weighted_derivatives(p, jacobian);
     return status;
 }
 
@@ -327,7 +337,6 @@ double fit_sum_of_squares(const double *f, int count)
 
 fst_status fit_solve(fit_problem *p, double *u, double *chi2, fst_error *error)
 {
-    enum { MOST_CALLS = 120 };
     const int m = fit_residual_count(p), n = p->space.count;
     double x[FIT_MOST] = {0.0}, origin[FIT_MOST];
     int places[FIT_MOST];
@@ -337,7 +346,7 @@ fst_status fit_solve(fit_problem *p, double *u, double *chi2, fst_error *error)
     memcpy(origin, u, (size_t)n * sizeof *u);
     search_state state = {p, origin, FST_OK, error};
     /* Coordinates are logarithms: the first step changes a parameter by a third at most. */
-    const fit_search search = {ask, &state, m, n, x, f, f + m, places, 0.3, MOST_CALLS};
+    const fit_search search = {ask, &state, m, n, x, f, f + m, places, 0.3, p->tolerance, p->most_calls};
     (void)p->minpack->least_squares(&search);
     fst_status status = state.status;
     for (int k = 0; k < n; ++k)

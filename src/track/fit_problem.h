@@ -22,12 +22,16 @@ typedef struct fit_problem {
     double *frequency_error; /* of each row; 0: none */
     double robust;           /* residuals beyond this count by their logarithm; 0: all count by their square */
     const fst_minpack *minpack;
+    double tolerance; /* of chi^2, relative, at which the search ends ... */
+    int most_calls;   /* ... or the number of its trials */
 
     /* The latest evaluation. */
     fit_value *values;
     double at[FIT_MOST];
     int is_evaluated;
-    double (*slopes)[FST_MEASURED_COUNT];
+    double (*slopes)[FST_MEASURED_COUNT]; /* at `slopes_at`, if they are known */
+    double slopes_at[FIT_MOST];
+    int has_slopes;
 } fit_problem;
 
 /* Residuals: of the numbers; of the frequencies of the rows, by their errors; of priors; of ranges. */
@@ -45,6 +49,9 @@ fst_status fit_residuals(fit_problem *p, const double *u, double *f, fst_error *
 
 /* Their derivatives at u, jacobian[i + m k], at which the rows then stand. */
 fst_status fit_derivatives(fit_problem *p, const double *u, double *jacobian, fst_error *error);
+
+/* The same from the slopes where they were computed last, with the weights of now. */
+void fit_weighted_derivatives(const fit_problem *p, double *jacobian);
 
 /* The plain residual of a number, (model - value)/error, as it was evaluated last, with the error of its
  * frequency; and its derivative along each coordinate. */

@@ -41,6 +41,8 @@ static fst_status fit_rival(const fit_problem *p, const fst_points *points, cons
         keys[i] = key_of(options->free[i], rival->law);
     mine.free = keys;
     fst_status status = fit_problem_begin(&q, &params, points, &mine, p->rows.progress, error);
+    q.tolerance = 1e-3; /* of chi^2, of which differences of 10 count */
+    q.most_calls = 30;
     for (int i = 0; i < q.count && i < p->count; ++i) {
         q.numbers[i].weight = p->numbers[i].weight;
         q.numbers[i].value = p->numbers[i].value;

@@ -24,6 +24,8 @@
 #define ORBIT_STEP 1e-5
 #define RUN_STEP 1e-2
 
+#define PERIODS_OF_ANOTHER 100.0
+
 fst_status fit_rows_begin(fit_rows *rows, const fit_space *space, const double *frequencies, int count,
                           const fst_progress *progress, fst_error *error)
 {
@@ -111,6 +113,9 @@ static fst_status find_value(const fit_rows *rows, const fit_row *row, const dou
         guess_orbit(rows, row, u, &guess);
         status = fst_orbit_near(&params, &guess, progress, &out->orbit, error);
     }
+    /* Where a known orbit was lost another one is near, or none: long waits would only slow the search down. */
+    if (row->last.origin == FIT_ORBIT)
+        params.run_periods = fmin(params.run_periods, PERIODS_OF_ANOTHER);
     if (status != FST_OK && status != FST_INTERRUPTED && status != FST_UNAVAILABLE)
         status = fst_orbit_find(&params, progress, &out->orbit, error);
     if (status == FST_INTERRUPTED || status == FST_UNAVAILABLE)

@@ -21,6 +21,7 @@ typedef struct fit_search {
     double *work;      /* FIT_SEARCH_WORK(m, n) doubles */
     int *places;       /* n */
     double first_step; /* the longest first step, in units of the unknowns */
+    double tolerance;  /* relative, of the sum of squares */
     int most_calls;
 } fit_search;
 #define FIT_SEARCH_WORK(m, n) ((size_t)(m) * (size_t)(n) + 6u * (size_t)(n) + (size_t)(m))
