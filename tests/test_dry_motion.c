@@ -27,7 +27,7 @@ static fst_params variant(int which, double omega)
     if (which / 2 == 2)
         p.friction_rolling_resistance = 2e-3;
     if (which / 2 == 3)
-        p.friction_rolling_resistance = 0.3; /* at rest for a third of the time */
+        p.friction_rolling_resistance = 0.2; /* at rest for a part of the time */
     if (which == 4)
         p.friction_contact_rate = 20;
     return p;

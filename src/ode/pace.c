@@ -13,8 +13,6 @@
 
 #include "base/bracket.h"
 
-static const double LEAST_DIGITS = 0.03; /* relative error of V or W_h that a step may make */
-
 int fst_contact_mode(const fst_flow *flow)
 {
     return (int)flow->step.context.coefficients.law.coulomb.mode;
@@ -28,58 +26,18 @@ int fst_contact_roll(const fst_flow *flow)
 /* Whether the last step measured a time of its own. */
 static int has_pace(const fst_flow *flow)
 {
-    const int mode = fst_contact_mode(flow);
-    return mode == FST_MODE_SLIP || (flow->step.context.coefficients.kinds.resists && mode != FST_MODE_FLIGHT &&
-                                     fst_contact_roll(flow) == FST_ROLL_ROLLS);
-}
-
-static double size_of(const double v[2])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1]);
+    return fst_measures_time_double(&flow->step.context.coefficients);
 }
 
 /* ------------------------------------------------------------------ errors */
 
-/* The embedded errors of the slip and of W_h in a step, as dop853.inl has them for the whole state. */
-static void contact_errors(const fst_bead_step_double *s, double *of_slip, double *of_roll)
-{
-    static const int slot[8] = {0, 5, 6, 7, 8, 9, 10, 11};
-    static const double fifth[8] = {DOP_E5_1, DOP_E5_6,  DOP_E5_7,  DOP_E5_8,
-                                    DOP_E5_9, DOP_E5_10, DOP_E5_11, DOP_E5_12};
-    double error[FST_STATE_SIZE] = {0}, slip[2];
-    for (int i = FST_VX; i < FST_STATE_SIZE; ++i)
-        for (int j = 0; j < 8; ++j)
-            error[i] += s->h * fifth[j] * s->k[slot[j]][i];
-    fst_slip_double(&s->context.coefficients, error, slip);
-    *of_slip = size_of(slip);
-    *of_roll = size_of(error + FST_WX);
-}
-
 double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *atol)
 {
-    double error = fst_bead_step_error_double(s, rtol, atol), of_slip, of_roll;
+    const double error = fst_bead_step_error_double(s, rtol, atol);
     const fst_coefficients_double *c = &s->context.coefficients;
     if (fst_is_in_flight_double(c))
         return fmax(error, fst_flight_error(s, rtol));
-    const int slips = c->kinds.paced && c->law.coulomb.mode == FST_MODE_SLIP;
-    const int rolls = c->kinds.resists && c->resistance.mode == FST_ROLL_ROLLS;
-    if (!slips && !rolls)
-        return error;
-    contact_errors(s, &of_slip, &of_roll);
-    if (slips) {
-        double start[2], end[2];
-        fst_slip_double(c, s->y, start);
-        fst_slip_double(c, s->end, end);
-        const double least = fmin(fst_contact_motion_2_double(c, start, s->y[FST_WZ]),
-                                  fst_contact_motion_2_double(c, end, s->end[FST_WZ]));
-        const double slip_error = of_slip / (LEAST_DIGITS * sqrt(least));
-        error = slip_error > error ? slip_error : error;
-    }
-    if (rolls) {
-        const double least = fmin(size_of(s->y + FST_WX), size_of(s->end + FST_WX));
-        error = fmax(error, of_roll / (LEAST_DIGITS * least));
-    }
-    return error;
+    return c->kinds.paced ? fst_paced_error_double(s, error) : error;
 }
 
 /* ------------------------------------------------------------------ time within a step */
@@ -87,13 +45,7 @@ double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *
 /* The time that the last step took. */
 double fst_contact_elapsed(const fst_flow *flow)
 {
-    const fst_bead_step_double *s = &flow->step;
-    double pace[FST_PATH_PLACES];
-    if (!has_pace(flow))
-        return s->h;
-    for (int place = 0; place < FST_PATH_PLACES; ++place)
-        pace[place] = FST_PATH_PACE(s, place);
-    return fst_path_integral_double(s, pace, 1);
+    return fst_paced_time_double(&flow->step);
 }
 
 static void make_clock(fst_flow *flow)

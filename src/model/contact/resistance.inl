@@ -36,6 +36,11 @@ static inline REAL_MASK FN(rests)(const FN(resistance) * q)
     return REAL_LESS(REAL_ABS(q->mode - REAL_OF(FST_ROLL_RESTS)), R(0.5));
 }
 
+static inline REAL_MASK FN(starts_to_roll)(const FN(resistance) * q)
+{
+    return REAL_LESS(REAL_ABS(q->mode - REAL_OF(FST_ROLL_STARTS)), R(0.5));
+}
+
 /* Whether a bead (in some lane) does not just roll: what only the other modes need is not computed else. */
 static inline int FN(resist_asks_balance)(const FN(resistance) * q)
 {
