@@ -313,7 +313,8 @@ static void test_bad_input(void **unused)
     assert_true(isnan(p.contact_radius));
     /* A size that plays no part is a mistake. */
     assert_int_equal(fst_params_check_effects(&p, &error), FST_BAD_INPUT);
-    CHECK_CONTAINS(error.sentence, "contact.modulus = 5.1e+10 has no effect with this friction.law: choose coulomb");
+    CHECK_CONTAINS(error.sentence,
+                   "contact.modulus = 5.1e+10 has no effect with this friction.law: choose coulomb");
     p.friction_law = FST_FRICTION_COULOMB;
     assert_int_equal(fst_params_check_effects(&p, &error), FST_BAD_INPUT);
     CHECK_CONTAINS(error.sentence, "has no effect with this contact.patch: choose hertz or pade");

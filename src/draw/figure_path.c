@@ -25,6 +25,7 @@ static const struct {
     {"n_z", "n_z"},
     {"slip", "slip |V| of the contact point (ℓγ), in proportion to friction"},
     {"sticking", "contact: 1 sticks, 0 slips"},
+    {"z", "height over the plate (ℓ)"},
     {"friction_use", "friction over what static friction could take, |f|/(μ_s N)"},
     {"angle", "angle between n and B (degrees)"},
     {"B", "|B| (B_0)"},

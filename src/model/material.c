@@ -77,8 +77,8 @@ static fst_status check_contact(const fst_params *params, const char *key, doubl
     const char *of, *choice = isnan(value) ? NULL : fst_param_missing_choice(params, key, &of);
     if (!choice)
         return FST_OK;
-    return fst_fail(error, FST_BAD_INPUT, key, "%s = %g has no effect with this %s: choose %s, or leave %s out", key,
-                    value, of, choice, key);
+    return fst_fail(error, FST_BAD_INPUT, key, "%s = %g has no effect with this %s: choose %s, or leave %s out",
+                    key, value, of, choice, key);
 }
 
 fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
