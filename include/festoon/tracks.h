@@ -115,8 +115,8 @@ FST_API const fst_measured_info *fst_measured_at(int index);
  * with an error.  Rows that cannot belong to the motion become FST_FRAME_REJECTED, and where the clock was
  * corrected the track's times and frame rate are corrected too.  FST_NO_CONVERGENCE: the bead rests, or goes
  * round too little for anything to be measured. */
-FST_API fst_status fst_measure_track(fst_track *track, const fst_measure_options *options, fst_measurement *measured,
-                               fst_error *error);
+FST_API fst_status fst_measure_track(fst_track *track, const fst_measure_options *options,
+                                     fst_measurement *measured, fst_error *error);
 
 /* A measurement as JSON; free() it.  NULL: no memory. */
 FST_API char *fst_measurement_json(const fst_measurement *measured);
