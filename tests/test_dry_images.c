@@ -32,8 +32,9 @@ static fst_params job_params(int i)
     }
     if (i == 11)
         p.impact_restitution = 0.5;
-    p.run_periods = 25;
-    p.run_discard = 5;
+    p.run_periods = i < 10 ? 20 : 6;
+    p.run_discard = 4;
+    p.run_rtol = 1e-8;
     return p;
 }
 
@@ -124,7 +125,7 @@ static void do_all(store *s, fst_arithmetic arithmetic, int lanes, int stride, i
         if (status != FST_OK && status != FST_INTERRUPTED)
             fail_msg("fst_rows_with_images: %s", error.sentence);
         s->broken_off += status == FST_INTERRUPTED;
-        s->patience += patience > 0;
+        s->patience += patience > 0 ? 1 + s->patience / 2 : 0;
     }
     for (int i = 0; i < JOBS; ++i) {
         assert_true(s->done[i]);
@@ -149,8 +150,8 @@ static void check_close(const store *s, const store *runs)
     for (int i = 0; i < JOBS; ++i) {
         const fst_run_result *a = &s->results[i], *b = &runs->results[i];
         assert_int_equal(a->regime, b->regime);
-        if (fabs(a->mean_r - b->mean_r) > 1e-7 || fabs(a->sticking - b->sticking) > 1e-7 ||
-            fabs(a->max_slip - b->max_slip) > 1e-6 || fabs(a->mean_friction_power - b->mean_friction_power) > 1e-7)
+        if (fabs(a->mean_r - b->mean_r) > 1e-6 || fabs(a->sticking - b->sticking) > 1e-6 ||
+            fabs(a->max_slip - b->max_slip) > 1e-6 || fabs(a->mean_friction_power - b->mean_friction_power) > 1e-6)
             fail_msg("job %d: mean_r %.12g, sticking %.12g, max_slip %.12g; of the run %.12g, %.12g, %.12g", i,
                      a->mean_r, a->sticking, a->max_slip, b->mean_r, b->sticking, b->max_slip);
     }
@@ -160,13 +161,14 @@ static void check_close(const store *s, const store *runs)
 static void check_form(fst_arithmetic form, int lanes, const store *runs)
 {
     static store rows, again;
-    do_all(&rows, form, lanes, 1, 0);
-    if (form == FST_ARITHMETIC_PORTABLE)
+    do_all(&rows, form, lanes, 5, 0);
+    if (form == FST_ARITHMETIC_PORTABLE) {
         check_rows(&rows, runs, "portable rows");
-    else
+    } else {
         check_close(&rows, runs);
-    do_all(&again, form, lanes, 5, 0);
-    check_rows(&again, &rows, "another order");
+        do_all(&again, form, lanes, 1, 0);
+        check_rows(&again, &rows, "another order");
+    }
     do_all(&again, form, lanes, 1, 1);
     check_rows(&again, &rows, "broken off");
     assert_true(again.broken_off > 5 && again.found > 5);

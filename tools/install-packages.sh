@@ -9,7 +9,7 @@
 set -eu
 
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansson-dev libsqlite3-dev libhdf5-dev
-    liblapacke-dev libcairo2-dev libopenmpi-dev"
+    liblapacke-dev libcairo2-dev libopenmpi-dev libcminpack-dev"
 demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
 test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
 # A Slurm of its own for the sweep under Slurm: the daemons run as root without systemd, in a container too.

@@ -360,5 +360,6 @@ FST_API const char *fst_tools_components(void);
 
 #include <festoon/fit.h>
 #include <festoon/tracks.h>
+#include <festoon/film_tracks.h>
 
 #endif

@@ -18,7 +18,7 @@ enum { FST_MOST_LANES = 8 };
 typedef struct fst_lane_view {
     const double *y, *end;         /* states at the step's start and end */
     double *turns[2];              /* whole turns of Phi and of phi at the end (base/winding.h) */
-    double *turns_before[2];       /* and at the start */
+    const double *turns_before[2]; /* and at the start */
     double *activity;              /* greatest |component of d(state)/dt| since it was last set */
     const double *speed;           /* the same at the end of the step */
     double *next_mark;             /* time of the next mark */
@@ -42,7 +42,9 @@ typedef struct fst_lane_tries {
     unsigned accepted; /* the step's error is within the tolerance: time has gone on */
     unsigned landed;   /* of these, those at their limit of time */
     unsigned failed;   /* the step was given up */
-    unsigned contact;  /* dry contacts: the step is good, but its mode or the way may end in it; not accepted */
+    /* Dry contacts: */
+    unsigned contact; /* the step is good, but not accepted yet: its mode or the way may end in it */
+    unsigned anew;    /* of those accepted, the steps that were made anew */
 } fst_lane_tries;
 
 typedef struct fst_lane_engine {
@@ -56,10 +58,12 @@ typedef struct fst_lane_engine {
     void (*load)(void *batch, int lane, const fst_flow *flow, double t_limit);
     void (*release)(void *batch, int lane);
 
-    /* Dry contacts: put the trajectory of a lane back, which was taken out to end its step, and its integrals;
-     * everything else that the lane knows stays. */
+    /* Dry contacts: accept the last step of the lanes `contact` after all; make the one of a lane anew as its next
+     * try, with another size and whatever its error; let a lane go on with the trajectory of its flow in another
+     * mode, where everything else that it knows stays. */
+    void (*pass)(void *batch, unsigned lanes);
+    void (*make_anew)(void *batch, int lane, double size);
     void (*reload)(void *batch, int lane, const fst_flow *flow, double t_limit);
-    void (*load_integrals)(void *batch, int lane, const fst_integrals_double *from);
 
     /* All that a lane knows between two steps, as `numbers` doubles.  restore() follows load() of the same
      * trajectory, which then goes on with the same bits as if it had never left. */

@@ -38,14 +38,15 @@
  * Dry contacts.  An engine of its own (FST_DRY_LANES) knows the laws of dry friction at a point.  Each lane has
  * its mode (model/contact/coulomb.inl), and masks select what belongs to it: the force, the pace in which its
  * step is measured, and what could end the mode.  A step that may hold such an end, or the end of the way, is
- * not passed in the lane but reported (`contact`).  The code of single runs ends it, and the trajectory is
- * loaded into its lane again:
+ * not accepted but reported (`contact`), and the code of single runs looks for the event:
  *
  *     lane          0         1         2         3
  *     mode         slip      stick     slip      onset
  *     |V|          0.03        0       2e-9      7e-5
- *                 accept    accept    contact   contact: the flow looks for the event, cuts the step there,
- *                                                        enters the next mode, and is loaded again
+ *                 accept    accept    contact   contact: the event lies at the fraction 0.37, so that the lane
+ *                                                        makes the step anew, 0.37 times as long
+ *
+ * Once such a step has passed, the flow enters the next mode, and the lane goes on from there (reload()).
  *
  * The including file brings base/wide.h and defines ENGINE (the table's symbol), ENGINE_NAME and ENGINE_FUSED.
  */
@@ -88,6 +89,7 @@ typedef struct batch {
     /* No REAL below this line: save() and restore() take all that are above it. */
     unsigned in_use;
     unsigned observed; /* lanes whose last step was observed */
+    unsigned anew;     /* lanes whose next try makes the last step anew */
     unsigned known;    /* lanes in which the integrands at the start of the present step are known */
 } batch;
 
@@ -225,12 +227,11 @@ static void reload(void *memory, int lane, const fst_flow *flow, double t_limit)
     load_motion(memory, lane, flow, t_limit);
 }
 
-static void load_integrals(void *memory, int lane, const fst_integrals_double *from)
+static void make_anew(void *memory, int lane, double size)
 {
-    REAL *to = (REAL *)&((batch *)memory)->sums;
-    const double *numbers = (const double *)from;
-    for (size_t i = 0; i < sizeof *from / sizeof *numbers; ++i)
-        to[i][lane] = numbers[i];
+    batch *b = memory;
+    b->control.size[lane] = size;
+    b->anew |= 1u << lane;
 }
 #endif
 
@@ -239,10 +240,11 @@ static void release(void *memory, int lane)
 {
     batch *b = memory;
     b->in_use &= ~(1u << lane);
+    b->anew &= ~(1u << lane);
     b->control.size[lane] = 0.0;
 }
 
-/* A lane as numbers: its share of every REAL of the batch, and whether its integrands are known.  Where the
+/* A lane as numbers: its share of every REAL of the batch, and its bits of the words.  Where the
  * integers of the coefficients lie there are no REALs; restore() leaves them as load() set them. */
 enum {
     LANE_REALS = offsetof(batch, in_use) / sizeof(REAL),
@@ -256,7 +258,8 @@ static void save(const void *memory, int lane, double *numbers)
     const REAL *reals = memory;
     for (int i = 0; i < LANE_REALS; ++i)
         numbers[i] = i < FIRST_INTEGERS || i >= AFTER_INTEGERS ? reals[i][lane] : 0.0;
-    numbers[LANE_REALS] = b->known >> lane & 1u ? 1.0 : 0.0;
+    numbers[LANE_REALS] = b->known >> lane & 1u;
+    numbers[LANE_REALS + 1] = b->anew >> lane & 1u;
 }
 
 static void restore(void *memory, int lane, const double *numbers)
@@ -267,6 +270,7 @@ static void restore(void *memory, int lane, const double *numbers)
         if (i < FIRST_INTEGERS || i >= AFTER_INTEGERS)
             reals[i][lane] = numbers[i];
     b->known = (b->known & ~(1u << lane)) | (numbers[LANE_REALS] != 0.0 ? 1u << lane : 0u);
+    b->anew = (b->anew & ~(1u << lane)) | (numbers[LANE_REALS + 1] != 0.0 ? 1u << lane : 0u);
 }
 
 static void extract_clock(const void *memory, int lane, fst_flow *flow)
@@ -353,7 +357,6 @@ static void pass_time(batch *b, fst_wide_mask mask)
 
 static void accept(batch *b, fst_wide_mask mask, REAL factor)
 {
-    b->norm_drift = fst_wide_add_where(mask, b->norm_drift, b->drift);
     FN(accept_step)(&b->control, mask, factor, FST_HOLD_AFTER_REJECTION);
 }
 
@@ -366,6 +369,11 @@ static unsigned reject(batch *b, fst_wide_mask mask, REAL error, REAL factor)
 }
 
 #if KNOWS_DRY
+static void pass(void *memory, unsigned lanes)
+{
+    pass_time(memory, fst_wide_mask_of(lanes));
+}
+
 /* The lanes whose steps may hold the end of their mode or way.  An onset is short, so that each of its steps
  * may. */
 static unsigned may_end_mode(const batch *b)
@@ -405,18 +413,22 @@ static fst_lane_tries try_steps(void *memory)
 #endif
     const REAL factor = FN(step_factor)(error);
     b->drift = FN(finish_step)(s);
-    fst_lane_tries tries = {.accepted = fst_wide_lanes_of(WIDE_LESS_EQUAL(error, R(1.0))) & b->in_use};
-    const unsigned rejected = b->in_use & ~tries.accepted;
-#ifdef FST_FUSED
+    fst_lane_tries tries = {.accepted = fst_wide_lanes_of(WIDE_LESS_EQUAL(error, R(1.0))) & b->in_use & ~b->anew,
+                            .anew = b->anew};
+    const unsigned rejected = b->in_use & ~(tries.accepted | tries.anew);
     const fst_wide_mask accepted = fst_wide_mask_of(tries.accepted);
+#ifdef FST_FUSED
     accept(b, accepted, FN(damped_factor)(&b->control, accepted, factor));
 #else
-    accept(b, fst_wide_mask_of(tries.accepted), factor);
+    accept(b, accepted, factor);
 #endif
+    tries.accepted |= tries.anew;
+    b->norm_drift = fst_wide_add_where(fst_wide_mask_of(tries.accepted), b->norm_drift, b->drift);
+    b->anew = 0;
 #if KNOWS_DRY
     if (is_paced(b)) {
         b->passes = FN(paced_time)(s);
-        tries.contact = tries.accepted & may_end_mode(b);
+        tries.contact = tries.accepted & ~tries.anew & may_end_mode(b);
         tries.accepted &= ~tries.contact;
     }
 #endif
@@ -544,7 +556,7 @@ const fst_lane_engine ENGINE = {
     .view = view,
     .load = load,
     .release = release,
-    .numbers = LANE_REALS + 1,
+    .numbers = LANE_REALS + 2,
     .save = save,
     .restore = restore,
     .try_steps = try_steps,
@@ -556,8 +568,9 @@ const fst_lane_engine ENGINE = {
     .extract_clock = extract_clock,
     .extract_integrals = extract_integrals,
 #if KNOWS_DRY
+    .pass = pass,
+    .make_anew = make_anew,
     .reload = reload,
-    .load_integrals = load_integrals,
 #else
     .tangents = TANGENT_ENGINE,
     .splitting = SPLITTING_ENGINE,

@@ -322,24 +322,38 @@ void fst_contact_begin_step(fst_flow *flow)
         law_of(flow)->since = fst_twofold_difference(flow->t, flow->contact.released);
 }
 
-void fst_contact_end_step(fst_flow *flow, double t_limit)
+int fst_contact_look_ahead(fst_flow *flow, double t_limit, double *end)
 {
     const fst_twofold limit = {t_limit, 0.0};
     flow->contact.has_clock = flow->has_dense = 0;
     flow->t_start = flow->t; /* times within the step are asked for before it is over */
     int next = -1;
-    const double rest = fst_twofold_difference(limit, flow->t);
-    const double event = mode_ends(flow, &next), end = fst_contact_fraction(flow, rest);
-    const int lands = end <= 1.0 && end <= event;
+    const double event = mode_ends(flow, &next);
+    const double way = fst_contact_fraction(flow, fst_twofold_difference(limit, flow->t));
+    if (way <= 1.0 && way <= event) {
+        *end = way;
+        return 1;
+    }
+    *end = event <= 1.0 ? event : 1.0;
+    flow->contact.next_mode = event <= 1.0 ? next : after_slip(flow);
+    return 0;
+}
+
+void fst_contact_end_step(fst_flow *flow, double t_limit)
+{
+    const fst_twofold limit = {t_limit, 0.0};
+    double end;
+    const int lands = fst_contact_look_ahead(flow, t_limit, &end);
     if (lands)
-        land(flow, rest);
-    else if (event <= 1.0)
-        cut_at(flow, event);
+        land(flow, fst_twofold_difference(limit, flow->t));
+    else
+        cut_at(flow, end);
     flow->rhs_calls += 1;
     flow->accepted += 1;
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));
     flow->has_step = 1;
-    flow->contact.next_mode = !lands && event <= 1.0 ? next : after_slip(flow);
+    if (lands)
+        flow->contact.next_mode = after_slip(flow);
 }
 
 fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)

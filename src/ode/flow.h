@@ -103,10 +103,14 @@ void fst_contact_put_down(fst_flow *flow, double *state);
 fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error);
 
 /* The parts of such a step before and after the tries that are made until one is good, for lanes, which make
- * these: the mode that is to follow begins, and the first stage is there; an event in the step or the end of the
- * way is found, and the step is made anew up to there.  After the first part, the flow stands at step.y. */
+ * these.  Before: the mode that is to follow begins, and the flow stands at step.y with the first stage there.
+ * After: the step is made anew up to an event or the end of the way, if it holds one, and passes. */
 void fst_contact_begin_step(fst_flow *flow);
 void fst_contact_end_step(fst_flow *flow, double t_limit);
+
+/* Where a good step that has not passed yet must end, a fraction of it, and which mode follows; 1: that is the
+ * end of the way, and the mode is not looked for. */
+int fst_contact_look_ahead(fst_flow *flow, double t_limit, double *end);
 
 /* Begin the mode onset in a state, at the release of a bead that stuck (onset.c). */
 void fst_contact_begin_onset(fst_flow *flow, const double *state);

@@ -31,7 +31,7 @@
  * by side too.
  *
  * Runs with dry friction have an engine of their own, which takes the place of the usual one while nothing is at
- * work, and may end their modes in a step (lane_contact.c).  Those with a disc of contact or with flight are done
+ * work, and modes that end in a step (lane_contact.c).  Those with a disc of contact or with flight are done
  * alone, while the lanes wait.
  *
  * No row's bits depend on any of this: lanes do not mix (only the order in which rows come out does).
@@ -346,7 +346,8 @@ static void step_observed(fst_row_worker *w)
 {
     fst_lane_batch *b = &w->observed;
     const fst_lane_tries tries = w->engine->try_steps(b->memory);
-    const unsigned accepted = tries.accepted;
+    const fst_lane_contacts contacts = fst_worker_look_at_contacts(w, b, tries);
+    const unsigned accepted = tries.accepted | contacts.passed;
     fst_lane_events events = w->engine->watch(b->memory, accepted, accepted, w->in_window);
     unsigned beaten[FST_RECORD_COUNT] = {0};
     /* In the fast form, a run that is not in its window yet has no discard: its first step is in it. */
@@ -359,12 +360,16 @@ static void step_observed(fst_row_worker *w)
     if (w->engine->fused)
         fst_worker_set_aside(w, beaten);
     w->engine->advance(b->memory, accepted & ~over);
-    for (int l = 0; (over | tries.failed | tries.contact) != 0 && l < w->engine->width; ++l) {
-        const int ends = tries.contact & fst_lane_bit(l) && fst_worker_end_step(w, b, l) == FST_LANE_OVER;
-        if (ends || over & fst_lane_bit(l))
+    for (int l = 0; (over | tries.failed | contacts.turned | contacts.landed) != 0 && l < w->engine->width; ++l) {
+        const unsigned bit = fst_lane_bit(l);
+        if (contacts.landed & bit)
+            (void)fst_worker_land(w, b, l);
+        if ((over | contacts.landed) & bit)
             conclude(w, b, l);
-        else if (tries.failed & fst_lane_bit(l))
+        else if (tries.failed & bit)
             give_up(w, b, l);
+        else if (contacts.turned & bit)
+            fst_worker_begin_mode(w, b, l);
     }
 }
 
@@ -398,12 +403,10 @@ static void open_window(fst_row_worker *w, int l)
     move_run(&w->ready[w->ready_count++], &b->lanes[l]);
 }
 
-/* A step in every lane of those that are not. */
-static void step_run_up(fst_row_worker *w)
+/* Look at the steps that may hold something; the lanes whose runs are over. */
+static unsigned look_at_run_up(fst_row_worker *w, fst_lane_events events)
 {
     fst_lane_batch *b = &w->run_up;
-    const fst_lane_tries tries = w->engine->try_steps(b->memory);
-    const fst_lane_events events = w->engine->watch(b->memory, tries.accepted, 0, 0);
     unsigned over = 0;
     for (int l = 0; (events.close >> l) != 0; ++l)
         if (events.close & fst_lane_bit(l)) {
@@ -412,16 +415,28 @@ static void step_run_up(fst_row_worker *w)
             b->view.activity[l] = fmax(b->view.activity[l], b->view.speed[l]);
             over |= (events.ending & fst_lane_bit(l)) && fst_worker_ends_run(w, b, l) ? fst_lane_bit(l) : 0;
         }
-    w->engine->advance(b->memory, tries.accepted & ~(over | tries.landed));
-    for (int l = 0; (over | tries.landed | tries.failed | tries.contact) != 0 && l < w->engine->width; ++l) {
+    return over;
+}
+
+/* A step in every lane of those that are not. */
+static void step_run_up(fst_row_worker *w)
+{
+    fst_lane_batch *b = &w->run_up;
+    const fst_lane_tries tries = w->engine->try_steps(b->memory);
+    const fst_lane_contacts contacts = fst_worker_look_at_contacts(w, b, tries);
+    const unsigned accepted = tries.accepted | contacts.passed, landed = tries.landed | contacts.landed;
+    const unsigned over = look_at_run_up(w, w->engine->watch(b->memory, accepted, 0, 0));
+    w->engine->advance(b->memory, accepted & ~(over | landed));
+    for (int l = 0; (over | landed | tries.failed | contacts.turned) != 0 && l < w->engine->width; ++l) {
         const unsigned bit = fst_lane_bit(l);
-        const fst_lane_fate fate = tries.contact & bit ? fst_worker_end_step(w, b, l) : FST_LANE_GOES_ON;
-        if (over & bit || fate == FST_LANE_OVER)
+        if (over & bit || (contacts.landed & bit && fst_worker_land(w, b, l)))
             conclude(w, b, l);
-        else if (tries.landed & bit || fate == FST_LANE_LANDED)
+        else if (landed & bit)
             open_window(w, l);
-        else if (tries.failed & fst_lane_bit(l))
+        else if (tries.failed & bit)
             give_up(w, b, l);
+        else if (contacts.turned & bit)
+            fst_worker_begin_mode(w, b, l);
     }
 }
 

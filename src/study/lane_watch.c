@@ -133,7 +133,7 @@ static void extract_integrals(const fst_row_worker *w, int l, fst_quadrature *q)
 }
 
 /* Tell the lane what its window made of a step. */
-void fst_worker_follow_window(fst_row_worker *w, int l)
+static void follow_window(fst_row_worker *w, int l)
 {
     fst_lane_batch *b = &w->observed;
     const fst_watched_run *run = b->lanes[l].run;
@@ -170,7 +170,7 @@ static int watch(fst_row_worker *w, int l, fst_lane_events events)
         fst_returns_see_side(&run->window.returns, flow);
     run->window.activity = b->view.activity[l];
     fst_window_look(&run->window, flow, !w->engine->fused);
-    fst_worker_follow_window(w, l);
+    follow_window(w, l);
     return flow->t.high >= run->window.span.until;
 }
 

@@ -72,13 +72,20 @@ void fst_worker_extract_step(const fst_row_worker *w, const fst_lane_batch *b, i
 /* Whether such a step, which may end the run, does. */
 int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l);
 
-/* Tell the lane of an observed run what its window made of a step. */
-void fst_worker_follow_window(fst_row_worker *w, int l);
+/* Dry contacts: what becomes of the steps that are good, but in which a mode or the way may end. */
+typedef struct fst_lane_contacts {
+    unsigned passed; /* these are accepted after all */
+    unsigned turned; /* accepted steps after which a mode begins, or an onset goes on */
+    unsigned landed; /* the way ends in these: not accepted, see fst_worker_land() */
+} fst_lane_contacts;
 
-/* Dry contacts: end a lane's step that is good, but in which its mode or its way may end, as the flow of a single
- * run does. OVER: the run has ended; LANDED: a run before its window has reached it; else it is back in its lane. */
-typedef enum fst_lane_fate { FST_LANE_GOES_ON, FST_LANE_LANDED, FST_LANE_OVER } fst_lane_fate;
-fst_lane_fate fst_worker_end_step(fst_row_worker *w, fst_lane_batch *b, int l);
+fst_lane_contacts fst_worker_look_at_contacts(fst_row_worker *w, fst_lane_batch *b, fst_lane_tries tries);
+
+/* After advance(): the mode of a lane begins. */
+void fst_worker_begin_mode(fst_row_worker *w, fst_lane_batch *b, int l);
+
+/* The last step of a lane up to the end of its way, by the flow of its run; 1 if the bead left the plate in it. */
+int fst_worker_land(fst_row_worker *w, fst_lane_batch *b, int l);
 
 /* Look at the accepted steps of the observed runs that may hold something; the lanes whose runs are over. */
 unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events);
