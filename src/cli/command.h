@@ -78,8 +78,8 @@ double unsigned_zero(double value, int decimals);
 fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error);
 
 /* Read the names of --key, "mean_r,std_r", into `keys`, which point into `words`. */
-enum { MOST_KEYS = 16, WORDS_SIZE = 512 };
-fst_status read_keys(const char *text, char words[WORDS_SIZE], const char *keys[MOST_KEYS], int *count,
+enum { KEY_LIMIT = 16, KEYS_SIZE = 512 };
+fst_status read_keys(const char *text, char words[KEYS_SIZE], const char *keys[KEY_LIMIT], int *count,
                      fst_error *error);
 
 /* Read exactly `count` numbers separated by commas. */

@@ -16,8 +16,8 @@ static const option options[] = {
 /* A table of few columns, in units that people use. */
 static fst_status export_keys(const arguments *given, const char *to, FILE *out, fst_error *error)
 {
-    const char *text = option_value(given, "key"), *keys[MOST_KEYS];
-    char words[WORDS_SIZE];
+    const char *text = option_value(given, "key"), *keys[KEY_LIMIT];
+    char words[KEYS_SIZE];
     int count = 0;
     fst_shown_units units;
     fst_status status = read_units(given, &units, error);

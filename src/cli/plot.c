@@ -127,8 +127,8 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
 /* Draw a sweep: curves over one axis, a map over two. */
 static fst_status plot_sweep(const arguments *given, const char *path, const char *to, fst_error *error)
 {
-    const char *text = option_value(given, "key"), *keys[MOST_KEYS];
-    char words[WORDS_SIZE];
+    const char *text = option_value(given, "key"), *keys[KEY_LIMIT];
+    char words[KEYS_SIZE];
     int count = 0;
     fst_shown_units units;
     for (int i = 0; i < given->option_count; ++i) {
