@@ -16,7 +16,7 @@ static const struct {
 
 static const option options[] = {
     {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
-    {"kind", '\0', "KIND",
+    {"kind", '\0', KIND_NAMES,
      "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame) or "
      "radius-field (r and |B| against Phi)"},
     {"key", '\0', "KEY,...", "of a sweep: the keys of festoon run to draw (regime: a map of regimes)"},

@@ -39,15 +39,10 @@
 
 #include "base/error.h"
 
-static const double SLOWER = 1e-3;       /* captured, in tolerances */
-static const double LEAST_SPEED = 1e-14; /* that rounding leaves of a slip's digits */
-static const double LEAST_FALL = 1e-12;  /* below this slip, or the tolerance, rounding may end it: */
-static const double ROUNDING = 2e-15;    /* of a slip, over the speeds whose difference it is */
 static const double HAND_OVER = 0.12;    /* times tolerance^(5/16) */
 static const double USUAL_GROWTH = 0.1; /* of a slip, in l gamma^3: the time of the hand-over follows from it */
 static const double FEW = 0.01;         /* slip then, in those of the hand-over */
 static const double FALL_AT_ONCE = 1.01;   /* static friction over sliding */
-static const double RELEASE_SLACK = 1e-13; /* relative excess of |A| at a release */
 static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not met before */
 
 /* ------------------------------------------------------------------ the contact at a state */
@@ -55,11 +50,6 @@ static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not m
 static fst_coulomb_double *law_of(fst_flow *flow)
 {
     return &flow->step.context.coefficients.law.coulomb;
-}
-
-static double norm(const double v[2])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1]);
 }
 
 static int is_disc(const fst_flow *flow)
@@ -83,7 +73,7 @@ static double brake(const fst_flow *flow, const fst_contact_double *at)
 
 static double captured(const fst_flow *flow)
 {
-    return fmax(SLOWER * flow->rtol, LEAST_SPEED);
+    return fst_captured_double(flow->rtol);
 }
 
 static double handed_over(const fst_flow *flow)
@@ -136,9 +126,9 @@ static int mode_at(const fst_flow *flow, const double *state)
     if (is_disc(flow))
         return fst_disc_rests(flow, state, &p) ? FST_MODE_STICK : FST_MODE_SLIP;
     const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, &p);
-    if (norm(at.slip) > captured(flow))
+    if (fst_norm_2_double(at.slip) > captured(flow))
         return FST_MODE_SLIP;
-    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : released_mode(flow);
+    return fst_norm_2_double(at.push) <= hold(flow, &at) ? FST_MODE_STICK : released_mode(flow);
 }
 
 /* A bead leaves the plate, or comes back to it: the mode that follows. */
@@ -170,9 +160,9 @@ static void enter(fst_flow *flow, int mode, double *state)
     } else if (mode == FST_MODE_ONSET) {
         fst_contact_begin_onset(flow, state);
         flow->contact.released = flow->t;
-    } else if (norm(slip) < captured(flow)) {
+    } else if (fst_norm_2_double(slip) < captured(flow)) {
         const fst_contact_double at = contact_at(flow, state);
-        const double part = captured(flow) / norm(at.push);
+        const double part = captured(flow) / fst_norm_2_double(at.push);
         fst_set_slip_double(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
     }
     law->mode = mode;
@@ -200,17 +190,15 @@ void fst_contact_put_down(fst_flow *flow, double *state)
 static double release_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
     if (is_disc(flow))
-        return fst_disc_hold(flow, state, p) + RELEASE_SLACK;
-    const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, p);
-    const double most = hold(flow, &at);
-    return most * (1.0 + RELEASE_SLACK) - norm(at.push);
+        return fst_disc_hold(flow, state, p) + PACED_SLACK;
+    return fst_grip_left_double(&flow->step.context.coefficients, state, p);
 }
 
 /* In onset: the speed along A, which began at 0. */
 static double onset_speed(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
     const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, p);
-    return (at.slip[0] * at.push[0] + at.slip[1] * at.push[1]) / norm(at.push);
+    return (at.slip[0] * at.push[0] + at.slip[1] * at.push[1]) / fst_norm_2_double(at.push);
 }
 
 static double until_handed_over(const fst_flow *flow, const double *state, const fst_pull_double *p)
@@ -244,33 +232,22 @@ static double mode_ends(fst_flow *flow, int *next)
         *next = FST_MODE_FLIGHT;
         first = x;
     }
-    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x) &&
+    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_becomes_negative(flow, release_function, &x) &&
         x < first) {
         *next = released_mode(flow);
         first = x;
     }
     if (fst_contact_mode(flow) != FST_MODE_ONSET)
         return first;
-    if ((fst_flow_first_negative(flow, until_handed_over, 0.0, &x) || onset_is_long(flow, &x)) && x < first) {
+    if ((fst_flow_becomes_negative(flow, until_handed_over, &x) || onset_is_long(flow, &x)) && x < first) {
         *next = FST_MODE_SLIP;
         first = x;
     }
-    if (fst_flow_first_negative(flow, until_back_at_rest, 0.0, &x) && x < first) {
+    if (fst_flow_becomes_negative(flow, until_back_at_rest, &x) && x < first) {
         *next = FST_MODE_STICK;
         first = x;
     }
     return first;
-}
-
-/* Whether a slip is so slow, and falls so slowly because the push is nearly as strong as friction, that
- * rounding of the velocities keeps it as it is. */
-static int falls_no_more(const fst_flow *flow, const double slip[2])
-{
-    const double *y = flow->step.y, eps = flow->step.context.coefficients.eps;
-    const double speeds = fabs(y[FST_VX]) + fabs(y[FST_VY]) + eps * (fabs(y[FST_WX]) + fabs(y[FST_WY]));
-    double before[2];
-    fst_slip_double(&flow->step.context.coefficients, y, before);
-    return norm(slip) < fmax(flow->rtol, LEAST_FALL) && fabs(norm(slip) - norm(before)) <= ROUNDING * speeds;
 }
 
 /* The mode that follows a slip that is nearly nothing, -1 where it goes on.  It ends where friction is stronger
@@ -283,12 +260,12 @@ static int after_slip(const fst_flow *flow)
         return -1;
     if (is_disc(flow))
         return fst_disc_rests(flow, s->end, FST_PATH_PULL(s, FST_PATH_END)) ? FST_MODE_STICK : -1;
+    if (!fst_slip_is_over_double(s, flow->rtol))
+        return -1;
     const fst_contact_double at =
         fst_contact_of_double(&s->context.coefficients, s->end, FST_PATH_PULL(s, FST_PATH_END));
-    if (norm(at.slip) > captured(flow) && !falls_no_more(flow, at.slip))
-        return -1;
     const int against = at.slip[0] * at.push[0] + at.slip[1] * at.push[1] < 0;
-    if (norm(at.push) < (against ? hold(flow, &at) : brake(flow, &at)))
+    if (fst_norm_2_double(at.push) < (against ? hold(flow, &at) : brake(flow, &at)))
         return FST_MODE_STICK;
     return against ? released_mode(flow) : -1;
 }
@@ -332,14 +309,8 @@ static void cut_at(fst_flow *flow, double x)
     }
 }
 
-fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
+void fst_contact_begin_step(fst_flow *flow)
 {
-    const fst_twofold limit = {t_limit, 0.0};
-    const double rest = fst_twofold_difference(limit, flow->t);
-    if (rest < 0)
-        return fst_fail(error, FST_BAD_INPUT, "fst_flow",
-                        "time cannot run backwards under dry friction: what was at rest does not tell when it "
-                        "came to rest");
     const int next_mode = flow->contact.next_mode;
     if (next_mode >= 0) {
         flow->contact.captures += fst_contact_mode(flow) == FST_MODE_SLIP && next_mode == FST_MODE_STICK;
@@ -349,21 +320,52 @@ fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
     fst_bead_flow_prepare(flow);
     if (fst_contact_mode(flow) == FST_MODE_ONSET)
         law_of(flow)->since = fst_twofold_difference(flow->t, flow->contact.released);
+}
+
+int fst_contact_look_ahead(fst_flow *flow, double t_limit, double *end)
+{
+    const fst_twofold limit = {t_limit, 0.0};
     flow->contact.has_clock = flow->has_dense = 0;
-    if (!fst_bead_flow_try_until_good(flow, INFINITY))
-        return fst_flow_fail(flow, error);
     flow->t_start = flow->t; /* times within the step are asked for before it is over */
     int next = -1;
-    const double event = mode_ends(flow, &next), end = fst_contact_fraction(flow, rest);
-    const int lands = end <= 1.0 && end <= event;
+    const double event = mode_ends(flow, &next);
+    const double way = fst_contact_fraction(flow, fst_twofold_difference(limit, flow->t));
+    if (way <= 1.0 && way <= event) {
+        *end = way;
+        return 1;
+    }
+    *end = event <= 1.0 ? event : 1.0;
+    flow->contact.next_mode = event <= 1.0 ? next : after_slip(flow);
+    return 0;
+}
+
+void fst_contact_end_step(fst_flow *flow, double t_limit)
+{
+    const fst_twofold limit = {t_limit, 0.0};
+    double end;
+    const int lands = fst_contact_look_ahead(flow, t_limit, &end);
     if (lands)
-        land(flow, rest);
-    else if (event <= 1.0)
-        cut_at(flow, event);
+        land(flow, fst_twofold_difference(limit, flow->t));
+    else
+        cut_at(flow, end);
     flow->rhs_calls += 1;
     flow->accepted += 1;
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));
     flow->has_step = 1;
-    flow->contact.next_mode = !lands && event <= 1.0 ? next : after_slip(flow);
+    if (lands)
+        flow->contact.next_mode = after_slip(flow);
+}
+
+fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
+{
+    const fst_twofold limit = {t_limit, 0.0};
+    if (fst_twofold_difference(limit, flow->t) < 0)
+        return fst_fail(error, FST_BAD_INPUT, "fst_flow",
+                        "time cannot run backwards under dry friction: what was at rest does not tell when it "
+                        "came to rest");
+    fst_contact_begin_step(flow);
+    if (!fst_bead_flow_try_until_good(flow, INFINITY))
+        return fst_flow_fail(flow, error);
+    fst_contact_end_step(flow, t_limit);
     return FST_OK;
 }

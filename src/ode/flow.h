@@ -10,6 +10,7 @@
 
 #include "ode/bead_step.inl"
 #include "ode/path.inl"
+#include "ode/paced.inl"
 #include "ode/step_control.inl"
 
 /* The contact of a bead under a law with modes (contact.c). */
@@ -101,6 +102,16 @@ double fst_flow_drive_at_place(const fst_flow *flow, int place);
 void fst_contact_put_down(fst_flow *flow, double *state);
 fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error);
 
+/* The parts of such a step before and after the tries that are made until one is good, for lanes, which make
+ * these.  Before: the mode that is to follow begins, and the flow stands at step.y with the first stage there.
+ * After: the step is made anew up to an event or the end of the way, if it holds one, and passes. */
+void fst_contact_begin_step(fst_flow *flow);
+void fst_contact_end_step(fst_flow *flow, double t_limit);
+
+/* Where a good step that has not passed yet must end, a fraction of it, and which mode follows; 1: that is the
+ * end of the way, and the mode is not looked for. */
+int fst_contact_look_ahead(fst_flow *flow, double t_limit, double *end);
+
 /* Begin the mode onset in a state, at the release of a bead that stuck (onset.c). */
 void fst_contact_begin_onset(fst_flow *flow, const double *state);
 
@@ -147,6 +158,9 @@ double fst_load_function(const fst_flow *flow, const double *state, const fst_pu
 /* Whether an event function became negative in the part [lo, 1] of the last step, even if only between its
  * ends, and at which fraction first: *x. */
 int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double lo, double *x);
+
+/* The same in the whole step, quicker: where the function only rises or only falls, its ends are enough. */
+int fst_flow_becomes_negative(fst_flow *flow, fst_state_function function, double *x);
 
 /* Least and greatest value of a function at the stages of the last step that lie on the trajectory. */
 void fst_flow_path_range(const fst_flow *flow, fst_state_function function, double *least, double *greatest);

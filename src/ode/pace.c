@@ -12,33 +12,12 @@
 
 #include "base/bracket.h"
 
-static const double LEAST_DIGITS = 0.03; /* relative error of V that a step may make */
-
 int fst_contact_mode(const fst_flow *flow)
 {
     return (int)flow->step.context.coefficients.law.coulomb.mode;
 }
 
-static double size_of(const double v[2])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1]);
-}
-
 /* ------------------------------------------------------------------ errors */
-
-/* The embedded error of the slip in a step, as dop853.inl has it for the whole state. */
-static double slip_error(const fst_bead_step_double *s)
-{
-    static const int slot[8] = {0, 5, 6, 7, 8, 9, 10, 11};
-    static const double fifth[8] = {DOP_E5_1, DOP_E5_6,  DOP_E5_7,  DOP_E5_8,
-                                    DOP_E5_9, DOP_E5_10, DOP_E5_11, DOP_E5_12};
-    double error[FST_STATE_SIZE] = {0}, slip[2];
-    for (int i = FST_VX; i < FST_STATE_SIZE; ++i)
-        for (int j = 0; j < 8; ++j)
-            error[i] += s->h * fifth[j] * s->k[slot[j]][i];
-    fst_slip_double(&s->context.coefficients, error, slip);
-    return size_of(slip);
-}
 
 double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *atol)
 {
@@ -46,15 +25,7 @@ double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *
     const fst_coefficients_double *c = &s->context.coefficients;
     if (fst_is_in_flight_double(c))
         return fmax(error, fst_flight_error(s, rtol));
-    if (!c->kinds.paced || c->law.coulomb.mode != FST_MODE_SLIP)
-        return error;
-    double start[2], end[2];
-    fst_slip_double(c, s->y, start);
-    fst_slip_double(c, s->end, end);
-    const double least = fmin(fst_contact_motion_2_double(c, start, s->y[FST_WZ]),
-                              fst_contact_motion_2_double(c, end, s->end[FST_WZ]));
-    const double of_slip = slip_error(s) / (LEAST_DIGITS * sqrt(least));
-    return of_slip > error ? of_slip : error;
+    return c->kinds.paced ? fst_paced_error_double(s, error) : error;
 }
 
 /* ------------------------------------------------------------------ time within a step */
@@ -62,13 +33,7 @@ double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *
 /* The time that the last step took. */
 double fst_contact_elapsed(const fst_flow *flow)
 {
-    const fst_bead_step_double *s = &flow->step;
-    double pace[FST_PATH_PLACES];
-    if (fst_contact_mode(flow) != FST_MODE_SLIP)
-        return s->h;
-    for (int place = 0; place < FST_PATH_PLACES; ++place)
-        pace[place] = FST_PATH_PACE(s, place);
-    return fst_path_integral_double(s, pace, 1);
+    return fst_paced_time_double(&flow->step);
 }
 
 static void make_clock(fst_flow *flow)

@@ -23,19 +23,31 @@
  * is a disc, on one that pivots (patch.inl).
  */
 
-/* Whether the contact has what only dry laws have: kinds.dry, paced, patch, flies.  Lanes know no contact that
- * slips and sticks (rows of such beads are done alone); saying so here keeps its formulas out of their loops.
+/* Whether the contact has what only dry laws have: kinds.dry, paced, patch, flies.  Lanes are compiled once for
+ * the dry laws (FST_DRY_LANES), at a point of contact and without flight, and once for all others: saying so
+ * here keeps the formulas of the ones out of the loops of the others.
  */
 #undef HAS
 #undef LAW_IS
+#undef IS_DRY
+#undef KNOWS_DRY
+#define IS_DRY(NAME) (FST_FRICTION_##NAME == FST_FRICTION_COULOMB || FST_FRICTION_##NAME == FST_FRICTION_ROLLING)
 #ifdef REAL_IS_SCALAR
+#define KNOWS_DRY 1
 #define HAS(kinds, what) ((kinds).what)
 #define LAW_IS(NAME) (kinds->contact == FST_FRICTION_##NAME)
+#elif defined FST_DRY_LANES
+#define KNOWS_DRY 1
+#define DRY_LANES_dry(kinds) 1
+#define DRY_LANES_paced(kinds) ((kinds).paced)
+#define DRY_LANES_patch(kinds) FST_PATCH_POINT
+#define DRY_LANES_flies(kinds) 0
+#define HAS(kinds, what) DRY_LANES_##what(kinds)
+#define LAW_IS(NAME) (IS_DRY(NAME) && kinds->contact == FST_FRICTION_##NAME)
 #else
+#define KNOWS_DRY 0
 #define HAS(kinds, what) 0
-#define LAW_IS(NAME)                                                                                           \
-    (FST_FRICTION_##NAME != FST_FRICTION_COULOMB && FST_FRICTION_##NAME != FST_FRICTION_ROLLING &&             \
-     kinds->contact == FST_FRICTION_##NAME)
+#define LAW_IS(NAME) (!IS_DRY(NAME) && kinds->contact == FST_FRICTION_##NAME)
 #endif
 
 /* What a law sees of the contact.  A law that needs more adds it here and in contact_of() and its tangent

@@ -94,6 +94,17 @@ static inline REAL_MASK FN(coulomb_sticks)(const FN(coulomb) * law)
     return REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
 }
 
+/* The mask of a slip that has just been let go, which is not of a direction of its own yet. */
+static inline REAL_MASK FN(coulomb_begins)(const FN(coulomb) * law)
+{
+    return REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_ONSET)), R(0.5));
+}
+
+static inline REAL_MASK FN(coulomb_slips)(const FN(coulomb) * law)
+{
+    return REAL_LESS(law->mode, R(0.5));
+}
+
 /* ------------------------------------------------------------------ a disc */
 
 /* Not inlined: a point contact, which shares the equations of motion with a disc, should not pay for it. */
@@ -186,6 +197,19 @@ OF_DISC void FN(disc_change)(const FN(coulomb) * law, const FN(contact) * at, co
     }
 }
 
+/* The direction u of an onset: that of A, as it lags behind. */
+static inline void FN(coulomb_onset_direction)(const FN(coulomb) * law, const REAL v[2], const REAL a[2],
+                                               REAL u[2])
+{
+    const REAL inverse_a = REAL_RECIPROCAL_SQRT(SUM_2(a[0], a[0], a[1], a[1]) + R(1e-290));
+    const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a};
+    const REAL along = SUM_2(v[0], ahead[0], v[1], ahead[1]);
+    const REAL lag = along * REAL_MULADD(law->lean_slip, along, law->lean);
+    const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
+    u[0] = (ahead[0] + lag * ahead[1]) * inverse_u;
+    u[1] = (ahead[1] - lag * ahead[0]) * inverse_u;
+}
+
 static inline void FN(coulomb_force)(const FN(coulomb) * law, const FN(contact) * at, REAL force[2])
 {
     if (at->patch != FST_PATCH_POINT) {
@@ -195,14 +219,10 @@ static inline void FN(coulomb_force)(const FN(coulomb) * law, const FN(contact) 
     const REAL *v = at->slip, *a = at->push;
     const REAL s2 = SUM_2(v[0], v[0], v[1], v[1]), dry = FN(coulomb_mu)(law, s2) * FN(coulomb_load)(at);
     const REAL inverse_s = REAL_RECIPROCAL_SQRT(s2 + R(1e-290));
-    const REAL inverse_a = REAL_RECIPROCAL_SQRT(SUM_2(a[0], a[0], a[1], a[1]) + R(1e-290));
-    const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a}; /* A/|A|, and u as it lags behind */
-    const REAL along = SUM_2(v[0], ahead[0], v[1], ahead[1]);
-    const REAL lag = along * REAL_MULADD(law->lean_slip, along, law->lean);
-    const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
-    const REAL u[2] = {(ahead[0] + lag * ahead[1]) * inverse_u, (ahead[1] - lag * ahead[0]) * inverse_u};
-    const REAL_MASK sticks = FN(coulomb_sticks)(law);
-    const REAL_MASK slips = REAL_LESS(law->mode, R(0.5));
+    const REAL_MASK sticks = FN(coulomb_sticks)(law), slips = REAL_LESS(law->mode, R(0.5));
+    REAL u[2] = {R(0.0), R(0.0)};
+    if (REAL_ANY(REAL_LESS(R(1.5), law->mode)))
+        FN(coulomb_onset_direction)(law, v, a, u);
     for (int i = 0; i < 2; ++i) {
         const REAL slipping = REAL_MULADD(law->rate, v[i], dry * REAL_SELECT(slips, v[i] * inverse_s, u[i]));
         force[i] = REAL_SELECT(sticks, R(2.0) / R(7.0) * a[i], slipping);
