@@ -333,15 +333,16 @@ MEASURE(remanence)
 
 MEASURE(anisotropy)
 {
-    int others = 0;
+    int others = 0, undecided = 0;
     double speeds[2] = {NAN, NAN};
     for (int i = 0; i < paper->counts[FST_SCAN_ANISOTROPIC]; ++i) {
         const fst_paper_run *run = &paper->scans[FST_SCAN_ANISOTROPIC][dynamics][i];
-        others += !fst_paper_counter_rotates(run);
+        undecided += fst_paper_may_settle(&run->result);
+        others += !fst_paper_counter_rotates(run) && !fst_paper_may_settle(&run->result);
         speeds[i] = run->result.mean_alpha_dot;
     }
     (void)snprintf(
         note, size, "κ = 0, a = b = 1e-3, %g turns of the magnet, drives 0.3 and 0.4: ⟨α′⟩ = %.4f and %.4f",
         fst_paper_single(paper, FST_SCAN_ANISOTROPIC, dynamics)->params.run_periods, speeds[0], speeds[1]);
-    return others;
+    return others == 0 && undecided > 0 ? NAN : (double)others;
 }
