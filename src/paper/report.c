@@ -281,10 +281,11 @@ static fst_status write_figures(FILE *out, const fst_paper_state *paper, fst_err
         status = write_figure(out, paper, &i, error);
     fputs("</div>\n", out);
     for (int i = 0; i < paper->films; ++i)
-        fprintf(
-            out,
-            "<p class=\"fine\">Film of the supplement, beside this page: %s.mp4 (festoon paper --films).</p>\n",
-            fst_film_names[i]);
+        fprintf(out, "%s%s.mp4",
+                i ? ", " : "<p class=\"fine\">The supplement's films, beside this page (--films): ",
+                fst_film_names[i]);
+    if (paper->films > 0)
+        fputs("</p>\n", out);
     return status;
 }
 
