@@ -6,7 +6,7 @@
 /* The number on the colour of its verdict, with the distance from the paper's. */
 static void write_fact(FILE *out, const fst_statement *about, int law, double value)
 {
-    static const char *const classes[] = {"reproduced", "close", "not"};
+    static const char *const classes[] = {"reproduced", "close", "not"}, *const marks[] = {"✓", "≈", "✗"};
     const fst_verdict verdict = fst_statement_verdict(about, value);
     char name[48], text[64];
     double border;
@@ -15,11 +15,11 @@ static void write_fact(FILE *out, const fst_statement *about, int law, double va
     fprintf(out, "<td class=\"n %s\" title=\"%s\"><span class=\"label\">", classes[verdict],
             fst_verdict_name(verdict));
     fst_report_text(out, name);
-    fprintf(out, "</span>%s", text);
+    fprintf(out, "</span>%s&nbsp;%s", text, marks[verdict]);
     if (isfinite(value) && isfinite(about->published))
         fprintf(out, "<br><small>%+.0f %%</small>", 100.0 * (value / about->published - 1.0));
     if (fst_statement_margin(about, value, &border) < FST_HAIR)
-        fprintf(out, "<br><small>a hair: %.4g</small>", border);
+        fprintf(out, "<br><small>%.4g decides</small>", border);
     fputs("</td>", out);
 }
 
@@ -93,12 +93,13 @@ void fst_report_dry(FILE *out, const fst_paper_state *paper)
         "exact equations) with that law. While its contact sticks it rolls exactly; friction is then whatever "
         "keeps it so.</p>\n"
         "<p>Corotation ends where the locked, slipping state ends in a fold, near 7 to 8 Hz: the centrifugal "
-        "force wins over the magnet's pull. Beyond, almost every bead is thrown off the plate, as in the "
+        "force wins over the magnet's pull. Beyond, most beads are thrown off the plate, as in the "
         "experiment and unlike with viscous friction; from about 10 Hz on counter-rotation takes over. The "
-        "third column of the statements below has μ = %g.</p>\n",
+        "third column of the claims above has μ = %g.</p>\n",
         FST_DRY_MU);
     write_facts(out, paper);
-    fputs("<p class=\"fine\">The percentages are distances from the paper's number. Runs of 120 turns of the "
+    fputs("<p class=\"fine\">✓ reproduced, ≈ close, ✗ not reproduced. The percentages are distances from the "
+          "paper's number. Runs of 120 turns of the "
           "magnet, means after 80. What a bead does depends on its start too: two are shown. A question mark "
           "stands where the motion had not settled. Motions that end in pure rolling settle ever more slowly, "
           "and "

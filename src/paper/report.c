@@ -192,7 +192,7 @@ static fst_status write_figure(FILE *out, const fst_paper_state *paper, int *ind
             status = write_picture(out, paper, &figure, error);
     }
     fputs("<figcaption>", out);
-    fst_report_text(out, first.caption);
+    fst_report_prose(out, first.caption);
     fputs(" <span class=\"from\">The paper's ", out);
     fst_report_text(out, first.source);
     fputs(".</span>", out);

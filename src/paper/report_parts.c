@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,7 +29,7 @@ const char fst_report_head[] =
     "pre{background:#f6f6f4;padding:.5rem "
     ".7rem;white-space:pre-wrap;overflow-wrap:anywhere;font-size:.78rem;line-height:1.4;margin:.4rem 0}\n"
     "summary{color:#595959;font-size:.82rem;cursor:pointer}\n"
-    "figure{margin:2.2rem 0}figure img{display:block;width:100%;height:auto;border:1px solid "
+    "figure{margin:2.2rem 0}figure img{display:block;width:100%;max-width:40rem;height:auto;border:1px solid "
     "#eee}figcaption{margin-top:.4rem}.which{margin:.6rem 0 .1rem;font-size:.85rem;color:#595959}\n"
     ".card{border:1px solid #ddd;border-radius:6px;padding:.7rem 1rem;margin:1rem 0}.card p{margin:.3rem 0}\n"
     ".second{border-left:3px solid #ddd;padding-left:.8rem;margin:.6rem 0}\n"
@@ -38,14 +39,15 @@ const char fst_report_head[] =
     ".reproduced{background:#d8efe3;color:#00573a}.close{background:#fdeccb;color:#6d4700}.not{background:#"
     "f9d9cf;color:#7d2600}\n"
     ".facts td.n,.map td.n{padding:.25rem .4rem;border:2px solid #fff}.facts th,.map th{padding:.25rem .4rem}\n"
-    ".facts b,.label{display:none}\n"
+    ".label{display:none}.tally .n{white-space:nowrap}sub{line-height:0}\n"
     ".map td{font-size:.85rem}\n"
     ".incomplete{background:#fdeccb;padding:.5rem .8rem;border-radius:6px}\n"
     ".rules dt{font-weight:600;margin-top:.5rem}.rules dd{margin:0 0 0 1rem;font-size:.9rem}\n"
     "nav{display:flex;flex-wrap:wrap;gap:.2rem 1rem}a{color:#0064a0}\n"
     "@media(max-width:34rem){main{padding:.8rem}.card{padding:.6rem}\n"
-    "table{font-size:.8rem}th,td{padding-right:.4rem}.narrow .badge,.narrow small{white-space:normal}\n"
-    "figure img{width:100vw;margin-left:-.8rem;border-width:1px 0}\n"
+    "table{font-size:.8rem}.tally{font-size:.74rem}th,td{padding-right:.4rem}.narrow .badge,.narrow "
+    "small{white-space:normal}\n"
+    "figure img{width:100vw;max-width:none;margin-left:-.8rem;border-width:1px 0}\n"
     ".facts thead{display:none}.facts tbody,.facts tr{display:block}\n"
     ".facts tr{display:grid;grid-template-columns:repeat(3,1fr);margin:.9rem 0}.facts "
     "td:first-child{grid-column:1/-1}\n"
@@ -79,25 +81,56 @@ const char fst_report_reading[] =
     "<code>rigid</code> for "
     "<code>farago2020</code> to get the other column, and a drive for <code>OMEGA</code>.</p>\n";
 
+static void put_safely(FILE *out, char c)
+{
+    switch (c) {
+    case '<':
+        fputs("&lt;", out);
+        break;
+    case '>':
+        fputs("&gt;", out);
+        break;
+    case '&':
+        fputs("&amp;", out);
+        break;
+    case '"':
+        fputs("&quot;", out);
+        break;
+    default:
+        fputc(c, out);
+    }
+}
+
 void fst_report_text(FILE *out, const char *text)
 {
+    for (const char *c = text; *c; ++c)
+        put_safely(out, *c);
+}
+
+/* A byte after the first of a letter in UTF-8. */
+static int goes_on(char c)
+{
+    return ((unsigned char)c & 0xc0) == 0x80;
+}
+
+void fst_report_prose(FILE *out, const char *text)
+{
     for (const char *c = text; *c; ++c) {
-        switch (*c) {
-        case '<':
-            fputs("&lt;", out);
-            break;
-        case '>':
-            fputs("&gt;", out);
-            break;
-        case '&':
-            fputs("&amp;", out);
-            break;
-        case '"':
-            fputs("&quot;", out);
-            break;
-        default:
-            fputc(*c, out);
+        const int is_letter = (unsigned char)c[1] >= 0x80 || isalpha((unsigned char)c[1]);
+        if (*c != '_' || c == text || !is_letter) {
+            put_safely(out, *c);
+            continue;
         }
+        fputs("<sub>", out);
+        if ((unsigned char)c[1] >= 0x80) { /* one letter that is not English */
+            do
+                fputc(*++c, out);
+            while (goes_on(c[1]));
+        } else {
+            while (isalpha((unsigned char)c[1]))
+                fputc(*++c, out);
+        }
+        fputs("</sub>", out);
     }
 }
 

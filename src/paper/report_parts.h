@@ -18,6 +18,9 @@ void fst_report_statements(FILE *out, const fst_paper_state *paper);
 /* Text with <, >, & and " made safe. */
 void fst_report_text(FILE *out, const char *text);
 
+/* The same, with the subscript of "e_r" and "V_α" set low. */
+void fst_report_prose(FILE *out, const char *text);
+
 /* A command, as a line of code. */
 void fst_report_code(FILE *out, const char *command);
 

@@ -29,6 +29,14 @@ static int is_number(const char *text, size_t size)
     return size >= 3 && (strncmp(text, "nan", 3) == 0 || strncmp(text, "inf", 3) == 0);
 }
 
+/* The size of a word without the marks that end it. */
+static size_t bare(const char *text, size_t size)
+{
+    while (size > 0 && strchr(",;:.)", text[size - 1]))
+        --size;
+    return size;
+}
+
 /* Whether two notes differ in their numbers alone. */
 static int differ_in_numbers(const char *one, const char *other)
 {
@@ -57,10 +65,13 @@ static void write_together(FILE *out, const char *const notes[COLUMNS])
         }
         for (int i = 0; i < COLUMNS && at[i] && (i == 0 || !same) && used < sizeof piece; ++i)
             used += (size_t)snprintf(piece + used, sizeof piece - used, "%s%.*s", i > 0 ? " | " : "",
-                                     (int)size[i], at[i]);
+                                     (int)bare(at[i], size[i]), at[i]);
+        const size_t end = bare(at[0], size[0]);
+        if (used < sizeof piece)
+            (void)snprintf(piece + used, sizeof piece - used, "%.*s", (int)(size[0] - end), at[0] + end);
         if (size[0] > 0)
             fputs(first ? "" : " ", out);
-        fst_report_text(out, piece);
+        fst_report_prose(out, piece);
         for (int i = 0; i < COLUMNS && at[i]; ++i)
             at[i] += size[i];
     }
@@ -93,7 +104,7 @@ static void write_notes(FILE *out, const fst_finding *finding)
             if (j == i || strcmp(notes[i], notes[j]) == 0)
                 fprintf(out, "%s%s", j > i ? ", " : "", column_names[j]);
         fputs(": ", out);
-        fst_report_text(out, notes[i]);
+        fst_report_prose(out, notes[i]);
         fputs(".</p>", out);
     }
 }
@@ -132,7 +143,7 @@ static void write_values(FILE *out, const fst_statement *statement, const fst_fi
 static void write_line(FILE *out, const char *title, const char *text)
 {
     fprintf(out, "<tr><td>%s</td><td colspan=\"2\">", title);
-    fst_report_text(out, text);
+    fst_report_prose(out, text);
     fputs("</td></tr>\n", out);
 }
 
@@ -156,7 +167,7 @@ static void write_second(FILE *out, const fst_statement *statement, const fst_pa
     const fst_finding finding = fst_reading_check(reading, statement, paper);
     char text[64];
     fputs("<div class=\"second\"><p>Read otherwise: ", out);
-    fst_report_text(out, reading->words);
+    fst_report_prose(out, reading->words);
     fputs("</p><table><tbody>", out);
     fst_statement_published(&reading->second, text, sizeof text);
     if (reading->second.said == NULL)
@@ -166,9 +177,9 @@ static void write_second(FILE *out, const fst_statement *statement, const fst_pa
     write_notes(out, &finding);
     write_criterion(out, &reading->second);
     fputs("<p class=\"fine\">Counted is the first: ", out);
-    fst_report_text(out, reading->first);
+    fst_report_prose(out, reading->first);
     fputs(". ", out);
-    fst_report_text(out, reading->chosen);
+    fst_report_prose(out, reading->chosen);
     fputs("</p></div>", out);
 }
 
@@ -179,7 +190,7 @@ static void write_card(FILE *out, const fst_statement *statement, const fst_pape
     fprintf(out, "<section class=\"card\" id=\"%s\"><p class=\"from\">", statement->id);
     fst_report_text(out, statement->section);
     fputs(statement->check ? " · not counted</p><p>" : "</p><p>", out);
-    fst_report_text(out, statement->text);
+    fst_report_prose(out, statement->text);
     fputs("</p><table><tbody>", out);
     fst_statement_published(statement, text, sizeof text);
     write_line(out, "published", text);

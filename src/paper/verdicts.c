@@ -253,7 +253,8 @@ void fst_statement_value(const fst_statement *statement, double value, char *tex
     else if (statement->rule == FST_RULE_SYMMETRY)
         (void)snprintf(text, size, "S%.0f", value);
     else if (statement->digits < 0)
-        (void)snprintf(text, size, "%.1e%s%s", value, blank, statement->unit);
+        (void)snprintf(text, size, fabs(value) >= 1e-2 && fabs(value) < 1e3 ? "%.2g%s%s" : "%.1e%s%s", value,
+                       blank, statement->unit);
     else
         (void)snprintf(text, size, "%.*f%s%s", statement->digits, value, blank, statement->unit);
 }
