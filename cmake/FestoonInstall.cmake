@@ -27,7 +27,7 @@ if(FESTOON_TOOLS)
     install(FILES "${PROJECT_BINARY_DIR}/docs/festoon.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
     install(DIRECTORY examples/ DESTINATION "${CMAKE_INSTALL_DATADIR}/festoon/examples"
         USE_SOURCE_PERMISSIONS
-        FILES_MATCHING PATTERN "*.yaml" PATTERN "*.c" PATTERN "*.inl" PATTERN "*.def" PATTERN "*.sh" PATTERN "*.sbatch")
+        FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "*.c" PATTERN "*.inl" PATTERN "*.def" PATTERN "*.sh" PATTERN "*.sbatch")
     if(FESTOON_HAVE_HDF5)
         install(TARGETS festoon_hdf5_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/festoon")
     endif()
