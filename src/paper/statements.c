@@ -160,6 +160,18 @@ static void write_rules(FILE *out)
                       fst_rules[rule].reproduced, fst_rules[rule].close);
 }
 
+static void write_readings(FILE *out)
+{
+    (void)fputs(
+        "\n| claim | counted | read otherwise | rule then | chosen |\n| --- | --- | --- | --- | --- |\n", out);
+    for (int i = 0; i < fst_statement_count(); ++i) {
+        const fst_reading *reading = fst_statement_reading(&statements[i]);
+        if (reading)
+            (void)fprintf(out, "| %s | %s | %s | %s | %s |\n", statements[i].id, reading->first, reading->words,
+                          fst_rules[reading->second.rule].name, reading->chosen);
+    }
+}
+
 char *fst_paper_statements_text(void)
 {
     char *text = NULL;
@@ -176,6 +188,7 @@ char *fst_paper_statements_text(void)
         (void)fprintf(out, "| %s | %s | %s | %s |\n", statement->section, statement->text, published,
                       fst_rules[statement->rule].name);
     }
+    write_readings(out);
     if (fclose(out) != 0) {
         free(text);
         return NULL;
