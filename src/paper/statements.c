@@ -98,6 +98,18 @@ fst_tally fst_paper_tally(const fst_paper_state *paper, fst_group group)
     return tally;
 }
 
+void fst_tally_add(fst_tally *all, const fst_tally *more)
+{
+    all->moving += more->moving;
+    all->still += more->still;
+    all->undecided += more->undecided;
+    for (int v = 0; v < 3; ++v) {
+        all->once[v] += more->once[v];
+        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
+            all->of[d][v] += more->of[d][v];
+    }
+}
+
 int fst_paper_dry_tally(const fst_paper_state *paper, int tally[3])
 {
     int count = 0;
