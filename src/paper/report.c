@@ -55,7 +55,7 @@ static void write_summary(FILE *out, const fst_paper_state *paper)
     if (all.undecided > 0)
         fprintf(
             out,
-            "<p class=\"fine\">%d of the verdicts “not reproduced” are undecided: runs had not settled.</p>\n",
+            "<p class=\"fine\">Undecided, since runs had not settled: %d of the verdicts “not reproduced”.</p>\n",
             all.undecided);
     int dry[3] = {0};
     const int about_motion = fst_paper_dry_tally(paper, dry);
