@@ -98,6 +98,7 @@ typedef struct fst_fit_outlier {
 typedef struct fst_fit_number {
     size_t row;
     fst_measured what;
+    double value;     /* as it was taken: of the sign that a remark may speak of */
     double expected;  /* by the model; NAN: it has no such motion there */
     double deviation; /* in standard deviations */
     int used;         /* 0: an outlier */

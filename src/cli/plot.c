@@ -35,6 +35,8 @@ static const option options[] = {
      "curves\n"
      "over two parameters: second"},
     {"runs", '\0', "FILE", "of a branch: draw dots over it, from documents of festoon run --json"},
+    {"points", '\0', "DATA.csv",
+     "of a sweep or a branch over the drive: lay measured points with errors over it, and tell chi^2"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -146,6 +148,27 @@ static fst_status plot_sweep(const arguments *given, const char *path, const cha
     return status;
 }
 
+static fst_status plot_points(const arguments *given, const char *path, const char *to, fst_error *error)
+{
+    fst_points_fit fit;
+    char remark[96];
+    for (int i = 0; i < given->option_count; ++i) {
+        const char *name = given->options[i].row->name;
+        if (strcmp(name, "points") != 0 && strcmp(name, "output") != 0)
+            return fail(error, FST_BAD_INPUT, "", "--%s does not go with --points", name);
+    }
+    if (!ends_in(path, ".json") && !fst_is_sweep(path) && !ends_in(path, ".db"))
+        return fail(error, FST_BAD_INPUT, path,
+                    "--points belongs to sweeps and branches; this file is neither");
+    const fst_status status = fst_figure_points(path, option_value(given, "points"), to, &fit, error);
+    if (status != FST_OK)
+        return status;
+    (void)snprintf(remark, sizeof remark, ": chi^2 = %.6g of %d measured numbers (%d in the table)", fit.chi2,
+                   fit.counted, fit.all);
+    tell_written(to, remark);
+    return FST_OK;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     (void)out;
@@ -156,6 +179,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "say where the figure goes: -o FIG.svg");
+    if (option_value(given, "points"))
+        return plot_points(given, path, to, error);
     if (ends_in(path, ".json")) /* a branch */
         return plot_branch(given, path, to, error);
     if (fst_is_sweep(path) || ends_in(path, ".db"))

@@ -30,8 +30,8 @@ static fst_status not_there(const fst_params *params, const char *what, fst_erro
                     params->drive_frequency, what);
 }
 
-fst_status fst_orbit_near(const fst_params *params, const fst_orbit *guess, const fst_progress *progress,
-                          fst_orbit *orbit, fst_error *error)
+fst_status fst_orbit_near(const fst_params *params, const fst_orbit *guess, double tolerance,
+                          const fst_progress *progress, fst_orbit *orbit, fst_error *error)
 {
     fst_family family;
     fst_solution s;
@@ -42,11 +42,15 @@ fst_status fst_orbit_near(const fst_params *params, const fst_orbit *guess, cons
     orbit->outcome = FST_ORBIT_UNSETTLED;
     if (guess->outcome != FST_ORBIT_FOUND || !(guess->means.period > 0.0))
         return fst_fail(error, FST_BAD_INPUT, "fst_orbit_near", "the guess is no orbit");
+    if (!(tolerance >= 1e-14 && tolerance <= 1e-6))
+        return fst_fail(error, FST_BAD_INPUT, "fst_orbit_near", "the tolerance must lie from 1e-14 to 1e-6");
     fst_watch_begin(&watch, progress);
     fst_status status = fst_family_begin(&family, params, NULL, error);
     if (status != FST_OK)
         return status;
     family.watch = &watch;
+    family.tolerance = tolerance;
+    family.residual = fmax(family.residual, 10.0 * tolerance);
     begin_chain(guess, &s);
     status = fst_solution_chain(&family, &s, s.symmetric ? 1 : 2, error);
     if (status == FST_OK)

@@ -46,7 +46,7 @@ static void fill(panel_data *d, double *memory, const fst_points *points, const 
             continue;
         const size_t at = number->used ? d->points++ : d->outliers++;
         (number->used ? d->px : d->ox)[at] = row->frequency;
-        (number->used ? d->py : d->oy)[at] = factor * row->value[what];
+        (number->used ? d->py : d->oy)[at] = factor * number->value;
         (number->used ? d->pspread : d->ospread)[at] = factor * row->error[what];
     }
 }

@@ -101,6 +101,38 @@ static double robust_sum(const fit_problem *p)
     return sum;
 }
 
+/* A table may give frequencies of beads without their sign.  Where all of them go round with the magnet, and
+ * the model's orbits all go round against it, it is taken so, and said. */
+static fst_status mind_signs(fit_problem *p, fst_fit *fit, fst_error *error)
+{
+    double u[FIT_MOST] = {0.0};
+    int against = 0, numbers = 0;
+    double *residuals = calloc((size_t)fit_residual_count(p), sizeof *residuals);
+    fst_status status = residuals ? fit_residuals(p, u, residuals, error)
+                                  : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
+    free(residuals);
+    for (int i = 0; i < p->count && status == FST_OK; ++i) {
+        const fit_number *n = &p->numbers[i];
+        const fit_value *v = &p->values[n->row];
+        const double drive = p->rows.rows[n->row].frequency;
+        if (n->what != FST_MEASURED_BEAD_FREQUENCY)
+            continue;
+        if (n->value * drive <= 0.0 || (v->origin == FIT_ORBIT && v->value[n->what] * drive > 0.0))
+            return FST_OK;
+        numbers += 1;
+        against += v->origin == FIT_ORBIT;
+    }
+    if (status != FST_OK || numbers == 0 || 2 * against < numbers)
+        return status;
+    for (int i = 0; i < p->count; ++i)
+        if (p->numbers[i].what == FST_MEASURED_BEAD_FREQUENCY)
+            p->numbers[i].value = -p->numbers[i].value;
+    return fit_remark(
+        fit, error,
+        "every bead_frequency has the sign of the magnet's, but the model's bead goes round against the "
+        "magnet: they were taken as given without a sign, and so as opposite to it");
+}
+
 /* Where the scene's parameters have not the motion that was measured, look for a start around them. */
 fst_status fit_find_start(fit_problem *p, double *u, fst_error *error)
 {
@@ -306,8 +338,8 @@ static fst_status report_numbers(fit_problem *p, const fit_estimate *e, const fs
         const fit_number *n = &p->numbers[i];
         const double expected = p->values[n->row].value[n->what];
         const double deviation = fit_studentised(p, e, i);
-        fit->numbers[fit->number_count++] =
-            (fst_fit_number){(size_t)n->row, n->what, expected, -fit_plain_residual(p, i), n->weight > 0.0};
+        fit->numbers[fit->number_count++] = (fst_fit_number){
+            (size_t)n->row, n->what, n->value, expected, -fit_plain_residual(p, i), n->weight > 0.0};
         if (n->weight > 0.0)
             continue;
         fit->outliers[fit->outlier_count++] = (fst_fit_outlier){
@@ -414,6 +446,8 @@ fst_status fst_fit_points(const fst_params *params, const fst_points *points, co
         status = fit_problem_begin(&p, params, points, options, &progress, error);
     else
         memset(&p, 0, sizeof p);
+    if (status == FST_OK)
+        status = mind_signs(&p, fit, error);
     if (status == FST_OK)
         status = fit_search_all(&p, u, &chi2, &too_many, error);
     if (status == FST_OK)

@@ -20,8 +20,11 @@
 #include "base/error.h"
 #include "host/parallel.h"
 
-/* Steps of the coordinates for derivatives: orbits are exact to 1e-11, runs without an orbit are not. */
-#define ORBIT_STEP 1e-5
+/* Orbits are wanted to 1e-9, a millionth of what films tell. */
+#define ORBIT_TOLERANCE 1e-10
+
+/* Steps of the coordinates for derivatives; runs without an orbit are less exact. */
+#define ORBIT_STEP 5e-5
 #define RUN_STEP 1e-2
 
 #define PERIODS_OF_ANOTHER 100.0
@@ -111,7 +114,7 @@ static fst_status find_value(const fit_rows *rows, const fit_row *row, const dou
     fst_status status = FST_NO_CONVERGENCE;
     if (row->last.origin == FIT_ORBIT) {
         guess_orbit(rows, row, u, &guess);
-        status = fst_orbit_near(&params, &guess, progress, &out->orbit, error);
+        status = fst_orbit_near(&params, &guess, ORBIT_TOLERANCE, progress, &out->orbit, error);
     }
     /* Where a known orbit was lost another one is near, or none: long waits would only slow the search down. */
     if (row->last.origin == FIT_ORBIT)
