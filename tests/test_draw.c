@@ -285,7 +285,7 @@ static void the_field_shows_its_maxima(void **state)
 {
     (void)state;
     fst_params params = fst_default_params();
-    assert_int_equal(fst_figure_field(&params, inside("field.svg"), NULL), FST_OK);
+    assert_int_equal(fst_figure_field(&params, FST_SHOWN_SCALED, inside("field.svg"), NULL), FST_OK);
     size_t size;
     char *data = contents("field.dat", &size), *at = strstr(data, "# maxima");
     assert_non_null(at);
@@ -303,7 +303,7 @@ static void a_curve_breaks_where_it_is_not_a_number(void **state)
     const double x[] = {0, 1, 2, 3, 4, 5}, y[] = {0, 1, NAN, NAN, 4, 5};
     fst_chart_curve curve = {.title = "curve", .x = x, .y = y, .count = 6, .colour = FST_COLOUR_BLUE};
     fst_chart_panel panel = {
-        .left_label = "y", .low = NAN, .high = NAN, .key = "top left", .curves = &curve, .curve_count = 1};
+        .left_label = "y", .low = NAN, .high = NAN, .curves = &curve, .curve_count = 1};
     fst_chart chart = {.title = "a chart", .x_label = "x", .x_high = 5.0, .panels = &panel, .panel_count = 1};
     assert_int_equal(fst_figure_chart(inside("chart.svg"), &chart, NULL), FST_OK);
     size_t size;

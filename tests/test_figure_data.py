@@ -79,7 +79,7 @@ def test_a_path_begins_after_the_discard():
     reach = max(abs(value) for row in blocks["path"] for value in row[:2])
     low, high = map(float, re.search(r"set xrange \[(\S+):(\S+)\]", script).groups())
     assert low <= -reach and high >= reach, (low, high, reach)
-    title = re.search(r"set title '.*?= (\S+) \((\S+) Hz\)", script)
+    title = re.search(r"set label 'ω = (\S+) \((\S+) Hz\)", script)
     close(float(title.group(1)), columns["omega"][0], 1e-4)
     close(float(title.group(2)), 10.7, 1e-3)
 

@@ -72,6 +72,24 @@ FST_API fst_status fst_branch_read(const char *path, fst_branch *branch, fst_err
 FST_API fst_status fst_run_dots_read(const char *path, const char *key, const char *observable, double **dots,
                                      size_t *count, fst_error *error);
 
+/* ------------------------------------------------------------------ units */
+
+/* The units of numbers that leave: those in which they were given; those of a laboratory (Hz, mm, s, mm/s, mT,
+ * mN, mW); scaled ones (l, 1/gamma, B0, per mass); or SI. */
+typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED, FST_SHOWN_SI } fst_shown_units;
+
+/* What the scaled units are: l in m, 1/gamma in s, the bead's mass in kg, B0 in T (NAN: it does not follow from
+ * the parameters). */
+typedef struct fst_scales {
+    double length, time, mass, field;
+} fst_scales;
+FST_API fst_scales fst_scales_of(const fst_params *params);
+
+/* The factor that turns a value in `unit`, as the tables of columns and results name it ("l gamma"), into the
+ * wanted units, and the name of the unit there ("mm/s").  A unit without counterpart stays: the factor is 1. */
+FST_API double fst_unit_shown(const char *unit, fst_shown_units units, const fst_scales *scales,
+                              const char **name);
+
 /* ------------------------------------------------------------------ trajectories */
 
 /* A file into which a run streams its samples; the ending chooses the format: .h5 (HDF5, with the scene and the
@@ -80,6 +98,10 @@ FST_API fst_status fst_run_dots_read(const char *path, const char *key, const ch
 typedef struct fst_trajectory fst_trajectory;
 FST_API fst_status fst_trajectory_create(const char *path, const fst_params *params,
                                          fst_trajectory **trajectory, fst_error *error);
+/* A trajectory for other programs: a .csv whose columns are in laboratory or SI units (`units`), named in its
+ * line of columns.  fst_trajectory_read() refuses it. */
+FST_API fst_status fst_trajectory_create_in(const char *path, const fst_params *params, fst_shown_units units,
+                                            fst_trajectory **trajectory, fst_error *error);
 /* FST_BAD_INPUT: a number of the sample is not finite; such a file could not be read back. */
 FST_API fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *sample,
                                          fst_error *error);
@@ -113,10 +135,15 @@ FST_API void fst_table_free(fst_table *table);
 
 /* What a figure of a trajectory shows. */
 typedef enum {
-    FST_FIGURE_PATH,        /* the lab path coloured by a quantity, arrows of the horizontal moment */
-    FST_FIGURE_LOCAL_N,     /* the path of n in the local frame (r, alpha, z) */
-    FST_FIGURE_RADIUS_FIELD /* r and |B| against Phi over half a revolution of the magnet */
+    FST_FIGURE_PATH,         /* the lab path coloured by a quantity, arrows of the horizontal moment */
+    FST_FIGURE_LOCAL_N,      /* the path of n in the local frame (r, alpha, z) */
+    FST_FIGURE_RADIUS_FIELD, /* r and |B| against Phi over half a revolution of the magnet */
+    FST_FIGURE_TIME,         /* quantities against time, a panel each */
+    FST_FIGURE_SECTION,      /* the Poincare section: one quantity against another where Phi passes pi/2 */
+    FST_FIGURE_RAMP          /* quantities against the drive's frequency, for a ramp */
 } fst_figure_kind;
+
+#define FST_FIGURE_KEYS 6
 
 typedef struct fst_figure_options {
     uint32_t cookie;
@@ -127,6 +154,9 @@ typedef struct fst_figure_options {
     double from, to;    /* drive periods shown; NAN: from the discard, for as long as makes a good picture */
     double zoom[4];     /* x0 x1 y0 y1 in mm; NAN: everything */
     const char *title;  /* NULL: made from the scene */
+    /* Columns that figures of time, sections and ramps show; NULL ends a shorter list, an empty one is chosen. */
+    const char *keys[FST_FIGURE_KEYS];
+    fst_shown_units units; /* as given: lengths in mm for paths, otherwise scaled */
 } fst_figure_options;
 FST_API fst_figure_options fst_default_figure_options(void);
 
@@ -139,12 +169,14 @@ FST_API fst_status fst_figure_trajectory(const fst_table *table, const char *out
 /* Draw a branch: `observable` ("mean_r", "mean_alpha_dot", "mean_nz", "festoons", "min_r", "period") over the
  * parameter, with stable parts solid, unstable ones dashed, special points labelled, and `dots` (pairs of
  * abscissa and ordinate, may be NULL) on top; or, with "multipliers", the multipliers in the complex plane with
- * the unit circle. */
-FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *observable, const double *dots,
-                                     size_t dot_count, const char *out, fst_error *error);
+ * the unit circle (of locked states: their eigenvalues).  As given: laboratory units where the parameter has one.
+ * FST_BAD_INPUT: the branch has no value of the observable; the sentence names those it has. */
+FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *observable, fst_shown_units units,
+                                     const double *dots, size_t dot_count, const char *out, fst_error *error);
 
 /* The map of the magnet's field on the plane of the bead's centre (the paper's Fig. 5). */
-FST_API fst_status fst_figure_field(const fst_params *params, const char *out, fst_error *error);
+FST_API fst_status fst_figure_field(const fst_params *params, fst_shown_units units, const char *out,
+                                    fst_error *error);
 
 /* ------------------------------------------------------------------ sweeps */
 
@@ -226,14 +258,11 @@ FST_API void fst_sweep_table_free(fst_sweep_table *table);
 /* Read only the grid; free it with fst_grid_free(). */
 FST_API fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *error);
 
-/* The units on the axes of a sweep's figure: those of the parameters that were varied (lengths in mm); those of
- * the laboratory (Hz, mm, mm/s, 1/s, s); or scaled ones (drive omega, lengths in l). */
-typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED } fst_shown_units;
-
 /* Draw a sweep: over one axis curves of the keys; over two axes a map of one key, or of regimes where the key
  * is `regime`.  With count = 0 the keys are chosen: mean r and its deviation, the mean angular velocity and the
  * regime over one axis; the regime over two.  An axis with logarithmic spacing is drawn logarithmically.
- * FST_BAD_INPUT: more than two axes, more than one key on a map, or units that a varied parameter changes. */
+ * As given: laboratory units where a varied parameter has one (Hz, mm), otherwise scaled ones.  FST_BAD_INPUT:
+ * more than two axes, more than one key on a map, or units that a varied parameter changes. */
 FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, fst_shown_units units,
                                     const char *out, fst_error *error);
 

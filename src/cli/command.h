@@ -39,6 +39,12 @@ extern const command run_command, sweep_command, export_command, field_command, 
         "json", '\0', NULL, "one JSON document on standard output instead of text"                             \
     }
 
+#define UNITS_OPTION                                                                                           \
+    {                                                                                                          \
+        "units", '\0', "scaled|lab|si",                                                                        \
+            "the units shown: scaled (l, 1/gamma, B0), of the laboratory (Hz, mm, s, mT), or SI"                \
+    }
+
 /* Fill in `error` and return `code`. */
 fst_status fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
@@ -58,6 +64,9 @@ const char *shown(const char *path, char text[SHOWN_SIZE]);
 
 /* Say "wrote PATH", with a remark behind it, on standard error. */
 void tell_written(const char *path, const char *remark);
+
+/* Read --units; as given where it is missing. */
+fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error);
 
 /* Read exactly `count` numbers separated by commas. */
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,

@@ -11,18 +11,22 @@ static const struct {
     {"path", FST_FIGURE_PATH},
     {"local-n", FST_FIGURE_LOCAL_N},
     {"radius-field", FST_FIGURE_RADIUS_FIELD},
+    {"time", FST_FIGURE_TIME},
+    {"section", FST_FIGURE_SECTION},
+    {"ramp", FST_FIGURE_RAMP},
 };
-#define KIND_NAMES "path|local-n|radius-field"
+#define KIND_NAMES "path|local-n|radius-field|time|section|ramp"
 
 static const option options[] = {
     {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
     {"kind", '\0', "KIND",
-     "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame) or "
-     "radius-field (r and |B| against Phi)"},
-    {"key", '\0', "KEY,...", "of a sweep: the keys of festoon run to draw (regime: a map of regimes)"},
-    {"units", '\0', "lab|scaled",
-     "of a sweep: Hz, mm and seconds, or the drive's omega and lengths in l (without it: the units in which "
-     "the axes were given)"},
+     "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame),\n"
+     "radius-field (r and |B| against Phi), time (columns against time), section (Poincare section: one\n"
+     "column against another where Phi passes 90 degrees) or ramp (columns against the drive of a ramp)"},
+    {"key", '\0', "KEY,...",
+     "of a sweep: the keys of festoon run to draw (regime: a map of regimes); of the kinds time, section and\n"
+     "ramp: the columns of the trajectory (r,n_z)"},
+    UNITS_OPTION,
     {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
     {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
     {"no-arrows", '\0', NULL, "draw no arrows"},
@@ -96,6 +100,46 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     return status;
 }
 
+/* The words of a list "r,n_z" in `words`, which keeps them. */
+enum { MOST_KEYS = 16, WORDS_SIZE = 512 };
+static fst_status read_keys(const char *text, char words[WORDS_SIZE], const char *keys[MOST_KEYS], int *count,
+                            fst_error *error)
+{
+    *count = 0;
+    if (strlen(text) >= WORDS_SIZE)
+        return fail(error, FST_BAD_INPUT, "--key", "the list is longer than %d letters", WORDS_SIZE - 1);
+    (void)snprintf(words, WORDS_SIZE, "%s", text);
+    for (char *word = words; *word; ) {
+        const size_t length = strcspn(word, ",");
+        if (length == 0)
+            return fail(error, FST_BAD_INPUT, "--key", "a name is missing in \"%.60s\"", text);
+        if (*count == MOST_KEYS)
+            return fail(error, FST_BAD_INPUT, "--key", "there are more than %d names", MOST_KEYS);
+        keys[(*count)++] = word;
+        if (!word[length])
+            break;
+        word[length] = '\0';
+        word += length + 1;
+    }
+    return FST_OK;
+}
+
+/* --key and --units of a trajectory. */
+static fst_status read_columns(const arguments *given, fst_figure_options *figure, char words[WORDS_SIZE],
+                               fst_error *error)
+{
+    const char *keys[MOST_KEYS], *text = option_value(given, "key");
+    int count = 0;
+    fst_status status = read_units(given, &figure->units, error);
+    if (status == FST_OK && text)
+        status = read_keys(text, words, keys, &count, error);
+    if (status == FST_OK && count > FST_FIGURE_KEYS)
+        status = fail(error, FST_BAD_INPUT, "--key", "a figure shows at most %d columns", FST_FIGURE_KEYS);
+    for (int i = 0; i < count && status == FST_OK; ++i)
+        figure->keys[i] = keys[i];
+    return status;
+}
+
 static int ends_in(const char *path, const char *ending)
 {
     const size_t length = strlen(path), wanted = strlen(ending);
@@ -108,7 +152,10 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     const char *observable = option_value(given, "observable"), *runs = option_value(given, "runs");
     double *dots = NULL;
     size_t dot_count = 0;
-    fst_status status = fst_branch_read(path, &branch, error);
+    fst_shown_units units;
+    fst_status status = read_units(given, &units, error);
+    if (status == FST_OK)
+        status = fst_branch_read(path, &branch, error);
     if (status != FST_OK)
         return status;
     if (!observable)
@@ -116,7 +163,7 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     if (runs)
         status = fst_run_dots_read(runs, branch.key, observable, &dots, &dot_count, error);
     if (status == FST_OK)
-        status = fst_figure_branch(&branch, observable, dots, dot_count, to, error);
+        status = fst_figure_branch(&branch, observable, units, dots, dot_count, to, error);
     if (status == FST_OK)
         tell_written(to, "");
     free(dots);
@@ -127,31 +174,20 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
 /* Draw a sweep: curves over one axis, a map over two. */
 static fst_status plot_sweep(const arguments *given, const char *path, const char *to, fst_error *error)
 {
-    enum { MOST_KEYS = 16 };
-    const char *text = option_value(given, "key"), *keys[MOST_KEYS], *unit_word = option_value(given, "units");
-    char words[512] = "";
+    const char *text = option_value(given, "key"), *keys[MOST_KEYS];
+    char words[WORDS_SIZE];
     int count = 0;
-    fst_shown_units units = FST_SHOWN_AS_GIVEN;
+    fst_shown_units units;
     for (int i = 0; i < given->option_count; ++i) {
         const char *name = given->options[i].row->name;
         if (strcmp(name, "key") != 0 && strcmp(name, "units") != 0 && strcmp(name, "output") != 0)
             return fail(error, FST_BAD_INPUT, "", "--%s belongs to trajectories; this is a sweep", name);
     }
-    if (unit_word) {
-        if (strcmp(unit_word, "lab") != 0 && strcmp(unit_word, "scaled") != 0)
-            return fail(error, FST_BAD_INPUT, "--units", "\"%.40s\" must be lab or scaled", unit_word);
-        units = strcmp(unit_word, "lab") == 0 ? FST_SHOWN_LAB : FST_SHOWN_SCALED;
-    }
-    (void)snprintf(words, sizeof words, "%s", text ? text : "");
-    for (char *word = words; *word && count < MOST_KEYS;) {
-        size_t length = strcspn(word, ",");
-        keys[count++] = word;
-        if (!word[length])
-            break;
-        word[length] = '\0';
-        word += length + 1;
-    }
-    fst_status status = fst_figure_sweep(path, keys, count, units, to, error);
+    fst_status status = read_units(given, &units, error);
+    if (status == FST_OK && text)
+        status = read_keys(text, words, keys, &count, error);
+    if (status == FST_OK)
+        status = fst_figure_sweep(path, keys, count, units, to, error);
     if (status == FST_OK)
         tell_written(to, "");
     return status;
@@ -171,9 +207,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return plot_branch(given, path, to, error);
     if (fst_is_sweep(path) || ends_in(path, ".db"))
         return plot_sweep(given, path, to, error);
-    if (option_value(given, "key") || option_value(given, "units"))
-        return fail(error, FST_BAD_INPUT, path, "--key and --units belong to sweeps; this file is none");
+    char words[WORDS_SIZE];
     fst_status status = read_figure(given, &figure, error);
+    if (status == FST_OK)
+        status = read_columns(given, &figure, words, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);
     if (status != FST_OK)

@@ -18,10 +18,14 @@ void fst_unit_symbols(const char *unit, char *text, size_t size)
 {
     static const struct {
         const char *word, *symbol;
-    } symbols[] = {{"gamma", "γ"}, {"deg", "°"}, {"B0", "B₀"}, {"l", "ℓ"}, {"^2", "²"}, {"^3", "³"}, {" ", ""}};
+    } symbols[] = {{"gamma", "γ"}, {"deg", "°"}, {"B0", "B₀"}, {"l", "ℓ"}, {"^2", "²"}, {"^3", "³"}, {"uJ", "µJ"}, {" ", ""}};
     enum { COUNT = sizeof symbols / sizeof symbols[0] };
     size_t used = 0;
     text[0] = '\0';
+    if (strcmp(unit, "m g") == 0 || strcmp(unit, "weights of the bead") == 0) {
+        (void)snprintf(text, size, "weights of the bead");
+        return;
+    }
     while (*unit && used + 1 < size) {
         int i = 0;
         while (i < COUNT && strncmp(unit, symbols[i].word, strlen(symbols[i].word)) != 0)

@@ -295,6 +295,13 @@ static int count_branches(const json_t *document)
     return most < MOST_BRANCHES ? (int)most + 1 : MOST_BRANCHES;
 }
 
+/* A scale of the scene; a file may lack it. */
+static double positive_or_nan(const json_t *number)
+{
+    const double value = json_number_value(number);
+    return value > 0.0 ? value : NAN;
+}
+
 static void read_head(reader *r, const json_t *document, fst_branch *branch)
 {
     branch->kind = (fst_branch_kind)read_name(r, document, "kind", kind_name, FST_BRANCH_ALL + 1);
@@ -312,6 +319,9 @@ static void read_head(reader *r, const json_t *document, fst_branch *branch)
     branch->branches = json_object_get(document, "branches")
                            ? read_integer(r, document, "branches", 0, MOST_BRANCHES)
                            : count_branches(document);
+    const json_t *scene = json_object_get(document, "scene");
+    branch->length_unit = positive_or_nan(json_object_get(scene, "magnet.half_length"));
+    branch->time_unit = 1.0 / positive_or_nan(json_object_get(scene, "friction.gamma"));
     r->key = branch->key;
     r->branches = branch->branches;
 }

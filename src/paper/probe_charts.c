@@ -106,7 +106,6 @@ static fst_status draw_halving(const fst_paper_halving *halving, const halving_c
                                        {.left_label = "|⟨n_z⟩|",
                                         .low = 0.0,
                                         .high = NAN,
-                                        .key = "top right",
                                         .curves = curves + 1,
                                         .curve_count = 2},
                                        {.left_label = "relaxation time (1000/γ)",
@@ -119,7 +118,7 @@ static fst_status draw_halving(const fst_paper_halving *halving, const halving_c
                        .x_label = "drive ω (γ)",
                        .x_low = c->omega[0] - 0.0005,
                        .x_high = c->omega[FST_HALVING_POINTS - 1] + 0.0005,
-                       .height = 1040,
+                       .height = 220,
                        .panels = panels,
                        .panel_count = 3,
                        .marks = marks,
@@ -169,14 +168,12 @@ fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_pape
     const fst_chart_panel panel = {.left_label = "least κ found, % of a neodymium bead's",
                                    .low = 0.0,
                                    .high = NAN,
-                                   .key = "top left",
                                    .curves = curves,
                                    .curve_count = FST_REMANENCE_DRIVES};
     fst_chart chart = {.title = figure->title,
                        .x_label = "magnetisability a (1000 a/(m ℓ²γ²/B_0²))",
                        .x_low = 0.9,
                        .x_high = 3.1,
-                       .height = 420,
                        .panels = &panel,
                        .panel_count = 1};
     return fst_figure_chart(out, &chart, error);
