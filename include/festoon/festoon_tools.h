@@ -119,6 +119,10 @@ typedef struct fst_column_info {
 FST_API int fst_column_count(void);
 FST_API const fst_column_info *fst_column_at(int index);
 
+/* As fst_unit_shown(), for a column: angular velocities are in rad/s. */
+FST_API double fst_column_shown(const fst_column_info *column, fst_shown_units units, const fst_scales *scales,
+                                const char **name);
+
 /* A trajectory that was read from .h5 or .csv: columns[i][row], in the order of fst_column_at(). */
 typedef struct fst_table {
     size_t rows;
@@ -278,13 +282,14 @@ typedef struct fst_film_options {
     double from, to;              /* drive periods shown; NAN: everything */
     double seconds_per_turn;      /* seconds of film for a turn of the magnet */
     const char *colour;           /* the column that colours the trail; NULL: "slip" */
+    fst_shown_units units;        /* of the scale of colours; as given: those in which the drive is given */
     const fst_progress *progress; /* NULL: nobody is told */
 } fst_film_options;
 /* 720 x 720 pixels, 30 frames a second, one second a turn. */
 FST_API fst_film_options fst_default_film_options(void);
 
 /* Make a film of a trajectory: the plate from above with the magnet turning beneath it, the bead with its poles
- * and surface marks, its trail, and a view from the front.  `out` ends in .mp4 or .gif, or is a folder for PNG
+ * and surface marks, its trail, a view from the front, and a key of the poles and of the sense of rotation.  `out` ends in .mp4 or .gif, or is a folder for PNG
  * frames.  FST_BAD_INPUT: an odd size, no samples in the range, an unknown column.  FST_UNAVAILABLE: this build
  * has no Cairo, or there is no ffmpeg; without ffmpeg the frames are kept in a folder that the sentence names.
  */

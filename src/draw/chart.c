@@ -11,7 +11,7 @@ enum {
     LINE = 16, /* for one more line of a label */
     RIGHT = 22,
     RIGHT_ORDINATE = 64,
-    SECOND_ABSCISSA = 54,
+    SECOND_ABSCISSA = 60,
     FOOT = 54,
     GAP = 12, /* between panels */
     USUAL_HEIGHT = 190,
@@ -236,6 +236,15 @@ static void write_range(FILE *script, const char *axis, double low, double high)
     (void)(isfinite(high) ? fprintf(script, "%.9g]\n", high) : fputs("*]\n", script));
 }
 
+/* An inset has room for four numbers on an axis. */
+static void write_sparse_tics(FILE *script, const char *axis, double low, double high)
+{
+    if (isfinite(low) && isfinite(high))
+        (void)fprintf(script, "set %stics %.9g\n", axis, fst_round_step((high - low) / 3.0));
+    else
+        (void)fprintf(script, "set %stics auto\n", axis);
+}
+
 /* Draw the inset of a panel whose frame is given in pixels.  Its labels stand above and below it. */
 static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, int number,
                         const double frame[4], int height)
@@ -244,8 +253,10 @@ static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, i
     const double wide = frame[1] - frame[0], tall = frame[3] - frame[2];
     (void)fputs("unset arrow\nunset label\nunset key\nunset x2tics\nunset y2tics\n"
                 "set object 99 rectangle from graph 0,0 to graph 1,1 behind fc rgb 'white' fs solid noborder\n"
-                "set tics font ',11'\nset format x '%g'\nset xtics auto\nset ytics auto\n",
+                "set tics font ',11'\nset format x '%g'\n",
                 script);
+    write_sparse_tics(script, "x", inset->x_low, inset->x_high);
+    write_sparse_tics(script, "y", inset->low, inset->high);
     fst_figure_place(figure, height,
                      (const double[4]){frame[0] + wide * inset->left, frame[0] + wide * inset->right,
                                        frame[3] - tall * inset->top, frame[3] - tall * inset->bottom});
@@ -267,7 +278,7 @@ static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, i
         (void)fprintf(script, " at first %.9g,%.9g font ',12' front\n", inset->labels[i].x, inset->labels[i].y);
     }
     write_curves(figure, "inset", number, inset->curves, inset->curve_count);
-    (void)fputs("unset label\nunset object 99\nset tics font ',12'\n", script);
+    (void)fputs("unset label\nunset object 99\nset tics font ',12'\nset xtics auto\n", script);
 }
 
 static void write_panel(fst_figure_file *figure, const fst_chart *chart, const layout *l, int p)

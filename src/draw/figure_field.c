@@ -18,7 +18,7 @@ enum {
     ARROW_STEP = 12, /* map points from one arrow to the next */
     MAXIMA = 8,      /* the most maxima that are marked */
     LEVELS = 8,      /* about as many lines of equal field */
-    LABEL_GAP = 17   /* pixels between two of their labels */
+    LABEL_GAP = 14   /* pixels between two of their labels */
 };
 
 typedef struct field_map {
@@ -163,34 +163,26 @@ static void write_marks(fst_figure_file *figure, const field_map *map)
 
 /* ------------------------------------------------------------------ lines of equal field */
 
-/* The steps between lines of equal field: 1, 2 or 5 times a power of ten. */
-static double step_of(double greatest)
-{
-    const double rough = greatest / LEVELS, ten = pow(10.0, floor(log10(rough)));
-    return rough < 1.5 * ten ? ten : rough < 3.5 * ten ? 2.0 * ten : rough < 7.5 * ten ? 5.0 * ten : 10.0 * ten;
-}
-
-/* Label lines of equal field along a ray from a maximum, on which the field falls: where a level is passed, and
- * no closer to the label before than letters are high. */
+/* Label lines of equal field where they pass the column of the map beside a maximum, on which the field falls:
+ * between two columns of arrows, and no closer to the label before than letters are high. */
 static void write_levels(fst_figure_file *figure, const field_map *map, double greatest)
 {
     enum { STEPS = 2000 };
-    static const double c = 0.30, s = 0.954; /* of the ray's angle */
-    const double x = map->maximum_count ? fabs(map->maxima[0][0]) : 0.0, reach = 2.0 * map->half_height;
-    const double step = step_of(greatest);
+    const double peak = map->maximum_count ? fabs(map->maxima[0][0]) : 0.0;
+    const double place = (peak / map->half_width + 1.0) / 2.0 * (COLUMNS - 1) / ARROW_STEP;
+    const double x = column_x(map, ARROW_STEP * (int)(place + 0.5));
+    const double step = fst_round_step(greatest / LEVELS);
     const double pixel = 2.0 * map->half_width / (FST_FIGURE_WIDTH - LEFT - RIGHT);
     double before = map->field * strength(map->model, x, 0.0), labelled = -INFINITY;
     (void)fprintf(figure->script, "set cntrparam levels incremental %.9g,%.9g,%.9g\n", step, step, greatest);
     for (int i = 1; i <= STEPS; ++i) {
-        const double along = reach * i / STEPS, px = x + c * along, py = s * along;
-        if (px > 0.93 * map->half_width || py > 0.93 * map->half_height)
-            return;
-        const double here = map->field * strength(map->model, px, py), level = step * floor(before / step);
-        if (here < level && before >= level && level > 0.0 && along - labelled > LABEL_GAP * pixel) {
+        const double y = 0.95 * map->half_height * i / STEPS;
+        const double here = map->field * strength(map->model, x, y), level = step * floor(before / step);
+        if (here < level && before >= level && level > 0.0 && y - labelled > LABEL_GAP * pixel) {
             (void)fprintf(figure->script,
-                          "set label '%.4g' at %.6g,%.6g center front boxed font ',10' textcolor rgb '#27496d'\n",
-                          level, map->length * px, map->length * py);
-            labelled = along;
+                          "set label '%.4g' at %.6g,%.6g center front font ',11' textcolor rgb '#0b2a4a'\n", level,
+                          map->length * x, map->length * y);
+            labelled = y;
         }
         before = here;
     }
@@ -261,7 +253,7 @@ static fst_legend make_legend(const field_map *map)
     if (map->bar)
         fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#50d55e00' lw 3", "the magnet's lines, below the plate");
     const double shown = map->field * map->strongest;
-    (void)snprintf(words, sizeof words, "part of B in the plane; so long: %.2g %s; length as its square root",
+    (void)snprintf(words, sizeof words, "in-plane part of B: this length is %.2g %s, others as its square root",
                    shown, map->field_unit);
     fst_legend_add(&legend, FST_SAMPLE_ARROW, "lc rgb '#333333' lw 1", words);
     legend.entries[legend.count - 1].length =

@@ -4,7 +4,7 @@
 #include "draw/style.h"
 #include "draw/view.h"
 
-enum { SIDE = 186, LEFT = 54, GAP = 44, TITLE = 26, AXIS = 54 };
+enum { SIDE = 186, LEFT = 54, GAP = 44, TITLE = 32, AXIS = 54 };
 
 /* One view of the unit sphere: the path projected on two of the local axes. */
 static void write_panel(fst_figure_file *figure, const char *title, const char *label, int column, int height,

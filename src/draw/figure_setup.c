@@ -4,6 +4,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 
+#include "draw/bar.h"
 #include "draw/legend.h"
 
 #include <math.h>
@@ -11,18 +12,12 @@
 #define FRAMES_A_SECOND 200.0 /* the paper's camera (section III) */
 #define PIXELS_A_MM 10.0      /* the paper gives no scale */
 
-/* The paper's magnet (section II) in mm: a bar, and the half length of the lines that stand for it (section IV),
- * with which the bar of other lengths is drawn. */
-#define BAR_HALF_LENGTH 28.0
-#define BAR_THICKNESS 9.0
-#define BAR_LINES 23.0
-
 enum {
     CAMERA_SECONDS = 2,
     LEFT = 56,
     RIGHT = 20,
     AXIS = 54,
-    TITLE = 24,
+    TITLE = 30,
     ABOVE = FST_FIGURE_WIDTH - LEFT - RIGHT, /* side of the view from above, in pixels */
     BELOW = 186,                             /* of the two views below it */
     LOCAL_LEFT = 284
@@ -143,11 +138,11 @@ static void draw_above(fst_figure_file *figure, const fst_params *p, double reac
 static void draw_side(fst_figure_file *figure, const fst_params *p, double bar, double reach)
 {
     const double depth = 1e3 * p->magnet_depth, radius = 1e3 * p->bead_radius, r = 0.9e3 * p->magnet_half_length;
-    const double beside[4] = {0.0, -depth, bar, 0.5 * BAR_THICKNESS};
+    const double beside[4] = {0.0, -depth, bar, 0.5 * FST_BAR_THICKNESS};
     write_box(figure, "magnet-beside", beside, 0.0);
     write_circle(figure, "bead-beside", r, radius, radius);
     (void)fprintf(figure->script,
-                  "set xrange [%.4g:%.4g]\nset yrange [%.4g:%.4g]\n"
+                  "set xrange [%.4g:%.4g]\nset yrange [%.4g:%.4g]\nset tics 20\n"
                   "set arrow 1 from %.4g,0 to %.4g,0 nohead lc rgb '#222222' lw 2\n"
                   "set label 'plate' at %.4g,4 font ',11'\n"
                   "set arrow 2 from %.4g,0 to %.4g,%.5g heads size screen 0.010,20 lc rgb '#666666'\n"
@@ -178,7 +173,7 @@ static void draw_local(fst_figure_file *figure)
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 2; ++k)
             tip[k] += n[i] * slant[i][k];
-    write_arc(figure, "phi", 0.0, 0.0, 0.42, -90.0, -90.0 + PHI);
+    write_arc(figure, "phi", 0.0, 0.0, 0.68, -90.0, -90.0 + PHI);
     fst_figure_block(figure, "theta", "an arc from e_r to n");
     for (int i = 0; i <= 20; ++i) {
         const double a = THETA * degree * i / 20.0, u = 0.5 * cos(a), v = 0.5 * sin(a) / st;
@@ -202,7 +197,7 @@ static void draw_local(fst_figure_file *figure)
                   "set arrow 7 from %.4g,%.4g to %.4g,%.4g nohead dt 3 lc rgb '#666666'\n"
                   "set label 'φ' at %.4g,%.4g center front\nset label 7 'θ' at %.4g,%.4g center front\n",
                   tip[0], tip[1], 1.2 * tip[0] - 0.06, 1.2 * tip[1], across[0], across[1], tip[0], tip[1],
-                  across[0], across[1], 0.56 * sin(0.5 * PHI * degree), -0.56 * cos(0.5 * PHI * degree), -0.26, -0.42);
+                  across[0], across[1], 0.11, -0.55, -0.26, -0.42);
     (void)fputs("plot data index 'phi' using 1:2 with lines lc rgb '#222222' lw 1.2 notitle, \\\n"
                 "     data index 'theta' using 1:2 with lines lc rgb '#222222' lw 1.2 notitle\n",
                 figure->script);
@@ -212,7 +207,7 @@ static fst_legend sketch_legend(const fst_params *p, double bar)
 {
     fst_legend legend = {.title = "The setup to scale"};
     (void)snprintf(legend.about, sizeof legend.about, "bar magnet %.4g × %.4g × %.4g mm, bead %.4g mm across",
-                   2.0 * bar, 1e3 * p->magnet_width, BAR_THICKNESS, 2e3 * p->bead_radius);
+                   2.0 * bar, 1e3 * p->magnet_width, FST_BAR_THICKNESS, 2e3 * p->bead_radius);
     fst_legend_add(&legend, FST_SAMPLE_BOX, "lc rgb '#dddddd'", "the bar");
     fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#0072b2' lw 1.5", "its model, lines of dipoles");
     fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 7 ps 1.1 lc rgb '#d55e00'", "bead");
@@ -225,7 +220,7 @@ fst_status fst_figure_sketch(const fst_params *params, const char *out, fst_erro
     if (params->magnet_shape != FST_MAGNET_LINES)
         return fst_fail(error, FST_BAD_INPUT, "magnet.shape",
                         "the sketch shows the bar of lines, and this magnet is another: expected lines");
-    const double bar = 1e3 * params->magnet_half_length * BAR_HALF_LENGTH / BAR_LINES;
+    const double bar = 1e3 * params->magnet_half_length * FST_BAR_OVER_LINES;
     const double reach = 1.5 * bar;
     const fst_legend legend = sketch_legend(params, bar);
     const int top = fst_legend_head(&legend) + TITLE, below = top + ABOVE + AXIS + TITLE;

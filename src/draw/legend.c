@@ -142,7 +142,7 @@ void fst_figure_axis_label(fst_figure_file *figure, int height, fst_side side, c
         if (side == FST_SIDE_BELOW)
             y = frame[3] + LABEL_AWAY + LABEL_LINE * i;
         else if (side == FST_SIDE_ABOVE)
-            y = frame[2] - LABEL_AWAY - LABEL_LINE * (count - 1 - i);
+            y = frame[2] - LABEL_AWAY - 6 - LABEL_LINE * (count - 1 - i);
         else
             x = side == FST_SIDE_LEFT ? 12 + LABEL_LINE * i : FST_FIGURE_WIDTH - 10 - LABEL_LINE * (count - 1 - i);
         (void)fputs("set label ", figure->script);

@@ -179,7 +179,7 @@ fst_quantity fst_quantity_of_column(const fst_column_info *column, fst_shown_uni
     char words[96];
     const char *name;
     find_words(columns, sizeof columns / sizeof columns[0], column->name, 1, words, sizeof words);
-    const double factor = fst_unit_shown(column->unit, units, &scales, &name);
+    const double factor = fst_column_shown(column, units, &scales, &name);
     if (strcmp(column->name, "load") == 0 && params->plate_gravity > 0.0)
         return labelled(scales.length / (scales.time * scales.time * params->plate_gravity), words,
                         "weights of the bead");

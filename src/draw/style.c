@@ -47,6 +47,12 @@ void fst_figure_palette(fst_figure_file *figure, fst_palette palette)
     (void)fprintf(figure->script, "set palette defined (%s)\n", definitions[palette]);
 }
 
+double fst_round_step(double rough)
+{
+    const double ten = pow(10.0, floor(log10(rough)));
+    return rough < 1.5 * ten ? ten : rough < 3.5 * ten ? 2.0 * ten : rough < 7.5 * ten ? 5.0 * ten : 10.0 * ten;
+}
+
 void fst_figure_logarithmic(fst_figure_file *figure, const char *axis, double low, double high)
 {
     static const double mantissas[] = {1.0, 2.0, 5.0};

@@ -65,3 +65,12 @@ double fst_unit_shown(const char *unit, fst_shown_units units, const fst_scales 
     }
     return 1.0;
 }
+
+double fst_column_shown(const fst_column_info *column, fst_shown_units units, const fst_scales *scales,
+                        const char **name)
+{
+    const double factor = fst_unit_shown(column->unit, units, scales, name);
+    if (*name != column->unit && strcmp(column->unit, "gamma") == 0)
+        *name = "rad/s";
+    return factor;
+}

@@ -245,8 +245,8 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
     }
     const fst_chart_inset inset = {.left = 0.50,
                                    .right = 0.97,
-                                   .bottom = 0.54,
-                                   .top = 0.90,
+                                   .bottom = 0.50,
+                                   .top = 0.82,
                                    .x_low = 8.0,
                                    .x_high = 25.0,
                                    .low = -4.4,
@@ -349,18 +349,19 @@ fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_pape
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; ++i)
         add(&all, paper, whole_range, figure->dynamics, omega_of, terms[i].term,
             (fst_chart_curve){.title = terms[i].title, .colour = terms[i].colour, .style = terms[i].style});
-    fst_chart_panel panel = {.left_label = "terms of the radial balance, over ε^2",
+    fst_chart_panel panel = {.left_label = "terms of the radial balance, over ε² (ℓγ²)",
                              .low = NAN,
                              .high = NAN,
                              .curves = all.curve,
                              .curve_count = all.count};
-    char title[128];
-    (void)snprintf(title, sizeof title, "%s, %s", figure->title, fst_dynamics_name(figure->dynamics));
-    fst_chart chart = {.title = title,
+    char about[64];
+    (void)snprintf(about, sizeof about, "dynamics %s", fst_dynamics_name(figure->dynamics));
+    fst_chart chart = {.title = figure->title,
+                       .about = about,
                        .x_label = "drive ω (γ)",
                        .x_low = 0.15,
                        .x_high = 2.05,
-                       .height = 480,
+                       .height = 330,
                        .panels = &panel,
                        .panel_count = 1};
     return draw_and_free(&all, out, &chart, error);
