@@ -302,8 +302,7 @@ static void a_curve_breaks_where_it_is_not_a_number(void **state)
     (void)state;
     const double x[] = {0, 1, 2, 3, 4, 5}, y[] = {0, 1, NAN, NAN, 4, 5};
     fst_chart_curve curve = {.title = "curve", .x = x, .y = y, .count = 6, .colour = FST_COLOUR_BLUE};
-    fst_chart_panel panel = {
-        .left_label = "y", .low = NAN, .high = NAN, .curves = &curve, .curve_count = 1};
+    fst_chart_panel panel = {.left_label = "y", .low = NAN, .high = NAN, .curves = &curve, .curve_count = 1};
     fst_chart chart = {.title = "a chart", .x_label = "x", .x_high = 5.0, .panels = &panel, .panel_count = 1};
     assert_int_equal(fst_figure_chart(inside("chart.svg"), &chart, NULL), FST_OK);
     size_t size;

@@ -158,7 +158,8 @@ typedef struct fst_figure_options {
     double from, to;    /* drive periods shown; NAN: from the discard, for as long as makes a good picture */
     double zoom[4];     /* x0 x1 y0 y1 in mm; NAN: everything */
     const char *title;  /* NULL: made from the scene */
-    /* Columns that figures of time, sections and ramps show; NULL ends a shorter list, an empty one is chosen. */
+    /* Columns that figures of time, sections and ramps show; NULL ends a shorter list, an empty one is chosen.
+     */
     const char *keys[FST_FIGURE_KEYS];
     fst_shown_units units; /* as given: lengths in mm for paths, otherwise scaled */
 } fst_figure_options;
@@ -173,8 +174,8 @@ FST_API fst_status fst_figure_trajectory(const fst_table *table, const char *out
 /* Draw a branch: `observable` ("mean_r", "mean_alpha_dot", "mean_nz", "festoons", "min_r", "period") over the
  * parameter, with stable parts solid, unstable ones dashed, special points labelled, and `dots` (pairs of
  * abscissa and ordinate, may be NULL) on top; or, with "multipliers", the multipliers in the complex plane with
- * the unit circle (of locked states: their eigenvalues).  As given: laboratory units where the parameter has one.
- * FST_BAD_INPUT: the branch has no value of the observable; the sentence names those it has. */
+ * the unit circle (of locked states: their eigenvalues).  As given: laboratory units where the parameter has
+ * one. FST_BAD_INPUT: the branch has no value of the observable; the sentence names those it has. */
 FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *observable, fst_shown_units units,
                                      const double *dots, size_t dot_count, const char *out, fst_error *error);
 
@@ -289,9 +290,10 @@ typedef struct fst_film_options {
 FST_API fst_film_options fst_default_film_options(void);
 
 /* Make a film of a trajectory: the plate from above with the magnet turning beneath it, the bead with its poles
- * and surface marks, its trail, a view from the front, and a key of the poles and of the sense of rotation.  `out` ends in .mp4 or .gif, or is a folder for PNG
- * frames.  FST_BAD_INPUT: an odd size, no samples in the range, an unknown column.  FST_UNAVAILABLE: this build
- * has no Cairo, or there is no ffmpeg; without ffmpeg the frames are kept in a folder that the sentence names.
+ * and surface marks, its trail, a view from the front, and a key of the poles and of the sense of rotation.
+ * `out` ends in .mp4 or .gif, or is a folder for PNG frames.  FST_BAD_INPUT: an odd size, no samples in the
+ * range, an unknown column.  FST_UNAVAILABLE: this build has no Cairo, or there is no ffmpeg; without ffmpeg
+ * the frames are kept in a folder that the sentence names.
  */
 FST_API fst_status fst_film(const fst_table *table, const char *out, const fst_film_options *options,
                             fst_error *error);

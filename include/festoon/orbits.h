@@ -201,7 +201,7 @@ typedef struct fst_branch {
     fst_branch_end *ends; /* two for each branch */
     size_t end_count;
     int branches;
-    int complete; /* 0: the caller stopped it before its end */
+    int complete;                  /* 0: the caller stopped it before its end */
     double length_unit, time_unit; /* l in m and 1/gamma in s, by the scene; NAN: not known */
 } fst_branch;
 

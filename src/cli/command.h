@@ -42,7 +42,7 @@ extern const command run_command, sweep_command, export_command, field_command, 
 #define UNITS_OPTION                                                                                           \
     {                                                                                                          \
         "units", '\0', "scaled|lab|si",                                                                        \
-            "the units shown: scaled (l, 1/gamma, B0), of the laboratory (Hz, mm, s, mT), or SI"                \
+            "the units shown: scaled (l, 1/gamma, B0), of the laboratory (Hz, mm, s, mT), or SI"               \
     }
 
 /* Fill in `error` and return `code`. */

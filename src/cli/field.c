@@ -61,7 +61,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (status == FST_OK && at)
         status = print_point(given, &params, out, error);
     if (status == FST_OK && figure)
-        status = fst_figure_field(&params, units == FST_SHOWN_AS_GIVEN ? FST_SHOWN_SCALED : units, figure, error);
+        status =
+            fst_figure_field(&params, units == FST_SHOWN_AS_GIVEN ? FST_SHOWN_SCALED : units, figure, error);
     if (status == FST_OK && figure)
         tell_written(figure, "");
     return status;

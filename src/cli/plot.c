@@ -8,12 +8,8 @@ static const struct {
     const char *name;
     fst_figure_kind kind;
 } kinds[] = {
-    {"path", FST_FIGURE_PATH},
-    {"local-n", FST_FIGURE_LOCAL_N},
-    {"radius-field", FST_FIGURE_RADIUS_FIELD},
-    {"time", FST_FIGURE_TIME},
-    {"section", FST_FIGURE_SECTION},
-    {"ramp", FST_FIGURE_RAMP},
+    {"path", FST_FIGURE_PATH}, {"local-n", FST_FIGURE_LOCAL_N}, {"radius-field", FST_FIGURE_RADIUS_FIELD},
+    {"time", FST_FIGURE_TIME}, {"section", FST_FIGURE_SECTION}, {"ramp", FST_FIGURE_RAMP},
 };
 #define KIND_NAMES "path|local-n|radius-field|time|section|ramp"
 
@@ -109,7 +105,7 @@ static fst_status read_keys(const char *text, char words[WORDS_SIZE], const char
     if (strlen(text) >= WORDS_SIZE)
         return fail(error, FST_BAD_INPUT, "--key", "the list is longer than %d letters", WORDS_SIZE - 1);
     (void)snprintf(words, WORDS_SIZE, "%s", text);
-    for (char *word = words; *word; ) {
+    for (char *word = words; *word;) {
         const size_t length = strcspn(word, ",");
         if (length == 0)
             return fail(error, FST_BAD_INPUT, "--key", "a name is missing in \"%.60s\"", text);

@@ -13,9 +13,11 @@ static const option options[] = {
     {"output", 'o', "FILE", "write the trajectory to FILE.h5 (HDF5) or FILE.csv"},
     {"csv", '\0', "FILE", "write the trajectory to FILE.csv too"},
     {"units", '\0', "scaled|lab|si",
-     "the units of a trajectory as CSV: scaled (l, 1/gamma, B0), which festoon plot reads; or, for other\n"
-     "programs, those of the laboratory (mm, s, mm/s, mT where B0 is known, mN, mW), or SI"},
-    {"fps", '\0', "F", "samples of the trajectory as a camera of F frames a second takes them, not run.samples a turn"},
+     "the units of --csv (or of -o FILE.csv alone): scaled (l, 1/gamma, B0), which festoon plot reads; or, "
+     "for\n"
+     "other programs, those of the laboratory (mm, s, mm/s, mT where B0 is known, mN, mW), or SI"},
+    {"fps", '\0', "F",
+     "samples of the trajectory as a camera of F frames a second takes them, not run.samples a turn"},
     {"ramp", '\0', "FROM:TO",
      "slow ramp of the drive after the discard: 7:20 or 420rpm:1200rpm, or omega=0.2:0.4"},
     {"ramp-points", '\0', "N", "pieces of the ramp over which means are taken (64)"},
@@ -169,7 +171,8 @@ static fst_status open_files(const arguments *given, const fst_params *params, r
     for (int i = 0; i < 2 && status == FST_OK; ++i)
         if (outputs->paths[i])
             status = fst_trajectory_create_in(outputs->paths[i], params,
-                                              is_csv(outputs->paths[i]) ? units : FST_SHOWN_SCALED,
+                                              i == 1 || (!csv && is_csv(outputs->paths[i])) ? units
+                                                                                            : FST_SHOWN_SCALED,
                                               &outputs->files[i], error);
     return status;
 }
@@ -259,8 +262,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command run_command = {
     .name = "run",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json] [-o FILE.h5] [--csv FILE.csv] [--units lab] [--fps F] "
-                "[--ramp FROM:TO]",
+    .synopsis =
+        "[SCENE.yaml] [--set KEY=VALUE]... [--json] [-o FILE.h5] [--csv FILE.csv] [--units lab] [--fps F] "
+        "[--ramp FROM:TO]",
     .summary = "Simulate the bead and describe its motion",
     .details =
         "The means are over whole returns of the motion after run.discard drive periods.  A trajectory has\n"

@@ -149,7 +149,7 @@ static const char *const styles[] = {[FST_CURVE_LINE] = "lines lw 2",
                                      [FST_CURVE_DASHED_POINTS] = "linespoints dt (6,5) ps 0.7 lw 2 pt",
                                      [FST_CURVE_THIN] = "lines lw 0.8",
                                      [FST_CURVE_SIGNS] = "points ps 0.95 lw 1.6 pt",
-                                     [FST_CURVE_DOTS] = "points ps 0.25 pt"};
+                                     [FST_CURVE_DOTS] = "points ps 0.35 pt"};
 
 /* gnuplot's words for a curve, "lines lw 2 lc rgb '#0072b2'". */
 static void style_of(const fst_chart_curve *curve, char *text, size_t size)
@@ -315,8 +315,7 @@ static layout lay_out(const fst_chart *chart)
             l.left = 2 * LEFT + 8;
     if (chart->square)
         l.panel = FST_FIGURE_WIDTH - l.left - l.right;
-    const int foot =
-        FOOT + LINE * (fst_lines_of(chart->x_label, FST_FIGURE_WIDTH - l.left - l.right) - 1);
+    const int foot = FOOT + LINE * (fst_lines_of(chart->x_label, FST_FIGURE_WIDTH - l.left - l.right) - 1);
     l.top = fst_legend_head(&l.legend) + (chart->x2_label ? SECOND_ABSCISSA : GAP);
     l.height = l.top + chart->panel_count * (l.panel + GAP) - GAP + foot + fst_legend_foot(&l.legend);
     return l;

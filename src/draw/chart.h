@@ -12,9 +12,9 @@ typedef enum {
     FST_CURVE_OPEN_POINTS,
     FST_CURVE_LINE_POINTS, /* few points; the line only guides the eye between them */
     FST_CURVE_DASHED_POINTS,
-    FST_CURVE_THIN, /* a thin line */
+    FST_CURVE_THIN,  /* a thin line */
     FST_CURVE_SIGNS, /* points of different shapes */
-    FST_CURVE_DOTS  /* small points, where there are many */
+    FST_CURVE_DOTS   /* small points, where there are many */
 } fst_curve_style;
 
 typedef struct fst_chart_curve {

@@ -15,8 +15,8 @@ enum {
     CIRCLE = 181,
     SPECIAL_TYPES = FST_SPECIAL_GRAZING + 1,
     CURVES = SPECIAL_TYPES + 4,
-    PARTS = 8, /* pieces of the smooth curve between two points of a branch */
-    FEW = 4000 /* more points than these are joined by straight pieces */
+    PARTS = 8,    /* the most pieces of the smooth curve between two points of a branch */
+    ENOUGH = 1600 /* about as many points as the smooth curves need */
 };
 
 static const struct observable {
@@ -157,8 +157,10 @@ static int smoothen(columns *c)
 {
     double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     columns smooth = {NULL, NULL, 0};
-    if (c->count < 3 || c->count > FEW)
+    if (c->count < 3)
         return 1;
+    const size_t wanted = 1 + ENOUGH / c->count;
+    const int parts = wanted < PARTS ? (int)wanted : PARTS;
     if (!make_columns(&smooth, PARTS * c->count)) {
         free(smooth.x);
         free(smooth.y);
@@ -180,7 +182,7 @@ static int smoothen(columns *c)
                 c->y[kept++] = c->y[last];
             }
         if (kept > i)
-            smooth.count += fst_smooth(c->x + i, c->y + i, kept - i, PARTS, wide, tall, smooth.x + smooth.count,
+            smooth.count += fst_smooth(c->x + i, c->y + i, kept - i, parts, wide, tall, smooth.x + smooth.count,
                                        smooth.y + smooth.count);
         put(&smooth, NAN, NAN);
         i = last + 1;
@@ -249,7 +251,8 @@ static int add_diagram(const fst_branch *b, const shown *s, columns *c, fst_char
     return count;
 }
 
-/* The multipliers of orbits with the unit circle, or the eigenvalues of locked states, whose real part decides. */
+/* The multipliers of orbits with the unit circle, or the eigenvalues of locked states, whose real part decides.
+ */
 static int add_multipliers(const fst_branch *b, const shown *s, columns *c, fst_chart_curve *curves)
 {
     int count = 0;
@@ -262,8 +265,11 @@ static int add_multipliers(const fst_branch *b, const shown *s, columns *c, fst_
     if (c[2].count > 0)
         style_curve(&curves[count++], &c[2], "unit circle: within it disturbances die away", FST_COLOUR_BLACK,
                     FST_CURVE_LINE);
-    style_curve(&curves[count++], &c[0], "of stable points of the branch", FST_COLOUR_BLUE, FST_CURVE_POINTS);
-    style_curve(&curves[count++], &c[1], "of unstable points", FST_COLOUR_VERMILION, FST_CURVE_OPEN_POINTS);
+    const int many = b->kind == FST_BRANCH_LOCKED; /* nine eigenvalues a point, which lie on curves */
+    style_curve(&curves[count++], &c[1], "of unstable points of the branch", FST_COLOUR_VERMILION,
+                many ? FST_CURVE_DOTS : FST_CURVE_OPEN_POINTS);
+    style_curve(&curves[count++], &c[0], "of stable points", FST_COLOUR_BLUE,
+                many ? FST_CURVE_DOTS : FST_CURVE_POINTS);
     return count;
 }
 
@@ -315,10 +321,11 @@ static fst_status choose_axes(const fst_branch *b, fst_shown_units units, shown 
     const char *scale = is_scale(b->key) ? b->key : is_scale(b->second_key) ? b->second_key : NULL;
     const int known = !scale && isfinite(scales.length) && isfinite(scales.time);
     if (units != FST_SHOWN_AS_GIVEN && !known)
-        return fst_fail(error, FST_BAD_INPUT, "fst_figure_branch.units",
-                        scale ? "the branch varies %s, a unit itself, so it is shown in the units it was made with"
-                              : "%sthis file has no scene, so that its scaled units are not known in others",
-                        scale ? scale : "");
+        return fst_fail(
+            error, FST_BAD_INPUT, "fst_figure_branch.units",
+            scale ? "the branch varies %s, a unit itself, so it is shown in the units it was made with"
+                  : "%sthis file has no scene, so that its scaled units are not known in others",
+            scale ? scale : "");
     const fst_shown_units used = units != FST_SHOWN_AS_GIVEN ? units
                                  : known                     ? fst_units_of_parameter(b->key)
                                                              : FST_SHOWN_AS_GIVEN;

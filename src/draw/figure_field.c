@@ -180,8 +180,8 @@ static void write_levels(fst_figure_file *figure, const field_map *map, double g
         const double here = map->field * strength(map->model, x, y), level = step * floor(before / step);
         if (here < level && before >= level && level > 0.0 && y - labelled > LABEL_GAP * pixel) {
             (void)fprintf(figure->script,
-                          "set label '%.4g' at %.6g,%.6g center front font ',11' textcolor rgb '#0b2a4a'\n", level,
-                          map->length * x, map->length * y);
+                          "set label '%.4g' at %.6g,%.6g center front font ',11' textcolor rgb '#0b2a4a'\n",
+                          level, map->length * x, map->length * y);
             labelled = y;
         }
         before = here;
@@ -194,13 +194,14 @@ static void write_distance(fst_figure_file *figure, const field_map *map)
 {
     if (map->maximum_count != 2)
         return;
-    const double (*m)[2] = map->maxima, u = map->length;
+    const double(*m)[2] = map->maxima, u = map->length;
     const double distance = 1e3 * map->groups.length_unit * hypot(m[0][0] - m[1][0], m[0][1] - m[1][1]);
-    (void)fprintf(figure->script,
-                  "set label '%.1f mm' at %.6g,%.6g center offset character 0,0.9 front boxed font ',11'\n"
-                  "set arrow from %.6g,%.6g to %.6g,%.6g heads size screen 0.010,20 front lc rgb 'black' lw 1.5\n",
-                  distance, u * (m[0][0] + m[1][0]) / 2.0, u * (m[0][1] + m[1][1]) / 2.0, u * m[0][0],
-                  u * m[0][1], u * m[1][0], u * m[1][1]);
+    (void)fprintf(
+        figure->script,
+        "set label '%.1f mm' at %.6g,%.6g center offset character 0,0.9 front boxed font ',11'\n"
+        "set arrow from %.6g,%.6g to %.6g,%.6g heads size screen 0.010,20 front lc rgb 'black' lw 1.5\n",
+        distance, u * (m[0][0] + m[1][0]) / 2.0, u * (m[0][1] + m[1][1]) / 2.0, u * m[0][0], u * m[0][1],
+        u * m[1][0], u * m[1][1]);
 }
 
 static void write_script(fst_figure_file *figure, const field_map *map, double greatest)
@@ -217,12 +218,14 @@ static void write_script(fst_figure_file *figure, const field_map *map, double g
     const double frame[4] = {LEFT, FST_FIGURE_WIDTH - RIGHT, map->top, map->top + map->frame};
     char label[96];
     fst_figure_place(figure, map->height, frame);
-    (void)snprintf(label, sizeof label, "X (%s)%s", map->length_unit, map->bar ? ", along the magnet's lines" : "");
+    (void)snprintf(label, sizeof label, "X (%s)%s", map->length_unit,
+                   map->bar ? ", along the magnet's lines" : "");
     fst_figure_axis_label(figure, map->height, FST_SIDE_BELOW, label, FST_COLOUR_BLACK, frame);
     (void)snprintf(label, sizeof label, "Y (%s)", map->length_unit);
     fst_figure_axis_label(figure, map->height, FST_SIDE_LEFT, label, FST_COLOUR_BLACK, frame);
     (void)snprintf(label, sizeof label, "|B| (%s)", map->field_unit);
-    fst_figure_colour_scale(figure, map->height, label, (const double[4]){frame[0], frame[1], scale, scale + 12});
+    fst_figure_colour_scale(figure, map->height, label,
+                            (const double[4]){frame[0], frame[1], scale, scale + 12});
     (void)fprintf(script, "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nset cbrange [0:*]\nunset key\n",
                   -map->length * map->half_width, map->length * map->half_width,
                   -map->length * map->half_height, map->length * map->half_height);
@@ -232,7 +235,8 @@ static void write_script(fst_figure_file *figure, const field_map *map, double g
                 "     $contours using 1:2 with lines lc rgb '#6f8fae' lw 0.8 notitle, \\\n",
                 script);
     if (map->bar)
-        (void)fputs("     data index 'lines' using 1:2 with lines lc rgb '#50d55e00' lw 3 notitle, \\\n", script);
+        (void)fputs("     data index 'lines' using 1:2 with lines lc rgb '#50d55e00' lw 3 notitle, \\\n",
+                    script);
     (void)fputs("     data index 'arrows' using 1:2:3:4 with vectors head filled size screen 0.011,20 lc rgb "
                 "'#333333' lw 1 notitle, \\\n"
                 "     data index 'maxima' using 1:2 with points pt 2 ps 1.2 lw 3 lc rgb '#000000' notitle\n",
@@ -245,13 +249,13 @@ static fst_legend make_legend(const field_map *map)
     char words[128], unit[32];
     fst_unit_symbols("l", unit, sizeof unit);
     (void)snprintf(legend.about, sizeof legend.about, "half length of the magnet's lines: %s = %.4g mm%s", unit,
-                   1e3 * map->groups.length_unit,
-                   map->bar ? "" : " (a scale only)");
+                   1e3 * map->groups.length_unit, map->bar ? "" : " (a scale only)");
     fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#6f8fae' lw 0.8", "lines of equal |B|");
     if (map->maximum_count > 0)
         fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 2 ps 1.2 lw 3 lc rgb '#000000'", "maxima of |B|");
     if (map->bar)
-        fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#50d55e00' lw 3", "the magnet's lines, below the plate");
+        fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#50d55e00' lw 3",
+                       "the magnet's lines, below the plate");
     const double shown = map->field * map->strongest;
     (void)snprintf(words, sizeof words, "in-plane part of B: this length is %.2g %s, others as its square root",
                    shown, map->field_unit);
@@ -279,7 +283,8 @@ static fst_status draw(field_map *map, const char *out, fst_error *error)
     find_maxima(map);
     for (int row = 0; row < ROWS; ++row)
         for (int column = 0; column < COLUMNS; ++column)
-            greatest = fmax(greatest, map->field * strength(map->model, column_x(map, column), row_y(map, row)));
+            greatest =
+                fmax(greatest, map->field * strength(map->model, column_x(map, column), row_y(map, row)));
     map->strongest = 1.0;
     fst_legend legend = make_legend(map);
     map->top = fst_legend_head(&legend) + 6;

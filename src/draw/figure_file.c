@@ -86,8 +86,8 @@ static void quote_name(fst_figure_file *figure, const char *ending)
     (void)fprintf(figure->script, ".'.%s'", ending);
 }
 
-/* Each terminal has units of its own for letters, lines, points and dashes: the scales make them look alike.  A PNG is drawn at
- * twice the size, for fine screens. */
+/* Each terminal has units of its own for letters, lines, points and dashes: the scales make them look alike.  A
+ * PNG is drawn at twice the size, for fine screens. */
 static void write_terminal(fst_figure_file *figure, int width, int height)
 {
     FILE *script = figure->script;
@@ -95,9 +95,11 @@ static void write_terminal(fst_figure_file *figure, int width, int height)
         (void)fprintf(script, "set terminal svg size %d,%d enhanced background 'white' font 'sans-serif,13'\n",
                       width, height);
     else if (!strcmp(figure->ending, "pdf"))
-        (void)fprintf(script, "set terminal pdfcairo size %.4fin,%.4fin enhanced fontscale 0.5625 linewidth 1.5 pointscale 0.8 "
-                      "dashlength 1.3 font 'sans,13'\n",
-                      width / 96.0, height / 96.0);
+        (void)fprintf(
+            script,
+            "set terminal pdfcairo size %.4fin,%.4fin enhanced fontscale 0.5625 linewidth 1.5 pointscale 0.8 "
+            "dashlength 1.3 font 'sans,13'\n",
+            width / 96.0, height / 96.0);
     else
         (void)fprintf(script,
                       "set terminal pngcairo size %d,%d enhanced fontscale 1.5 linewidth 2 pointscale 3.2 "

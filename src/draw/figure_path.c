@@ -97,7 +97,8 @@ static int has_outline(const fst_view *view)
 static void draw_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
 {
     double turned = columns->alpha[view->first] - columns->bead_angle[view->first];
-    double length = view->length, width = view->length * view->table->params.magnet_width / view->table->params.magnet_half_length / 2.0;
+    double length = view->length, width = view->length * view->table->params.magnet_width /
+                                          view->table->params.magnet_half_length / 2.0;
     double cosine = cos(turned), sine = sin(turned);
     static const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     fst_figure_block(figure, "magnet", "x y: the outline of the magnet's lines when the path begins");
@@ -122,13 +123,15 @@ static path_layout lay_out(const fst_legend *legend, int with_inset)
     return l;
 }
 
-static void write_frame(fst_figure_file *figure, const fst_view *view, const path_layout *l, const double box[4])
+static void write_frame(fst_figure_file *figure, const fst_view *view, const path_layout *l,
+                        const double box[4])
 {
     const double frame[4] = {LEFT, LEFT + SIDE, l->top, l->top + SIDE};
     char unit[16], label[40];
     fst_figure_place(figure, l->height, frame);
-    (void)fprintf(figure->script, "set size ratio -1\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nunset key\n",
-                  box[0], box[1], box[2], box[3]);
+    (void)fprintf(figure->script,
+                  "set size ratio -1\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nunset key\n", box[0],
+                  box[1], box[2], box[3]);
     fst_unit_symbols(view->length_unit, unit, sizeof unit);
     (void)snprintf(label, sizeof label, "x (%s)", unit);
     fst_figure_axis_label(figure, l->height, FST_SIDE_BELOW, label, FST_COLOUR_BLACK, frame);
@@ -162,8 +165,7 @@ static void write_colour(fst_figure_file *figure, const fst_view *view, const pa
         greatest += span;
     }
     fst_figure_palette(figure, both_signs ? FST_PALETTE_DIVERGING : FST_PALETTE_LINE);
-    (void)fprintf(figure->script,
-                  "set cbrange [%.9g:%.9g]\n", least, greatest);
+    (void)fprintf(figure->script, "set cbrange [%.9g:%.9g]\n", least, greatest);
     fst_figure_colour_scale(figure, l->height, columns->shown.label,
                             (const double[4]){LEFT, LEFT + SIDE, l->scale, l->scale + 12});
 }
@@ -230,8 +232,7 @@ static void write_arrows(fst_figure_file *figure, const fst_view *view, const pa
     fst_figure_block(figure, "moment", "x y dx dy: the horizontal part of n");
     for (size_t row = view->first; row < view->last; row += stride)
         (void)fprintf(figure->data, "%.6g %.6g %.5g %.5g\n", columns->x[row] * view->length,
-                      columns->y[row] * view->length, scale * columns->n_x[row],
-                      scale * columns->n_y[row]);
+                      columns->y[row] * view->length, scale * columns->n_x[row], scale * columns->n_y[row]);
 }
 
 /* ------------------------------------------------------------------ the figure */

@@ -63,7 +63,11 @@ static fst_status draw(const fst_view *view, const char *out, const folded *curv
     }
     fst_chart_curve curves[] = {
         {.x = curve->bead_angle, .y = curve->r, .count = curve->count, .colour = FST_COLOUR_BLUE},
-        {.x = curve->bead_angle, .y = curve->b, .count = curve->count, .colour = FST_COLOUR_VERMILION, .right = 1},
+        {.x = curve->bead_angle,
+         .y = curve->b,
+         .count = curve->count,
+         .colour = FST_COLOUR_VERMILION,
+         .right = 1},
     };
     fst_chart_panel panel = {.left_label = labels[0],
                              .right_label = labels[1],
@@ -75,10 +79,11 @@ static fst_status draw(const fst_view *view, const char *out, const folded *curv
                              .curve_count = 2};
     fst_chart chart = {.title = view->title ? view->title : "Radius and field while the magnet passes the bead",
                        .about = view->about,
-                       .x_label = view->table->params.magnet_shape == FST_MAGNET_LINES
-                                      ? "Φ = α − ωt, the bead's angle against the magnet (0: over the ends of its "
-                                        "lines)"
-                                      : "Φ = α − ωt, the bead's angle against the magnet",
+                       .x_label =
+                           view->table->params.magnet_shape == FST_MAGNET_LINES
+                               ? "Φ = α − ωt, the bead's angle against the magnet (0: over the ends of its "
+                                 "lines)"
+                               : "Φ = α − ωt, the bead's angle against the magnet",
                        .x_low = 0.0,
                        .x_high = FST_PI,
                        .x_tics = "('0' 0, 'π/4' 0.785398163, 'π/2' 1.570796327, '3π/4' 2.35619449, 'π' "

@@ -11,8 +11,8 @@
 #include <string.h>
 
 enum {
-    PARTS = 8,      /* pieces of the smooth curve between two samples */
-    FEW = 1200,     /* more samples than these are joined by straight pieces */
+    PARTS = 8,      /* the most pieces of the smooth curve between two samples */
+    ENOUGH = 1200,  /* about as many points as a smooth curve needs */
     WINDOWS = 150,  /* of a ramp, over each of which a mean is drawn */
     MANY_DOTS = 200 /* more dots than these are small ones */
 };
@@ -78,7 +78,8 @@ static size_t put_series(const fst_view *view, const chosen *c, int k, const dou
         memory[rows + i] = c->shown[k].factor * c->values[k][view->first + i];
     }
     /* Dry friction makes corners, which are no fault of the drawing. */
-    const int parts = rows > FEW || view->table->params.friction_law == FST_FRICTION_COULOMB ? 1 : PARTS;
+    const size_t wanted = view->table->params.friction_law == FST_FRICTION_COULOMB ? 1 : 1 + ENOUGH / rows;
+    const int parts = wanted < PARTS ? (int)wanted : PARTS;
     return fst_smooth(memory, memory + rows, rows, parts, memory[rows - 1] - memory[0], INFINITY, x, y);
 }
 
@@ -101,8 +102,8 @@ static fst_status draw_time(const fst_view *view, const chosen *c, const char *o
     for (int k = 0; k < c->count; ++k) {
         double *x = memory + 2 * rows + 2 * room * (size_t)k, *y = x + room;
         const size_t count = put_series(view, c, k, t, time.factor, memory, x, y);
-        curves[k] =
-            (fst_chart_curve){.x = x, .y = y, .count = count, .colour = FST_COLOUR_BLUE, .style = FST_CURVE_LINE};
+        curves[k] = (fst_chart_curve){
+            .x = x, .y = y, .count = count, .colour = FST_COLOUR_BLUE, .style = FST_CURVE_LINE};
         panels[k] = (fst_chart_panel){
             .left_label = c->shown[k].label, .low = NAN, .high = NAN, .curves = &curves[k], .curve_count = 1};
         range_of(y, count, 0.0, &panels[k].low, &panels[k].high);
@@ -189,9 +190,9 @@ static fst_status draw_section(const fst_view *view, const chosen *c, const doub
     fst_chart_panel panel = {.left_label = c->shown[1].label, .curves = &curve, .curve_count = 1};
     range_of(x, count, least_span(view, c, 0), &low, &high);
     range_of(y, count, least_span(view, c, 1), &panel.low, &panel.high);
-    (void)snprintf(about, sizeof about, "%.200s; a point for each of %zu passages",
-                   view->about, count);
-    const fst_chart chart = {.title = view->title ? view->title : "Poincaré section at Φ = 90°, passed downwards",
+    (void)snprintf(about, sizeof about, "%.200s; a point for each of %zu passages", view->about, count);
+    const fst_chart chart = {.title =
+                                 view->title ? view->title : "Poincaré section at Φ = 90°, passed downwards",
                              .about = about,
                              .x_label = c->shown[0].label,
                              .x_low = low,
@@ -224,9 +225,10 @@ fst_status fst_figure_section(const fst_table *table, const char *out, const fst
         return no_memory(out, rows, error);
     const size_t count = put_section(&view, &c, bead_angle, memory, memory + rows);
     if (count == 0)
-        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
-                          "the bead's angle Phi against the magnet never passes 90 degrees downwards in the part "
-                          "shown, so that there is no section: figures of time show such a motion");
+        status =
+            fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
+                     "the bead's angle Phi against the magnet never passes 90 degrees downwards in the part "
+                     "shown, so that there is no section: figures of time show such a motion");
     else
         status = draw_section(&view, &c, memory, memory + rows, count, out, error);
     free(memory);
@@ -304,14 +306,18 @@ static fst_status draw_ramp(const fst_view *view, const chosen *c, const windows
     for (int k = 0; k < c->count; ++k) {
         const double *const values[3] = {w->low[k], w->high[k], w->mean[k]};
         for (int i = 0; i < 3; ++i)
-            curves[3 * k + i] = (fst_chart_curve){.title = i < 2 ? "least and greatest" : "mean over whole turns of Φ",
-                                                  .x = w->drive,
-                                                  .y = values[i],
-                                                  .count = w->count,
-                                                  .colour = i < 2 ? FST_COLOUR_SKY : FST_COLOUR_BLUE,
-                                                  .style = i < 2 ? FST_CURVE_THIN : FST_CURVE_LINE};
-        panels[k] = (fst_chart_panel){
-            .left_label = c->shown[k].label, .low = NAN, .high = NAN, .curves = &curves[3 * k], .curve_count = 3};
+            curves[3 * k + i] =
+                (fst_chart_curve){.title = i < 2 ? "least and greatest" : "mean over whole turns of Φ",
+                                  .x = w->drive,
+                                  .y = values[i],
+                                  .count = w->count,
+                                  .colour = i < 2 ? FST_COLOUR_SKY : FST_COLOUR_BLUE,
+                                  .style = i < 2 ? FST_CURVE_THIN : FST_CURVE_LINE};
+        panels[k] = (fst_chart_panel){.left_label = c->shown[k].label,
+                                      .low = NAN,
+                                      .high = NAN,
+                                      .curves = &curves[3 * k],
+                                      .curve_count = 3};
     }
     double low = INFINITY, high = -INFINITY;
     for (size_t i = 0; i < w->count; ++i) {

@@ -84,8 +84,8 @@ static void write_above(fst_figure_file *figure, const fst_params *p, double bar
     fst_figure_block(figure, "lines", "x/mm y/mm dx dy: the model's lines of dipoles");
     for (int k = 0; k < p->magnet_lines; ++k) {
         const double across = p->magnet_lines > 1 ? width * (k / (p->magnet_lines - 1.0) - 0.5) : 0.0;
-        (void)fprintf(figure->data, "%.6g %.6g %.6g %.6g\n", -l * c - across * s, -l * s + across * c, 2 * l * c,
-                      2 * l * s);
+        (void)fprintf(figure->data, "%.6g %.6g %.6g %.6g\n", -l * c - across * s, -l * s + across * c,
+                      2 * l * c, 2 * l * s);
     }
 }
 
@@ -95,7 +95,8 @@ static void place(fst_figure_file *figure, int height, double left, double top, 
 {
     const double frame[4] = {left, left + side, top, top + side};
     fst_figure_place(figure, height, frame);
-    (void)fprintf(figure->script, "set label '%s' at graph 0.5,1 center offset character 0,0.8 font ',12'\n", title);
+    (void)fprintf(figure->script, "set label '%s' at graph 0.5,1 center offset character 0,0.8 font ',12'\n",
+                  title);
     if (below)
         fst_figure_axis_label(figure, height, FST_SIDE_BELOW, below, FST_COLOUR_BLACK, frame);
     if (beside)
@@ -137,7 +138,8 @@ static void draw_above(fst_figure_file *figure, const fst_params *p, double reac
 /* The view from the side: a cut through axis and bead. */
 static void draw_side(fst_figure_file *figure, const fst_params *p, double bar, double reach)
 {
-    const double depth = 1e3 * p->magnet_depth, radius = 1e3 * p->bead_radius, r = 0.9e3 * p->magnet_half_length;
+    const double depth = 1e3 * p->magnet_depth, radius = 1e3 * p->bead_radius,
+                 r = 0.9e3 * p->magnet_half_length;
     const double beside[4] = {0.0, -depth, bar, 0.5 * FST_BAR_THICKNESS};
     write_box(figure, "magnet-beside", beside, 0.0);
     write_circle(figure, "bead-beside", r, radius, radius);
@@ -151,14 +153,15 @@ static void draw_side(fst_figure_file *figure, const fst_params *p, double bar, 
                   "set label 'axis' at 2,%.4g font ',11' textcolor rgb '#666666'\n"
                   "set label 'magnet' at 0,%.5g center front font ',11'\n"
                   "set label 'bead' at %.5g,%.5g center front font ',11'\n",
-                  -reach, reach, -reach, reach, -reach, reach, -0.95 * reach, bar + 5.0, bar + 5.0, -depth, depth,
-                  0.95 * reach, -0.62 * reach, -0.95 * reach, 0.9 * reach, 0.8 * reach, -depth, r,
+                  -reach, reach, -reach, reach, -reach, reach, -0.95 * reach, bar + 5.0, bar + 5.0, -depth,
+                  depth, 0.95 * reach, -0.62 * reach, -0.95 * reach, 0.9 * reach, 0.8 * reach, -depth, r,
                   2.0 * radius + 4.0);
-    (void)fputs("plot data index 'magnet-beside' using 1:2 with filledcurves closed fc rgb '#eeeeee' notitle, \\\n"
-                "     data index 'magnet-beside' using 1:2 with lines lc rgb '#888888' notitle, \\\n"
-                "     data index 'bead-beside' using 1:2 with filledcurves closed fc rgb '#d55e00' notitle\n"
-                "unset arrow\nunset label\n",
-                figure->script);
+    (void)fputs(
+        "plot data index 'magnet-beside' using 1:2 with filledcurves closed fc rgb '#eeeeee' notitle, \\\n"
+        "     data index 'magnet-beside' using 1:2 with lines lc rgb '#888888' notitle, \\\n"
+        "     data index 'bead-beside' using 1:2 with filledcurves closed fc rgb '#d55e00' notitle\n"
+        "unset arrow\nunset label\n",
+        figure->script);
 }
 
 /* The bead's local frame in a slanted view: e_alpha to the right, e_z up, e_r towards the reader.  The part of
@@ -177,7 +180,8 @@ static void draw_local(fst_figure_file *figure)
     fst_figure_block(figure, "theta", "an arc from e_r to n");
     for (int i = 0; i <= 20; ++i) {
         const double a = THETA * degree * i / 20.0, u = 0.5 * cos(a), v = 0.5 * sin(a) / st;
-        (void)fprintf(figure->data, "%.6g %.6g\n", u * slant[0][0] + v * across[0], u * slant[0][1] + v * across[1]);
+        (void)fprintf(figure->data, "%.6g %.6g\n", u * slant[0][0] + v * across[0],
+                      u * slant[0][1] + v * across[1]);
     }
     (void)fputs("set xrange [-1.2:1.2]\nset yrange [-1.2:1.2]\nunset tics\n", figure->script);
     for (int i = 0; i < 3; ++i) {
@@ -185,8 +189,8 @@ static void draw_local(fst_figure_file *figure)
         (void)fprintf(figure->script,
                       "set arrow %d from 0,0 to %.4g,%.4g front lc rgb '#009e73' lw 2\n"
                       "set label '%s' at %.4g,%.4g center front textcolor rgb '#009e73'\n",
-                      i + 1, reach * slant[i][0], reach * slant[i][1], names[i],
-                      (reach + 0.17) * slant[i][0], (reach + 0.17) * slant[i][1]);
+                      i + 1, reach * slant[i][0], reach * slant[i][1], names[i], (reach + 0.17) * slant[i][0],
+                      (reach + 0.17) * slant[i][1]);
     }
     (void)fprintf(figure->script,
                   "set arrow 4 from 0,0 to %.4g,%.4g front lc rgb '#d55e00' lw 2.5\n"
@@ -243,8 +247,8 @@ fst_status fst_figure_sketch(const fst_params *params, const char *out, fst_erro
 /* ------------------------------------------------------------------ the camera */
 
 /* Write the points of the frames; returns how far the farthest of them is from the middle. */
-static double write_frames(fst_figure_file *figure, const double *t, const double *x, const double *y, size_t rows,
-                           const fst_params *params)
+static double write_frames(fst_figure_file *figure, const double *t, const double *x, const double *y,
+                           size_t rows, const fst_params *params)
 {
     const double pixels = 1e3 * params->magnet_half_length * PIXELS_A_MM, gamma = params->friction_gamma;
     double reach = 0.0;
@@ -268,11 +272,12 @@ static double write_frames(fst_figure_file *figure, const double *t, const doubl
 static fst_legend camera_legend(const fst_params *params)
 {
     fst_legend legend = {.count = 0};
-    const double hertz = isfinite(params->drive_omega) ? params->drive_omega * params->friction_gamma / FST_TWO_PI
-                                                       : params->drive_frequency;
+    const double hertz = isfinite(params->drive_omega)
+                             ? params->drive_omega * params->friction_gamma / FST_TWO_PI
+                             : params->drive_frequency;
     (void)snprintf(legend.title, sizeof legend.title, "The path at %.3g Hz as a camera sees it", hertz);
-    (void)snprintf(legend.about, sizeof legend.about, "%g frames a second for %d s, dynamics %s", FRAMES_A_SECOND,
-                   CAMERA_SECONDS, fst_dynamics_name((fst_dynamics)params->model_dynamics));
+    (void)snprintf(legend.about, sizeof legend.about, "%g frames a second for %d s, dynamics %s",
+                   FRAMES_A_SECOND, CAMERA_SECONDS, fst_dynamics_name((fst_dynamics)params->model_dynamics));
     fst_legend_add(&legend, FST_SAMPLE_LINE_POINT, "pt 7 ps 0.35 lw 0.8 lc rgb '#0072b2'",
                    "the bead, a point a frame");
     return legend;
@@ -295,10 +300,11 @@ fst_status fst_figure_camera(const double *t, const double *x, const double *y, 
     (void)snprintf(label, sizeof label, "x (pixels, %g a millimetre)", PIXELS_A_MM);
     fst_figure_axis_label(&figure, height, FST_SIDE_BELOW, label, FST_COLOUR_BLACK, frame);
     fst_figure_axis_label(&figure, height, FST_SIDE_LEFT, "y (pixels)", FST_COLOUR_BLACK, frame);
-    (void)fprintf(figure.script,
-                  "set size ratio -1\nset xrange [%.4g:%.4g]\nset yrange [%.4g:%.4g]\n"
-                  "plot data index 'frames' using 1:2 with linespoints pt 7 ps 0.35 lw 0.8 lc rgb '%s' notitle\n",
-                  -reach, reach, -reach, reach, fst_colour_code(FST_COLOUR_BLUE));
+    (void)fprintf(
+        figure.script,
+        "set size ratio -1\nset xrange [%.4g:%.4g]\nset yrange [%.4g:%.4g]\n"
+        "plot data index 'frames' using 1:2 with linespoints pt 7 ps 0.35 lw 0.8 lc rgb '%s' notitle\n",
+        -reach, reach, -reach, reach, fst_colour_code(FST_COLOUR_BLUE));
     fst_legend_write(&figure, &legend, height);
     return fst_figure_finish(&figure, error);
 }

@@ -23,8 +23,7 @@ fst_shown_units fst_sweep_units(const fst_grid *grid)
     if (varies(grid, "magnet.half_length") || varies(grid, "friction.gamma"))
         return FST_SHOWN_AS_GIVEN;
     for (int i = 0; i < fst_grid_axis_count(grid); ++i)
-        if (fst_grid_axis_points(grid, i) > 1 &&
-            fst_units_of_parameter(fst_grid_key(grid, i)) == FST_SHOWN_LAB)
+        if (fst_grid_axis_points(grid, i) > 1 && fst_units_of_parameter(fst_grid_key(grid, i)) == FST_SHOWN_LAB)
             units = FST_SHOWN_LAB;
     return units;
 }
@@ -50,8 +49,8 @@ static fst_status check_scale(const fst_grid *grid, const char *what, int same, 
     const char *key = varies(grid, "friction.gamma") ? "friction.gamma" : "magnet.half_length";
     return same ? FST_OK
                 : fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.units",
-                           "the sweep varies %s, a unit itself, so %s is shown in the units it was made with", key,
-                           what);
+                           "the sweep varies %s, a unit itself, so %s is shown in the units it was made with",
+                           key, what);
 }
 
 fst_status fst_sweep_axis_of(const fst_grid *grid, int index, fst_shown_units units, fst_sweep_axis *axis,

@@ -15,7 +15,8 @@ enum {
     RIGHT = 22,
     FRAME = 320,
     AXIS = 54,
-    SCALE = 64 /* for the scale of colours */
+    SCALE = 72, /* for the scale of colours */
+    TICS = 7    /* that point outwards */
 };
 
 /* A value of an axis and the points that have it. */
@@ -169,7 +170,8 @@ static void write_regimes(fst_figure_file *figure, const map *m, const int occur
 }
 
 /* A quantity of both signs gets a palette whose middle is zero. */
-static void write_heat(fst_figure_file *figure, const map *m, const char *label, int left, int scale, int height)
+static void write_heat(fst_figure_file *figure, const map *m, const char *label, int left, int scale,
+                       int height)
 {
     double least = INFINITY, greatest = -INFINITY;
     for (int64_t i = 0; i < fst_grid_points(m->table->grid); ++i)
@@ -182,8 +184,9 @@ static void write_heat(fst_figure_file *figure, const map *m, const char *label,
     if (least < 0 && greatest > 0)
         (void)fprintf(figure->script, "set cbrange [%.9g:%.9g]\n", -both, both);
     write_cells(figure, m, -1);
+    (void)fputs("set cbtics in\n", figure->script);
     fst_figure_colour_scale(figure, height, label,
-                            (const double[4]){left, FST_FIGURE_WIDTH - RIGHT, scale, scale + 12});
+                            (const double[4]){left, FST_FIGURE_WIDTH - RIGHT, scale + TICS, scale + TICS + 12});
     (void)fputs("plot data index 'cells' using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid "
                 "1.0 noborder lc palette notitle, NaN notitle\n",
                 figure->script);
@@ -207,7 +210,8 @@ static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, 
     fst_sweep_words(m->regimes ? "Regimes of motion" : quantity->label, words[0]);
     fst_sweep_words(m->axes[1].label, words[1]);
     fst_sweep_words(m->axes[0].label, words[2]);
-    (void)snprintf(legend.title, sizeof legend.title, "%.80s over %.80s and %.80s", words[0], words[1], words[2]);
+    (void)snprintf(legend.title, sizeof legend.title, "%.80s over %.80s and %.80s", words[0], words[1],
+                   words[2]);
     if (legend.title[0] >= 'a' && legend.title[0] <= 'z')
         legend.title[0] = (char)(legend.title[0] - 'a' + 'A');
     fst_sweep_about(m->table->grid, legend.about, sizeof legend.about);
@@ -253,7 +257,8 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
     fst_figure_panels(&figure);
     const double frame[4] = {left, FST_FIGURE_WIDTH - RIGHT, top, top + FRAME};
     fst_figure_place(&figure, height, frame);
-    fst_figure_axis_label(&figure, height, FST_SIDE_BELOW, m->axes[1].label, FST_COLOUR_BLACK, frame);
+    const double below[4] = {frame[0], frame[1], frame[2], frame[3] + TICS};
+    fst_figure_axis_label(&figure, height, FST_SIDE_BELOW, m->axes[1].label, FST_COLOUR_BLACK, below);
     fst_figure_axis_label(&figure, height, FST_SIDE_LEFT, m->axes[0].label, FST_COLOUR_BLACK, frame);
     (void)fputs("set tics out nomirror\nunset key\n", figure.script);
     write_axis(&figure, &m->axes[1], &m->right, "x");

@@ -24,8 +24,8 @@ fst_status fst_figure_trajectory(const fst_table *table, const char *out, const 
     if (options->cookie != OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_figure_trajectory",
                         "the options were not made by fst_default_figure_options()");
-    const int chooses =
-        options->kind == FST_FIGURE_TIME || options->kind == FST_FIGURE_SECTION || options->kind == FST_FIGURE_RAMP;
+    const int chooses = options->kind == FST_FIGURE_TIME || options->kind == FST_FIGURE_SECTION ||
+                        options->kind == FST_FIGURE_RAMP;
     if (options->keys[0] && !chooses)
         return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.keys",
                         "only figures of time, sections and ramps show columns of choice");

@@ -144,21 +144,22 @@ void fst_figure_axis_label(fst_figure_file *figure, int height, fst_side side, c
         else if (side == FST_SIDE_ABOVE)
             y = frame[2] - LABEL_AWAY - 6 - LABEL_LINE * (count - 1 - i);
         else
-            x = side == FST_SIDE_LEFT ? 12 + LABEL_LINE * i : FST_FIGURE_WIDTH - 10 - LABEL_LINE * (count - 1 - i);
+            x = side == FST_SIDE_LEFT ? 12 + LABEL_LINE * i
+                                      : FST_FIGURE_WIDTH - 10 - LABEL_LINE * (count - 1 - i);
         (void)fputs("set label ", figure->script);
         fst_figure_quote(figure, lines[i]);
-        (void)fprintf(figure->script, " at screen %.5f,%.5f center%s textcolor rgb '%s'\n", x / FST_FIGURE_WIDTH,
-                      1.0 - y / height, level ? "" : " rotate by 90", fst_colour_code(colour));
+        (void)fprintf(figure->script, " at screen %.5f,%.5f center%s textcolor rgb '%s'\n",
+                      x / FST_FIGURE_WIDTH, 1.0 - y / height, level ? "" : " rotate by 90",
+                      fst_colour_code(colour));
     }
 }
 
 void fst_figure_colour_scale(fst_figure_file *figure, int height, const char *label, const double frame[4])
 {
     const double wide = FST_FIGURE_WIDTH;
-    (void)fprintf(figure->script,
-                  "unset cblabel\nset colorbox horizontal user origin %.5f,%.5f size %.5f,%.5f\n",
-                  frame[0] / wide, 1.0 - frame[3] / height, (frame[1] - frame[0]) / wide,
-                  (frame[3] - frame[2]) / height);
+    (void)fprintf(
+        figure->script, "unset cblabel\nset colorbox horizontal user origin %.5f,%.5f size %.5f,%.5f\n",
+        frame[0] / wide, 1.0 - frame[3] / height, (frame[1] - frame[0]) / wide, (frame[3] - frame[2]) / height);
     fst_figure_axis_label(figure, height, FST_SIDE_BELOW, label, FST_COLOUR_BLACK, frame);
 }
 
@@ -179,8 +180,7 @@ static void write_title(fst_figure_file *figure, const fst_legend *legend, int h
     for (int i = 0; i < count; ++i, y -= ABOUT_LINE) {
         (void)fputs("set label ", figure->script);
         fst_figure_quote(figure, lines[i]);
-        (void)fprintf(figure->script,
-                      " at %g,%g center front noenhanced font ',12' textcolor rgb '#555555'\n",
+        (void)fprintf(figure->script, " at %g,%g center front noenhanced font ',12' textcolor rgb '#555555'\n",
                       0.5 * FST_FIGURE_WIDTH, y);
     }
 }

@@ -57,7 +57,8 @@ void fst_figure_colour_scale(fst_figure_file *figure, int height, const char *la
 /* Begin a multiplot whose panels are placed in pixels by fst_figure_place(). */
 void fst_figure_panels(fst_figure_file *figure);
 
-/* Place the next panel's frame: left, right, top and bottom in pixels from the figure's left and upper edges. */
+/* Place the next panel's frame: left, right, top and bottom in pixels from the figure's left and upper edges.
+ */
 void fst_figure_place(fst_figure_file *figure, int height, const double frame[4]);
 
 #endif

@@ -18,7 +18,8 @@ void fst_unit_symbols(const char *unit, char *text, size_t size)
 {
     static const struct {
         const char *word, *symbol;
-    } symbols[] = {{"gamma", "γ"}, {"deg", "°"}, {"B0", "B₀"}, {"l", "ℓ"}, {"^2", "²"}, {"^3", "³"}, {"uJ", "µJ"}, {" ", ""}};
+    } symbols[] = {{"gamma", "γ"}, {"deg", "°"}, {"B0", "B₀"}, {"l", "ℓ"},
+                   {"^2", "²"},    {"^3", "³"},  {"uJ", "µJ"}, {" ", ""}};
     enum { COUNT = sizeof symbols / sizeof symbols[0] };
     size_t used = 0;
     text[0] = '\0';

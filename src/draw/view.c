@@ -26,8 +26,8 @@ static fst_status no_such_column(const char *option, const char *name, fst_error
                     "a trajectory has no column \"%.60s\"; the nearest name is \"%s\"", name, nearest);
 }
 
-fst_status fst_view_column_for(const fst_view *view, const char *option, const char *name, const double **column,
-                               const fst_column_info **info, fst_error *error)
+fst_status fst_view_column_for(const fst_view *view, const char *option, const char *name,
+                               const double **column, const fst_column_info **info, fst_error *error)
 {
     for (int i = 0; i < fst_column_count(); ++i) {
         if (strcmp(fst_column_at(i)->name, name) != 0)
@@ -120,8 +120,9 @@ static void describe(fst_view *view)
     const char *dynamics = fst_dynamics_name((fst_dynamics)p->model_dynamics);
     int used;
     if (fabs(view->omega - view->first_omega) > 1e-9 * view->omega)
-        used = snprintf(view->about, sizeof view->about, "ω = %.4g to %.4g (%.4g to %.4g Hz), dynamics %s",
-                        view->first_omega, view->omega, view->first_omega * hertz, view->omega * hertz, dynamics);
+        used =
+            snprintf(view->about, sizeof view->about, "ω = %.4g to %.4g (%.4g to %.4g Hz), dynamics %s",
+                     view->first_omega, view->omega, view->first_omega * hertz, view->omega * hertz, dynamics);
     else
         used = snprintf(view->about, sizeof view->about, "ω = %.4g (%.4g Hz), dynamics %s", view->omega,
                         view->omega * hertz, dynamics);

@@ -9,9 +9,9 @@
 
 typedef struct fst_view {
     const fst_table *table;
-    size_t first, last; /* rows shown: first <= row < last */
+    size_t first, last;        /* rows shown: first <= row < last */
     double omega, first_omega; /* the drive at the last row and at the first */
-    double gamma;       /* 1/s */
+    double gamma;              /* 1/s */
     fst_shown_units units;
     double length;           /* of a unit of length in the wanted unit */
     const char *length_unit; /* its name, "mm" */
@@ -36,8 +36,8 @@ fst_status fst_view_column(const fst_view *view, const char *name, const double 
                            const fst_column_info **info, fst_error *error);
 
 /* The same, for an option that the sentence shall name. */
-fst_status fst_view_column_for(const fst_view *view, const char *option, const char *name, const double **column,
-                               const fst_column_info **info, fst_error *error);
+fst_status fst_view_column_for(const fst_view *view, const char *option, const char *name,
+                               const double **column, const fst_column_info **info, fst_error *error);
 
 /* Several columns at once, by names that are known to exist; a NULL ends the list: fst_view_columns(view,
  * error, "t", &t, "r", &r, NULL). */

@@ -278,14 +278,7 @@ static void paint_key(cairo_t *pen, const fst_film_layout *layout)
     }
     if (!layout->bar)
         return;
-    y += 1.5 * size;
-    cairo_save(pen);
-    cairo_translate(pen, x + dot, y - 0.1 * size);
-    cairo_scale(pen, 1.0, -1.0);
-    cairo_set_line_width(pen, 0.1 * size);
-    paint_sense(pen, dot, 0.0, 0.75 * FST_PI, 0.6 * dot);
-    cairo_restore(pen);
-    write_at(pen, x + 3.0 * dot, y, size, "the magnet turns so");
+    write_at(pen, x, y + 1.5 * size, size, "arrow: the magnet turns so");
 }
 
 static void paint_colour_bar(cairo_t *pen, const fst_film_layout *layout)
@@ -354,6 +347,7 @@ static void paint(fst_film_canvas *canvas, const fst_film_layout *layout, const 
     cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
     write_at(pen, 16.0, 14.0 + 0.028 * layout->height, 0.028 * layout->height, layout->title);
     write_at(pen, 16.0, 22.0 + 0.054 * layout->height, 0.026 * layout->height, frame->clock);
+    write_at(pen, 16.0, 27.0 + 0.080 * layout->height, 0.026 * layout->height, layout->slower);
 }
 
 static const unsigned char *pixels(fst_film_canvas *canvas, int *stride)

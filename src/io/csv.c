@@ -118,9 +118,10 @@ static fst_status read_head(csv_reader *reader)
 {
     const int is_text = next_line(reader);
     if (is_text && strcmp(reader->line, OTHER_UNITS_LINE) == 0)
-        return fst_fail(reader->error, FST_BAD_INPUT, reader->path,
-                        "this trajectory was written for other programs, in units of the laboratory or SI; one in "
-                        "scaled units can be read");
+        return fst_fail(
+            reader->error, FST_BAD_INPUT, reader->path,
+            "this trajectory was written for other programs, in units of the laboratory or SI; one in "
+            "scaled units can be read");
     if (!is_text || strcmp(reader->line, FIRST_LINE) != 0)
         return fst_fail(reader->error, FST_BAD_INPUT, reader->path,
                         "this is no trajectory of festoon: it begins neither as HDF5 nor with \"%s\"",
