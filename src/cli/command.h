@@ -65,9 +65,6 @@ const char *shown(const char *path, char text[SHOWN_SIZE]);
 /* Say "wrote PATH", with a remark behind it, on standard error. */
 void tell_written(const char *path, const char *remark);
 
-/* Read --units; as given where it is missing. */
-fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error);
-
 /* Read exactly `count` numbers separated by commas. */
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,
                         fst_error *error);

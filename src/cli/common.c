@@ -87,25 +87,6 @@ void tell_written(const char *path, const char *remark)
     (void)fprintf(stderr, "wrote %s%s\n", shown(path, text), remark);
 }
 
-fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error)
-{
-    static const char *const names[] = {"scaled", "lab", "si"};
-    static const fst_shown_units values[] = {FST_SHOWN_SCALED, FST_SHOWN_LAB, FST_SHOWN_SI};
-    const char *text = option_value(given, "units");
-    char nearest[16];
-    *units = FST_SHOWN_AS_GIVEN;
-    if (!text)
-        return FST_OK;
-    for (int i = 0; i < 3; ++i)
-        if (strcmp(text, names[i]) == 0) {
-            *units = values[i];
-            return FST_OK;
-        }
-    fst_nearest_name(text, "scaled|lab|si", nearest, sizeof nearest);
-    return fail(error, FST_BAD_INPUT, "--units", "unknown units \"%.40s\"; the nearest is %s (scaled, lab, si)",
-                text, nearest);
-}
-
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count, fst_error *error)
 {
     const char *at = text;

@@ -2,7 +2,7 @@
 #ifndef FST_CLI_OPTIONS_H
 #define FST_CLI_OPTIONS_H
 
-#include <festoon/festoon.h>
+#include <festoon/festoon_tools.h>
 
 /* One row of the table; a row without a name ends it. */
 typedef struct option {
@@ -35,6 +35,9 @@ fst_status read_arguments(const option *table, int most_operands, int count, cha
 
 /* The value of --name, "" for an option without value; NULL where it was not given. */
 const char *option_value(const arguments *given, const char *name);
+
+/* Read --units; as given where it is missing. */
+fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error);
 
 /* The first operand, or NULL. */
 const char *operand(const arguments *given);
