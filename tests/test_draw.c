@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "draw/chart.h"
+#include "draw/figure_setup.h"
 #include "draw/gnuplot.h"
 #include "draw/legend.h"
 #include "draw/smooth.h"
@@ -387,6 +388,28 @@ static void long_titles_take_lines(void **state)
     free(script);
 }
 
+/* The sketch names every angle that the model speaks of, and has the bar's true size. */
+static void the_sketch_names_its_angles(void **state)
+{
+    (void)state;
+    static const char *const words[] = {"φ", "θ", "Φ", "ω", "56 × 40 × 9 mm", "16.2 mm", "plate", "its model"};
+    const fst_params params = fst_default_params();
+    assert_int_equal(fst_figure_sketch(&params, inside("sketch.svg"), NULL), FST_OK);
+    size_t size;
+    char *picture = contents("sketch.svg", &size);
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (!strstr(picture, words[i]))
+            fail_msg("the sketch lacks %s", words[i]);
+    free(picture);
+    char *data = contents("sketch.dat", &size), *at = strstr(data, "# magnet-above");
+    double corner[4];
+    assert_non_null(at);
+    at = strchr(strchr(at, '\n') + 1, '\n');
+    assert_int_equal(sscanf(at, "%lf %lf %lf %lf", &corner[0], &corner[1], &corner[2], &corner[3]), 4);
+    assert_true(fabs(hypot(corner[2] - corner[0], corner[3] - corner[1]) - 56.0) < 1e-3);
+    free(data);
+}
+
 /* A cubic through points on a circle is ever closer to it, at least as the third power of their distance. */
 static void smooth_curves_converge(void **state)
 {
@@ -456,6 +479,7 @@ int main(void)
         cmocka_unit_test(units_of_the_laboratory),
         cmocka_unit_test(smooth_curves_converge),
         cmocka_unit_test_teardown(long_titles_take_lines, clear_directory),
+        cmocka_unit_test_teardown(the_sketch_names_its_angles, clear_directory),
         cmocka_unit_test_teardown(every_kind_in_every_format, clear_directory),
         cmocka_unit_test_teardown(only_the_bar_of_lines_is_drawn, clear_directory),
         cmocka_unit_test_teardown(the_script_draws_the_figure_again, clear_directory),

@@ -217,6 +217,11 @@ static void write_inset(fst_figure_file *figure, const fst_view *view, const pat
                   fst_colour_code(FST_COLOUR_BLUE));
 }
 
+static int is_within(const double box[4], double x, double y)
+{
+    return x >= box[0] && x <= box[1] && y >= box[2] && y <= box[3];
+}
+
 /* Arrows of the moment's horizontal part, each as long as that part.  A zoom has as many arrows per length of
  * path as the picture can bear. */
 static void write_arrows(fst_figure_file *figure, const fst_view *view, const path_columns *columns,
@@ -225,7 +230,7 @@ static void write_arrows(fst_figure_file *figure, const fst_view *view, const pa
     size_t inside = 0;
     for (size_t row = view->first; row < view->last; ++row) {
         double x = columns->x[row] * view->length, y = columns->y[row] * view->length;
-        inside += x >= box[0] && x <= box[1] && y >= box[2] && y <= box[3];
+        inside += is_within(box, x, y) ? 1 : 0;
     }
     size_t stride = inside / ARROWS + 1;
     double scale = LONGEST_ARROW * (box[1] - box[0]);
@@ -237,13 +242,16 @@ static void write_arrows(fst_figure_file *figure, const fst_view *view, const pa
 
 /* ------------------------------------------------------------------ the figure */
 
-static fst_legend make_legend(const fst_view *view, const fst_figure_options *options)
+static fst_legend make_legend(const fst_view *view, const fst_figure_options *options,
+                              const path_columns *columns, const double box[4])
 {
     fst_legend legend = fst_view_legend(view, "Path of the bead over the plate, from above");
     if (has_outline(view))
         fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#b4b4b4' lw 1",
                        "outline of the magnet's lines at the beginning; it turns anticlockwise");
-    fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 6 ps 1 lw 2 lc rgb '#222222'", "the bead at the beginning");
+    if (is_within(box, view->length * columns->x[view->first], view->length * columns->y[view->first]))
+        fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 6 ps 1 lw 2 lc rgb '#222222'",
+                       "the bead at the beginning");
     if (options->arrows) {
         fst_legend_add(&legend, FST_SAMPLE_ARROW, "lc rgb '#8a8a8a' lw 0.8",
                        "horizontal part of the moment n; so long where n is horizontal");
@@ -284,7 +292,7 @@ fst_status fst_figure_path(const fst_table *table, const char *out, const fst_fi
         status = choose_box(&view, &columns, options, box, error);
     if (status != FST_OK)
         return status;
-    const fst_legend legend = make_legend(&view, options);
+    const fst_legend legend = make_legend(&view, options, &columns, box);
     const path_layout l = lay_out(&legend, options->inset);
     fst_figure_file figure;
     status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, l.height, error);

@@ -24,7 +24,7 @@ enum {
 };
 
 static const double degree = 0.017453292519943295;
-static const double MAGNET_ANGLE = 25.0, BEAD_ANGLE = 60.0; /* of the sketch */
+static const double MAGNET_ANGLE = 25.0, BEAD_ANGLE = 70.0; /* of the sketch */
 static const double THETA = 60.0, PHI = 50.0;               /* of the sketched moment */
 
 /* ------------------------------------------------------------------ the sketch */
@@ -199,7 +199,7 @@ static void draw_local(fst_figure_file *figure)
                   "set label '−e_z' at 0.02,-0.92 center front font ',11' textcolor rgb '#666666'\n"
                   "set arrow 6 from 0,0 to %.4g,%.4g nohead dt 2 lc rgb '#666666'\n"
                   "set arrow 7 from %.4g,%.4g to %.4g,%.4g nohead dt 3 lc rgb '#666666'\n"
-                  "set label 'φ' at %.4g,%.4g center front\nset label 7 'θ' at %.4g,%.4g center front\n",
+                  "set label 'φ' at %.4g,%.4g center front\nset label 'θ' at %.4g,%.4g center front\n",
                   tip[0], tip[1], 1.2 * tip[0] - 0.06, 1.2 * tip[1], across[0], across[1], tip[0], tip[1],
                   across[0], across[1], 0.11, -0.55, -0.26, -0.42);
     (void)fputs("plot data index 'phi' using 1:2 with lines lc rgb '#222222' lw 1.2 notitle, \\\n"

@@ -72,7 +72,7 @@ void fst_legend_add(fst_legend *legend, fst_sample_kind sample, const char *styl
     if (legend->count == FST_LEGEND_ENTRIES)
         return;
     fst_legend_entry *entry = &legend->entries[legend->count++];
-    *entry = (fst_legend_entry){.sample = sample, .length = SAMPLE - 4};
+    *entry = (fst_legend_entry){.sample = sample, .length = SAMPLE - 8};
     (void)snprintf(entry->style, sizeof entry->style, "%s", style);
     (void)snprintf(entry->words, sizeof entry->words, "%s", words);
 }
@@ -212,13 +212,13 @@ static void write_samples(fst_figure_file *figure, const fst_legend *legend)
         (void)snprintf(name, sizeof name, "key%d", i + 1);
         fst_figure_block(figure, name, "x y in pixels");
         if (entry->sample == FST_SAMPLE_ARROW)
-            (void)fprintf(figure->data, "%g %g %g 0\n", x + 0.5 * (SAMPLE - 4 - entry->length), y,
+            (void)fprintf(figure->data, "%g %g %g 0\n", x + 0.5 * (SAMPLE - 8 - entry->length), y,
                           entry->length);
         else if (entry->sample == FST_SAMPLE_BOX)
-            (void)fprintf(figure->data, "%g %g\n", x + 0.5 * (SAMPLE - 4), y);
+            (void)fprintf(figure->data, "%g %g\n", x + 0.5 * (SAMPLE - 8), y);
         else
             for (int k = 0; k < 3; ++k)
-                (void)fprintf(figure->data, "%g %g\n", x + 0.5 * k * (SAMPLE - 4), y);
+                (void)fprintf(figure->data, "%g %g\n", x + 0.5 * k * (SAMPLE - 8), y);
         (void)fprintf(figure->script, "data index 'key%d' %s %s notitle, \\\n     ", i + 1, with[entry->sample],
                       entry->style);
     }
