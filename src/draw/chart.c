@@ -7,8 +7,9 @@
 #include <string.h>
 
 enum {
-    LEFT = 66, /* pixels about the panels */
-    LINE = 16, /* for one more line of a label */
+    LEFT = 66,    /* pixels about the panels */
+    NUMBERS = 30, /* for an axis' label and gaps, without its numbers */
+    LINE = 16,    /* for one more line of a label */
     RIGHT = 22,
     RIGHT_ORDINATE = 64,
     SECOND_ABSCISSA = 60,
@@ -17,6 +18,8 @@ enum {
     USUAL_HEIGHT = 190,
     LONE_HEIGHT = 270
 };
+
+static const double LETTER = 7.4; /* width of a digit */
 
 /* Lengths of a chart in pixels. */
 typedef struct layout {
@@ -236,13 +239,33 @@ static void write_range(FILE *script, const char *axis, double low, double high)
     (void)(isfinite(high) ? fprintf(script, "%.9g]\n", high) : fputs("*]\n", script));
 }
 
-/* An inset has room for four numbers on an axis. */
-static void write_sparse_tics(FILE *script, const char *axis, double low, double high)
+/* The range of one coordinate of some curves, where an end of the wanted one is left to them (NAN).  Curves of
+ * the other ordinate do not count. */
+static void range_of(const fst_chart_curve *curves, int count, int abscissa, int right, double *low,
+                     double *high)
 {
-    if (isfinite(low) && isfinite(high))
-        (void)fprintf(script, "set %stics %.9g\n", axis, fst_round_step((high - low) / 3.0));
+    double least = INFINITY, greatest = -INFINITY;
+    for (int c = 0; c < count; ++c)
+        for (size_t i = 0; i < curves[c].count && curves[c].right == right; ++i) {
+            const double value = abscissa ? curves[c].x[i] : curves[c].y[i];
+            if (isfinite(value)) {
+                least = fmin(least, value);
+                greatest = fmax(greatest, value);
+            }
+        }
+    *low = isfinite(*low) ? *low : least;
+    *high = isfinite(*high) ? *high : greatest;
+}
+
+/* An inset has room for four numbers on an axis. */
+static void write_sparse_tics(FILE *script, const fst_chart_inset *inset, int abscissa)
+{
+    double low = abscissa ? inset->x_low : inset->low, high = abscissa ? inset->x_high : inset->high;
+    range_of(inset->curves, inset->curve_count, abscissa, 0, &low, &high);
+    if (high > low)
+        (void)fprintf(script, "set %ctics %.9g\n", abscissa ? 'x' : 'y', fst_round_step((high - low) / 3.0));
     else
-        (void)fprintf(script, "set %stics auto\n", axis);
+        (void)fprintf(script, "set %ctics auto\n", abscissa ? 'x' : 'y');
 }
 
 /* Draw the inset of a panel whose frame is given in pixels.  Its labels stand above and below it. */
@@ -255,8 +278,8 @@ static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, i
                 "set object 99 rectangle from graph 0,0 to graph 1,1 behind fc rgb 'white' fs solid noborder\n"
                 "set tics font ',11'\nset format x '%g'\n",
                 script);
-    write_sparse_tics(script, "x", inset->x_low, inset->x_high);
-    write_sparse_tics(script, "y", inset->low, inset->high);
+    write_sparse_tics(script, inset, 1);
+    write_sparse_tics(script, inset, 0);
     fst_figure_place(figure, height,
                      (const double[4]){frame[0] + wide * inset->left, frame[0] + wide * inset->right,
                                        frame[3] - tall * inset->top, frame[3] - tall * inset->bottom});
@@ -297,6 +320,20 @@ static void write_panel(fst_figure_file *figure, const fst_chart *chart, const l
         write_inset(figure, panel->inset, p + 1, frame, l->height);
 }
 
+/* About how many letters the widest number of an ordinate has. */
+static int number_letters(const fst_chart_panel *panel)
+{
+    double low = panel->low, high = panel->high;
+    range_of(panel->curves, panel->curve_count, 0, 0, &low, &high);
+    const double greatest = fmax(fabs(low), fabs(high));
+    if (!(high > low) || !isfinite(greatest))
+        return 0;
+    const double step = fst_round_step((high - low) / 6.0);
+    const int whole = greatest >= 10.0 ? 1 + (int)floor(log10(greatest)) : 1;
+    const int decimals = step < 1.0 ? 1 + (int)ceil(-log10(step) - 1e-9) : 0;
+    return whole + decimals + (low < 0.0);
+}
+
 static layout lay_out(const fst_chart *chart)
 {
     layout l = {.left = LEFT, .right = RIGHT};
@@ -306,6 +343,8 @@ static layout lay_out(const fst_chart *chart)
     for (int p = 0; p < chart->panel_count; ++p) {
         const int lines = fst_lines_of(chart->panels[p].left_label, l.panel);
         labels = lines > labels ? lines : labels;
+        const int beside = NUMBERS + (int)(LETTER * number_letters(&chart->panels[p]));
+        l.left = beside > l.left ? beside : l.left;
         if (chart->panels[p].right_label)
             l.right = RIGHT_ORDINATE;
     }
