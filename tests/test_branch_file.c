@@ -55,8 +55,6 @@ static fst_branch made_up(int over_two)
     b.to = 2.0 / 3.0;
     b.branches = 5;
     b.complete = over_two;
-    b.length_unit = fst_default_params().magnet_half_length;
-    b.time_unit = 1.0 / fst_default_params().friction_gamma;
     if (over_two) {
         (void)snprintf(b.second_key, sizeof b.second_key, "model.kappa");
         b.second_from = 1.1;

@@ -250,6 +250,13 @@ typedef enum { FST_EXPORT_CSV, FST_EXPORT_JSON, FST_EXPORT_HDF5 } fst_export_for
 FST_API fst_status fst_sweep_export(const char *path, fst_export_format format, const char *out, FILE *stream,
                                     fst_error *error);
 
+/* Write chosen columns as CSV: the varied parameters and `keys` (count = 0: regime, mean_r, std_r,
+ * mean_alpha_dot), in the wanted units, each name with its unit behind it: "mean_r [mm]".  Fails where rows are
+ * damaged. */
+FST_API fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int count,
+                                         fst_shown_units units, const char *out, FILE *stream,
+                                         fst_error *error);
+
 /* Some keys of a sweep by point.  The value of key i at a point is values[i * fst_grid_points(grid) + point],
  * NAN where there is none; `regime` and `symmetry` have their numbers. */
 typedef struct fst_sweep_table {
@@ -298,6 +305,44 @@ FST_API fst_film_options fst_default_film_options(void);
 FST_API fst_status fst_film(const fst_table *table, const char *out, const fst_film_options *options,
                             fst_error *error);
 
+/* A film as a camera over the plate takes it.  Lengths are in m, times in s, angles in degrees. */
+typedef struct fst_camera_options {
+    uint32_t cookie;
+    int width, height;        /* pixels, both even */
+    double fps;               /* frames a second */
+    double stored_fps;        /* what the film claims them to be; NAN: the truth */
+    double from, to;          /* drive periods that are filmed; NAN: everything */
+    double exposure, readout; /* of a row; from the first row to the last (a rolling shutter) */
+    double noise;             /* deviation of a pixel, in gray levels of 255 */
+    double uneven, flicker;   /* how much darker the darkest corner is; how much the lamps flicker: 0 to 1 */
+    double tilt, side;        /* the camera's angle off the vertical; where it stands, from the x axis */
+    double distance, plate;   /* from the plate's middle; the plate's diameter; NAN: what fits */
+    int quality;              /* of the compression: 0, lossless, to 51 */
+    int drop;                 /* every drop-th frame is lost; 0: none */
+    uint64_t seed;            /* of the noise */
+    const fst_progress *progress; /* NULL: nobody is told */
+} fst_camera_options;
+/* 1280 x 720 pixels, 240 frames a second exposed for 1 ms, 5 degrees of tilt, a readout of 3 ms, noise of 2
+ * gray levels, light that falls by a fifth, a quality of 23. */
+FST_API fst_camera_options fst_default_camera_options(void);
+
+/* What such a film shows. */
+typedef struct fst_camera_facts {
+    int frames, lost;
+    double plate, distance, square; /* m; at the corners of a square around the axis there are four marks */
+    double scale;                   /* m a pixel in the middle */
+    double marks[4][2]; /* pixels from the top left, in an order around the square; the first side is
+                           along x */
+} fst_camera_facts;
+
+/* Film a trajectory: gray pictures of plate and bead, in .mp4, .mov, .gif or a folder of images, and beside
+ * them the truth as a table (NULL: none): frame, true time of its beginning, where the bead was on the mean
+ * over the exposure, and the pixel that saw it (columns from the left, rows from the bottom).  The arguments
+ * fail as those of fst_film(). */
+FST_API fst_status fst_camera_film(const fst_table *table, const char *out, const char *truth,
+                                   const fst_camera_options *options, fst_camera_facts *facts,
+                                   fst_error *error);
+
 /* ------------------------------------------------------------------ the paper */
 
 typedef struct fst_paper_options {
@@ -334,4 +379,9 @@ FST_API const char *fst_tools_components(void);
 #ifdef __cplusplus
 }
 #endif
+
+#include <festoon/fit.h>
+#include <festoon/tracks.h>
+#include <festoon/film_tracks.h>
+
 #endif

@@ -48,7 +48,8 @@ static int is_option(const option *table, const char *word)
 
 static fst_status keep_option(arguments *given, const option *row, const char *value, fst_error *error)
 {
-    if (strcmp(row->name, "set") != 0 && strcmp(row->name, "over") != 0 && option_value(given, row->name))
+    if (strcmp(row->name, "set") != 0 && strcmp(row->name, "over") != 0 && strcmp(row->name, "given") != 0 &&
+        option_value(given, row->name))
         return fail(error, FST_BAD_INPUT, "", "--%s is given twice", row->name);
     if (given->option_count == OPTION_LIMIT)
         return fail(error, FST_BAD_INPUT, "", "there are more than %d options", OPTION_LIMIT);
@@ -125,23 +126,4 @@ const char *option_value(const arguments *given, const char *name)
 const char *operand(const arguments *given)
 {
     return given->operand_count ? given->operands[0] : NULL;
-}
-
-fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error)
-{
-    static const char *const names[] = {"scaled", "lab", "si"};
-    static const fst_shown_units values[] = {FST_SHOWN_SCALED, FST_SHOWN_LAB, FST_SHOWN_SI};
-    const char *text = option_value(given, "units");
-    char nearest[16];
-    *units = FST_SHOWN_AS_GIVEN;
-    if (!text)
-        return FST_OK;
-    for (int i = 0; i < 3; ++i)
-        if (strcmp(text, names[i]) == 0) {
-            *units = values[i];
-            return FST_OK;
-        }
-    fst_nearest_name(text, "scaled|lab|si", nearest, sizeof nearest);
-    return fail(error, FST_BAD_INPUT, "--units", "unknown units \"%.40s\"; the nearest is %s (scaled, lab, si)",
-                text, nearest);
 }

@@ -2,7 +2,7 @@
 #ifndef FST_CLI_OPTIONS_H
 #define FST_CLI_OPTIONS_H
 
-#include <festoon/festoon_tools.h>
+#include <festoon/festoon.h>
 
 /* One row of the table; a row without a name ends it. */
 typedef struct option {
@@ -13,7 +13,7 @@ typedef struct option {
 } option;
 
 #define OPTION_LIMIT 256 /* the most options that are accepted */
-#define OPERAND_LIMIT 2
+#define OPERAND_LIMIT 256
 
 typedef struct given_option {
     const option *row;
@@ -27,7 +27,8 @@ typedef struct arguments {
     int operand_count;
 } arguments;
 
-/* Read words[0..count) by `table`.  A value may begin with a minus.  Only --set and --over may be repeated.
+/* Read words[0..count) by `table`.  A value may begin with a minus.  Only --set, --over and --given may be
+ * repeated.
  * FST_BAD_INPUT: unknown option (the sentence names the nearest), missing or superfluous value, too many
  * operands. */
 fst_status read_arguments(const option *table, int most_operands, int count, char **words, arguments *given,
@@ -35,9 +36,6 @@ fst_status read_arguments(const option *table, int most_operands, int count, cha
 
 /* The value of --name, "" for an option without value; NULL where it was not given. */
 const char *option_value(const arguments *given, const char *name);
-
-/* Read --units; as given where it is missing. */
-fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error);
 
 /* The first operand, or NULL. */
 const char *operand(const arguments *given);

@@ -15,7 +15,7 @@ static const struct {
 
 static const option options[] = {
     {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
-    {"kind", '\0', "KIND",
+    {"kind", '\0', KIND_NAMES,
      "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame),\n"
      "radius-field (r and |B| against Phi), time (columns against time), section (Poincare section: one\n"
      "column against another where Phi passes 90 degrees) or ramp (columns against the drive of a ramp)"},
@@ -35,6 +35,8 @@ static const option options[] = {
      "curves\n"
      "over two parameters: second"},
     {"runs", '\0', "FILE", "of a branch: draw dots over it, from documents of festoon run --json"},
+    {"points", '\0', "DATA.csv",
+     "of a sweep or a branch over the drive: lay measured points with errors over it, and tell chi^2"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -96,35 +98,11 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     return status;
 }
 
-/* The words of a list "r,n_z" in `words`, which keeps them. */
-enum { MOST_KEYS = 16, WORDS_SIZE = 512 };
-static fst_status read_keys(const char *text, char words[WORDS_SIZE], const char *keys[MOST_KEYS], int *count,
-                            fst_error *error)
-{
-    *count = 0;
-    if (strlen(text) >= WORDS_SIZE)
-        return fail(error, FST_BAD_INPUT, "--key", "the list is longer than %d letters", WORDS_SIZE - 1);
-    (void)snprintf(words, WORDS_SIZE, "%s", text);
-    for (char *word = words; *word;) {
-        const size_t length = strcspn(word, ",");
-        if (length == 0)
-            return fail(error, FST_BAD_INPUT, "--key", "a name is missing in \"%.60s\"", text);
-        if (*count == MOST_KEYS)
-            return fail(error, FST_BAD_INPUT, "--key", "there are more than %d names", MOST_KEYS);
-        keys[(*count)++] = word;
-        if (!word[length])
-            break;
-        word[length] = '\0';
-        word += length + 1;
-    }
-    return FST_OK;
-}
-
 /* --key and --units of a trajectory. */
-static fst_status read_columns(const arguments *given, fst_figure_options *figure, char words[WORDS_SIZE],
+static fst_status read_columns(const arguments *given, fst_figure_options *figure, char words[KEYS_SIZE],
                                fst_error *error)
 {
-    const char *keys[MOST_KEYS], *text = option_value(given, "key");
+    const char *keys[KEY_LIMIT], *text = option_value(given, "key");
     int count = 0;
     fst_status status = read_units(given, &figure->units, error);
     if (status == FST_OK && text)
@@ -170,8 +148,8 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
 /* Draw a sweep: curves over one axis, a map over two. */
 static fst_status plot_sweep(const arguments *given, const char *path, const char *to, fst_error *error)
 {
-    const char *text = option_value(given, "key"), *keys[MOST_KEYS];
-    char words[WORDS_SIZE];
+    const char *text = option_value(given, "key"), *keys[KEY_LIMIT];
+    char words[KEYS_SIZE];
     int count = 0;
     fst_shown_units units;
     for (int i = 0; i < given->option_count; ++i) {
@@ -189,6 +167,27 @@ static fst_status plot_sweep(const arguments *given, const char *path, const cha
     return status;
 }
 
+static fst_status plot_points(const arguments *given, const char *path, const char *to, fst_error *error)
+{
+    fst_points_fit fit;
+    char remark[96];
+    for (int i = 0; i < given->option_count; ++i) {
+        const char *name = given->options[i].row->name;
+        if (strcmp(name, "points") != 0 && strcmp(name, "output") != 0)
+            return fail(error, FST_BAD_INPUT, "", "--%s does not go with --points", name);
+    }
+    if (!ends_in(path, ".json") && !fst_is_sweep(path) && !ends_in(path, ".db"))
+        return fail(error, FST_BAD_INPUT, path,
+                    "--points belongs to sweeps and branches; this file is neither");
+    const fst_status status = fst_figure_points(path, option_value(given, "points"), to, &fit, error);
+    if (status != FST_OK)
+        return status;
+    (void)snprintf(remark, sizeof remark, ": chi^2 = %.6g of %d measured numbers (%d in the table)", fit.chi2,
+                   fit.counted, fit.all);
+    tell_written(to, remark);
+    return FST_OK;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     (void)out;
@@ -199,11 +198,13 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "say where the figure goes: -o FIG.svg");
+    if (option_value(given, "points"))
+        return plot_points(given, path, to, error);
     if (ends_in(path, ".json")) /* a branch */
         return plot_branch(given, path, to, error);
     if (fst_is_sweep(path) || ends_in(path, ".db"))
         return plot_sweep(given, path, to, error);
-    char words[WORDS_SIZE];
+    char words[KEYS_SIZE];
     fst_status status = read_figure(given, &figure, error);
     if (status == FST_OK)
         status = read_columns(given, &figure, words, error);

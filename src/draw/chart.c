@@ -29,6 +29,11 @@ typedef struct layout {
 
 /* ------------------------------------------------------------------ data */
 
+static int is_shown(const fst_chart_curve *curve, size_t i)
+{
+    return isfinite(curve->x[i]) && isfinite(curve->y[i]) && (!curve->spread || isfinite(curve->spread[i]));
+}
+
 /* Write the curves as data blocks "NAMEi-curvej". */
 static void write_blocks(fst_figure_file *figure, const char *name, int number, const fst_chart_curve *curves,
                          int count)
@@ -40,13 +45,18 @@ static void write_blocks(fst_figure_file *figure, const char *name, int number, 
         fst_figure_block(figure, block, curve->title ? curve->title : "x y");
         for (size_t i = 0; i < curve->count; ++i) {
             /* gnuplot breaks a line at an empty line, but steps over a missing value. */
-            if (isfinite(curve->x[i]) && isfinite(curve->y[i]))
-                (void)fprintf(figure->data, "%.9g %.9g\n", curve->x[i], curve->y[i]);
-            else if (i > 0 && isfinite(curve->x[i - 1]) && isfinite(curve->y[i - 1]))
+            if (is_shown(curve, i)) {
+                (void)fprintf(figure->data, "%.9g %.9g", curve->x[i], curve->y[i]);
+                if (curve->spread)
+                    (void)fprintf(figure->data, " %.9g %.9g", curve->y[i] - curve->spread[i],
+                                  curve->y[i] + curve->spread[i]);
                 (void)fputc('\n', figure->data);
+            } else if (i > 0 && is_shown(curve, i - 1)) {
+                (void)fputc('\n', figure->data);
+            }
         }
-        if (curve->count == 0 || !isfinite(curve->y[0]))
-            (void)fputs("nan nan\n", figure->data);
+        if (curve->count == 0 || !is_shown(curve, 0))
+            (void)fputs(curve->spread ? "nan nan nan nan\n" : "nan nan\n", figure->data);
     }
 }
 
@@ -152,12 +162,16 @@ static const char *const styles[] = {[FST_CURVE_LINE] = "lines lw 2",
                                      [FST_CURVE_DASHED_POINTS] = "linespoints dt (6,5) ps 0.7 lw 2 pt",
                                      [FST_CURVE_THIN] = "lines lw 0.8",
                                      [FST_CURVE_SIGNS] = "points ps 0.95 lw 1.6 pt",
+                                     [FST_CURVE_ERRORS] = "yerrorbars ps 0.6 lw 1.4 pt",
+                                     [FST_CURVE_OPEN_ERRORS] = "yerrorbars ps 0.8 lw 1.4 pt",
+                                     [FST_CURVE_BAND] = "filledcurves fs transparent solid 0.22 noborder",
                                      [FST_CURVE_DOTS] = "points ps 0.35 pt"};
 
 /* gnuplot's words for a curve, "lines lw 2 lc rgb '#0072b2'". */
 static void style_of(const fst_chart_curve *curve, char *text, size_t size)
 {
-    const int open = curve->style == FST_CURVE_OPEN_POINTS || curve->style == FST_CURVE_DASHED_POINTS;
+    const int open = curve->style == FST_CURVE_OPEN_POINTS || curve->style == FST_CURVE_DASHED_POINTS ||
+                     curve->style == FST_CURVE_OPEN_ERRORS;
     char sign[8] = "";
     if (styles[curve->style][strlen(styles[curve->style]) - 1] == 't') /* "pt", which wants a number */
         (void)snprintf(sign, sizeof sign, " %d", curve->sign ? curve->sign : open ? 6 : 7);
@@ -167,12 +181,15 @@ static void style_of(const fst_chart_curve *curve, char *text, size_t size)
 static void write_curves(fst_figure_file *figure, const char *name, int number, const fst_chart_curve *curves,
                          int count)
 {
+    static const char *const columns[] = {"1:2", "1:2:3:4", "1:3:4"};
     for (int c = 0; c < count; ++c) {
+        const fst_chart_curve *curve = &curves[c];
+        const int shape = !curve->spread ? 0 : curve->style == FST_CURVE_BAND ? 2 : 1;
         char style[96];
-        style_of(&curves[c], style, sizeof style);
-        (void)fprintf(figure->script, "%sdata index '%s%d-curve%d' using 1:2 axes %s with %s notitle",
-                      c ? ", \\\n     " : "plot ", name, number, c + 1, curves[c].right ? "x1y2" : "x1y1",
-                      style);
+        style_of(curve, style, sizeof style);
+        (void)fprintf(figure->script, "%sdata index '%s%d-curve%d' using %s axes %s with %s notitle",
+                      c ? ", \\\n     " : "plot ", name, number, c + 1, columns[shape],
+                      curve->right ? "x1y2" : "x1y1", style);
     }
     (void)fputc('\n', figure->script);
 }
@@ -182,7 +199,7 @@ static void write_curves(fst_figure_file *figure, const char *name, int number, 
 static int has_points(const fst_chart_curve *curve)
 {
     for (size_t i = 0; i < curve->count; ++i)
-        if (isfinite(curve->x[i]) && isfinite(curve->y[i]))
+        if (is_shown(curve, i))
             return 1;
     return 0;
 }
@@ -199,6 +216,9 @@ static void add_entry(fst_legend *legend, const fst_chart_curve *curve)
         [FST_CURVE_DASHED_POINTS] = FST_SAMPLE_LINE_POINT,
         [FST_CURVE_THIN] = FST_SAMPLE_LINE,
         [FST_CURVE_SIGNS] = FST_SAMPLE_POINT,
+        [FST_CURVE_ERRORS] = FST_SAMPLE_POINT,
+        [FST_CURVE_OPEN_ERRORS] = FST_SAMPLE_POINT,
+        [FST_CURVE_BAND] = FST_SAMPLE_BOX,
         [FST_CURVE_DOTS] = FST_SAMPLE_POINT,
     };
     char style[96];

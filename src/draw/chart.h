@@ -12,9 +12,12 @@ typedef enum {
     FST_CURVE_OPEN_POINTS,
     FST_CURVE_LINE_POINTS, /* few points; the line only guides the eye between them */
     FST_CURVE_DASHED_POINTS,
-    FST_CURVE_THIN,  /* a thin line */
-    FST_CURVE_SIGNS, /* points of different shapes */
-    FST_CURVE_DOTS   /* small points, where there are many */
+    FST_CURVE_THIN,        /* a thin line */
+    FST_CURVE_SIGNS,       /* points of different shapes */
+    FST_CURVE_DOTS,        /* small points, where there are many */
+    FST_CURVE_ERRORS,      /* points with error bars, y - spread to y + spread */
+    FST_CURVE_OPEN_ERRORS, /* the same with open points */
+    FST_CURVE_BAND         /* a pale area from y - spread to y + spread */
 } fst_curve_style;
 
 typedef struct fst_chart_curve {
@@ -23,8 +26,9 @@ typedef struct fst_chart_curve {
     size_t count;
     fst_colour colour;
     fst_curve_style style;
-    int right; /* belongs to the right-hand ordinate */
-    int sign;  /* gnuplot's number of the shape of points; 0: discs */
+    int right;            /* belongs to the right-hand ordinate */
+    int sign;             /* gnuplot's number of the shape of points; 0: discs */
+    const double *spread; /* of the styles with errors and of the band; else NULL */
 } fst_chart_curve;
 
 /* A word at a place of an inset. */

@@ -317,7 +317,7 @@ static int is_scale(const char *key)
 /* The axes in their units. */
 static fst_status choose_axes(const fst_branch *b, fst_shown_units units, shown *s, fst_error *error)
 {
-    const fst_scales scales = {b->length_unit, b->time_unit, NAN, NAN};
+    const fst_scales scales = {b->half_length, 1.0 / b->gamma, NAN, NAN};
     const char *scale = is_scale(b->key) ? b->key : is_scale(b->second_key) ? b->second_key : NULL;
     const int known = !scale && isfinite(scales.length) && isfinite(scales.time);
     if (units != FST_SHOWN_AS_GIVEN && !known)

@@ -212,7 +212,7 @@ static fst_legend sketch_legend(const fst_params *p, double bar)
     fst_legend legend = {.title = "The setup to scale"};
     (void)snprintf(legend.about, sizeof legend.about, "bar magnet %.4g × %.4g × %.4g mm, bead %.4g mm across",
                    2.0 * bar, 1e3 * p->magnet_width, FST_BAR_THICKNESS, 2e3 * p->bead_radius);
-    fst_legend_add(&legend, FST_SAMPLE_BOX, "lc rgb '#dddddd'", "the bar");
+    fst_legend_add(&legend, FST_SAMPLE_BOX, "fs solid 1.0 noborder lc rgb '#dddddd'", "the bar");
     fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#0072b2' lw 1.5", "its model, lines of dipoles");
     fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 7 ps 1.1 lc rgb '#d55e00'", "bead");
     return legend;

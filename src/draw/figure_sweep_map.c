@@ -225,8 +225,9 @@ static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, 
                        "; white: %lld of %lld points without a value", (long long)blank, (long long)points);
     for (int r = 0; r < REGIMES; ++r)
         if (occurs[r]) {
-            char style[32];
-            (void)snprintf(style, sizeof style, "lc rgb '%s'", fst_colour_code(fst_regime_colour(r)));
+            char style[64];
+            (void)snprintf(style, sizeof style, "fs solid 1.0 noborder lc rgb '%s'",
+                           fst_colour_code(fst_regime_colour(r)));
             fst_legend_add(&legend, FST_SAMPLE_BOX, style, fst_regime_name((fst_regime)r));
         }
     return legend;

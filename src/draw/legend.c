@@ -195,12 +195,12 @@ static void entry_place(const fst_legend *legend, int i, double *x, double *y)
 
 static void write_samples(fst_figure_file *figure, const fst_legend *legend)
 {
-    static const char *const with[] = {
-        [FST_SAMPLE_LINE] = "using 1:2 with lines",
-        [FST_SAMPLE_POINT] = "using 1:2 every ::1::1 with points",
-        [FST_SAMPLE_LINE_POINT] = "using 1:2 with linespoints",
-        [FST_SAMPLE_BOX] = "using 1:2:(11):(5) with boxxyerror fillstyle solid 1.0 noborder",
-        [FST_SAMPLE_ARROW] = "using 1:2:3:4 with vectors head filled size screen 0.014,18"};
+    static const char *const with[] = {[FST_SAMPLE_LINE] = "using 1:2 with lines",
+                                       [FST_SAMPLE_POINT] = "using 1:2 every ::1::1 with points",
+                                       [FST_SAMPLE_LINE_POINT] = "using 1:2 with linespoints",
+                                       [FST_SAMPLE_BOX] = "using 1:2:(11):(5) with boxxyerror",
+                                       [FST_SAMPLE_ARROW] =
+                                           "using 1:2:3:4 with vectors head filled size screen 0.014,18"};
     (void)fputs("plot ", figure->script);
     for (int i = 0; i < legend->count; ++i) {
         const fst_legend_entry *entry = &legend->entries[i];

@@ -1,0 +1,139 @@
+/* tracks.h - where a filmed bead was, frame by frame: reading and writing tracks; festoon_tools.h includes it.
+ *
+ * A track is what an experiment gives: a place for each frame of a film.  It is made by the program that
+ * follows a bead in a film, ours or another one, and is the material from which numbers are measured.
+ */
+#ifndef FESTOON_TRACKS_H
+#define FESTOON_TRACKS_H
+
+#include <festoon/festoon.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What is known of a frame. */
+typedef enum {
+    FST_FRAME_SEEN,    /* the bead was found: x and y are its place */
+    FST_FRAME_LOST,    /* it was not: x and y are NAN */
+    FST_FRAME_REJECTED /* a place is there, but the bead cannot have been at it; means leave it out */
+} fst_frame_flag;
+
+enum { FST_LENGTH_UNIT_SIZE = 8 };
+
+/* A track: one row a frame, in the order of time.  Frames that a file leaves out have no row; their number
+ * shows in `frame`, which rises by one from a frame of the film to the next.  The axes are those of the picture
+ * as a person sees it: x to the right, y up; where the origin is depends on the file and means nothing.  Begin
+ * with {0}; free with fst_track_free(). */
+typedef struct fst_track {
+    size_t rows, capacity;
+    int64_t *frame;      /* number of the frame in the film; it begins with 0, 1 or anything else */
+    double *t;           /* s; rises strictly.  NAN in all rows: the file has no clock (frames alone) */
+    double *x, *y;       /* in length_unit, NAN where lost */
+    unsigned char *flag; /* fst_frame_flag */
+    char length_unit[FST_LENGTH_UNIT_SIZE]; /* "px", or a unit of params.def: "mm" */
+    double fps; /* frames a second: of the file's clock, or as it was given; NAN: unknown */
+    int steady; /* the times are those of a clock of constant frame rate, up to the digits written */
+} fst_track;
+
+FST_API void fst_track_free(fst_track *track);
+
+/* Add a row; x = NAN means lost.  FST_NO_MEMORY is the only failure. */
+FST_API fst_status fst_track_append(fst_track *track, int64_t frame, double t, double x, double y,
+                                    fst_error *error);
+
+/* Write a track as festoon's own CSV, whole or not at all: columns `frame,t [s],x [mm],y [mm]` with the track's
+ * unit of length, a row a frame, empty cells where the bead was lost.  Rejected places are written as they are.
+ * Without a clock there is no column `t [s]`. */
+FST_API fst_status fst_track_write(const char *path, const fst_track *track, fst_error *error);
+
+/* How a file of tracks is to be read.  What stays as fst_default_track_options() makes it follows from the
+ * file. */
+typedef struct fst_track_options {
+    uint32_t cookie;
+    const char *format;     /* one of fst_track_formats(), NULL: recognised by the header */
+    const char *name;       /* which track of several: its name, number or id; NULL: the longest */
+    double fps;             /* frames a second, instead of the file's clock; NAN: that clock */
+    double scale;           /* metres that one unit of length of the file is; NAN: as the file says */
+    const char *scale_unit; /* the unit in which the track is wanted then ("mm"); NULL: "mm" */
+} fst_track_options;
+FST_API fst_track_options fst_default_track_options(void);
+
+/* The names of the formats, separated by '|'. */
+FST_API const char *fst_track_formats(void);
+
+/* Read a track.  `understood` (may be NULL) becomes a text for a person: format, track, number of frames,
+ * clock, unit, where y points; free() it.  FST_BAD_INPUT: the format is unknown, or a line is wrong;
+ * error->where is "FILE:LINE" and the sentence says what was expected. */
+FST_API fst_status fst_track_read(const char *path, const fst_track_options *options, fst_track *track,
+                                  char **understood, fst_error *error);
+
+/* ------------------------------------------------------------------ measuring */
+
+enum { FST_WARNING_LIMIT = 24, FST_WARNING_SIZE = 360 };
+
+typedef struct fst_measure_options {
+    uint32_t cookie;
+    double drive;    /* Hz; negative where the magnet turns clockwise in the film; NAN: unknown */
+    double exposure; /* s that a frame was exposed; NAN: unknown, nothing is corrected */
+} fst_measure_options;
+FST_API fst_measure_options fst_default_measure_options(void);
+
+/* How the bead goes round in the film. */
+typedef enum {
+    FST_MOTION_TURNING, /* it circles, at another rate than the magnet */
+    FST_MOTION_LOCKED,  /* it goes round with the magnet: locked or librating */
+    FST_MOTION_UNKNOWN  /* it circles, but the film does not tell how the magnet turns */
+} fst_motion;
+
+/* What was measured of a track.  A number that is unknown or has no meaning here is NAN. */
+typedef struct fst_measurement {
+#define FST_MEASURED(name, unit, doc) double name;
+#include <festoon/measure.def>
+#undef FST_MEASURED
+    double centre[2], centre_error[2]; /* of the path, in the file's axes with y up */
+    double stretch[3]; /* xx, xy, yy of the symmetric matrix that undoes the tilt: (x, y) - centre times it is
+                          the place on the plate */
+    int64_t frames, lost; /* frames from the first to the last; how many of them are missing or were rejected */
+    int64_t rejected, repeated; /* of these, rejected ones; frames that repeat the one before exactly */
+    int symmetry; /* a: 2 where r oscillates twice in a turn against the magnet (S2), 1 (S1), 0: unknown */
+    fst_motion motion;
+    char length_unit[FST_LENGTH_UNIT_SIZE];
+    int warning_count;
+    char warnings[FST_WARNING_LIMIT][FST_WARNING_SIZE];
+} fst_measurement;
+
+/* One row of measure.def. */
+typedef struct fst_measured_info {
+    const char *name, *unit, *doc; /* unit "length": the track's */
+    size_t offset;                 /* of the double in fst_measurement */
+} fst_measured_info;
+FST_API int fst_measured_count(void);
+FST_API const fst_measured_info *fst_measured_at(int index);
+
+/* Measure a track: mean radius and its deviation, frequencies, festoons, the drive from the track itself, each
+ * with an error.  Rows that cannot belong to the motion become FST_FRAME_REJECTED, and where the clock was
+ * corrected the track's times and frame rate are corrected too.  FST_NO_CONVERGENCE: the bead rests, or goes
+ * round too little for anything to be measured. */
+FST_API fst_status fst_measure_track(fst_track *track, const fst_measure_options *options,
+                                     fst_measurement *measured, fst_error *error);
+
+/* Lay measured points with their errors over the curves of a sweep over the drive (a database) or of a branch
+ * over the drive (JSON), in mm and Hz, a panel for each quantity.  chi^2 is the sum over all measured numbers
+ * for which there is a curve at their frequency (of a branch with several: the nearest stable one), and
+ * `counted` says how many these are. */
+typedef struct fst_points_fit {
+    double chi2;
+    int counted, all;
+} fst_points_fit;
+FST_API fst_status fst_figure_points(const char *results, const char *points, const char *out,
+                                     fst_points_fit *fit, fst_error *error);
+
+/* A measurement as JSON; free() it.  NULL: no memory. */
+FST_API char *fst_measurement_json(const fst_measurement *measured);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
