@@ -14,7 +14,7 @@ _Static_assert(sizeof(fst_branch_point) == (13 + 2 * 9 + 10) * sizeof(double) + 
 _Static_assert(sizeof(fst_special) == 2 * sizeof(double) + 6 * sizeof(int) + sizeof(fst_branch_point),
                "a new member");
 _Static_assert(sizeof(fst_branch_end) == 4 * sizeof(int) + sizeof(double) + 192, "a new member");
-_Static_assert(sizeof(fst_branch) == 2 * 64 + 4 * sizeof(double) + 6 * sizeof(int) + 6 * sizeof(void *),
+_Static_assert(sizeof(fst_branch) == 2 * 64 + 6 * sizeof(double) + 6 * sizeof(int) + 6 * sizeof(void *),
                "a new member");
 
 /* All numbers differ from each other and none is zero, so that no member can stand for another. */

@@ -410,6 +410,7 @@ typedef struct fst_run_options {
                          motion has settled; 0: the drive changes steadily */
     double ramp_disturbance; /* the size of the disturbance with which the motion starts there, scaled */
     double sample_from;      /* no sample is taken in the drive periods before this one */
+    double sample_spacing;   /* the time between two samples, 1/gamma; 0: run.samples in each drive period */
     const double *start;     /* FST_STATE_SIZE numbers: the state at the start; NULL: that of start.* */
 } fst_run_options;
 FST_API fst_run_options fst_default_run_options(void);

@@ -16,6 +16,7 @@ typedef struct fst_film_layout {
     double depth;             /* of the magnet's middle plane below the plate */
     double radius;            /* of the bead */
     const char *title;        /* frequency and dynamics */
+    const char *slower;       /* "10.7 times slower" */
     const char *colour_label; /* of the trail */
     double colour_low, colour_high;
     int both_signs; /* use the palette for both signs */
@@ -30,7 +31,7 @@ typedef struct fst_film_frame {
     double x, y, z;      /* the bead, and its height over the plate */
     double magnet_angle; /* rad */
     double turn[3][3]; /* rotation of the bead, from body to laboratory; the moment is the body's third axis */
-    const char *clock; /* "t = 12.3 ms" */
+    const char *clock; /* "t = 0.0123 s" */
     fst_contact_shown contact;
     const double *trail_x, *trail_y, *trail_shade;
     int trail;
