@@ -3,7 +3,8 @@
  *
  * What a table says of a film in three numbers, the track says in hundreds of places.  Beside the parameters a
  * few numbers are unknown of which nobody wants to know: the centre of the picture, the angle of the magnet and
- * the place on the orbit at the beginning, the exact frequency of the drive, and, if it is known only roughly,
+ * the place on the orbit at the beginning, the exact frequency of the drive, the
+ * camera's tilt where there is one, and, if it is known only roughly,
  * the exposure. They are sought together.
  *
  *      track --> measure --> three numbers --> a fit of a table --> start
@@ -28,10 +29,10 @@
 #include "track/fit_words.h"
 
 /* The unknowns behind the parameters. */
-enum { DRIVE, CENTRE_X, CENTRE_Y, TURN, PHASE, EXPOSURE, NUISANCES };
+enum { DRIVE, CENTRE_X, CENTRE_Y, TURN, PHASE, EXPOSURE, TILT_X, TILT_Y, NUISANCES };
 
 /* Lengths of a step of these unknowns; residuals are in units of NOISE. */
-static const double unit_of[NUISANCES] = {1e-3, 1e-3, 1e-3, 1.0, 0.1, 1e-3};
+static const double unit_of[NUISANCES] = {1e-3, 1e-3, 1e-3, 1.0, 0.1, 1e-3, 1e-2, 1e-2};
 #define NOISE 1e-4 /* m */
 
 typedef struct track_fit {
@@ -44,10 +45,13 @@ typedef struct track_fit {
     double *weight; /* 0: left out */
     double drive, sense, turn, phase;
     double complex centre;
-    double exposure[2]; /* and its error; 0: exact */
-    int nuisances;      /* NUISANCES, or without the exposure */
+    double exposure[2];             /* and its error; 0: exact */
+    double complex tilt;            /* what it does: z becomes (1 + |tilt|) z + tilt conj(z) on the plate */
+    int nuisances, slot[NUISANCES]; /* how many are sought, and which unknown each is; -1: it is held */
     const double *origin;
-    fst_orbit orbit; /* the latest that was found */
+    fst_orbit orbit; /* the latest that was found, its path, and where */
+    fit_path path;
+    double path_at[FIT_MOST], path_drive; /* 0: none yet */
     fst_status status;
     fst_error *error;
 } track_fit;
@@ -57,9 +61,9 @@ typedef struct track_fit {
 /* The nuisance parameter k at the unknowns. */
 static double nuisance(const track_fit *f, const double *v, int k)
 {
-    const double start[NUISANCES] = {f->drive, creal(f->centre), cimag(f->centre),
-                                     f->turn,  f->phase,         f->exposure[0]};
-    const double step = k < f->nuisances ? v[f->space.count + k] * unit_of[k] : 0.0;
+    const double start[NUISANCES] = {f->drive, creal(f->centre), cimag(f->centre), f->turn,
+                                     f->phase, f->exposure[0],   creal(f->tilt),   cimag(f->tilt)};
+    const double step = f->slot[k] >= 0 ? v[f->space.count + f->slot[k]] * unit_of[k] : 0.0;
     return k == DRIVE ? start[k] * (1.0 + step) : start[k] + step;
 }
 
@@ -68,17 +72,28 @@ static fst_status find_path(track_fit *f, const double *v, fit_path *path, fst_e
     fst_params params;
     fst_orbit orbit;
     fst_status status = FST_NO_CONVERGENCE;
+    const double drive = nuisance(f, v, DRIVE);
+    const size_t size = (size_t)f->space.count * sizeof *v;
+    if (f->path_drive == drive && memcmp(f->path_at, v, size) == 0) {
+        *path = f->path;
+        return FST_OK;
+    }
     (void)fit_space_params(&f->space, v, &params);
-    params.drive_frequency = nuisance(f, v, DRIVE);
+    params.drive_frequency = drive;
     params.drive_omega = NAN;
     if (f->orbit.means.period > 0.0)
         status = fst_orbit_near(&params, &f->orbit, 1e-11, f->progress, &orbit, error);
     if (status != FST_OK && status != FST_INTERRUPTED)
         status = fst_orbit_find(&params, f->progress, &orbit, error);
+    if (status == FST_OK)
+        status = fit_path_make(&params, &orbit, path, error);
     if (status != FST_OK)
         return status;
     f->orbit = orbit;
-    return fit_path_make(&params, &orbit, path, error);
+    f->path = *path;
+    f->path_drive = drive;
+    memcpy(f->path_at, v, size);
+    return FST_OK;
 }
 
 static double complex place(const track_fit *f, const fit_path *path, const double *v, int i)
@@ -86,6 +101,12 @@ static double complex place(const track_fit *f, const fit_path *path, const doub
     const double complex z = fit_path_at(path, nuisance(f, v, DRIVE), nuisance(f, v, TURN),
                                          nuisance(f, v, PHASE), nuisance(f, v, EXPOSURE), f->t[i]);
     return (f->sense > 0 ? z : conj(z)) + nuisance(f, v, CENTRE_X) + nuisance(f, v, CENTRE_Y) * I;
+}
+
+/* A place of the film on the plate. */
+static double complex on_plate(double complex tilt, double complex z)
+{
+    return (1.0 + cabs(tilt)) * z + tilt * conj(z);
 }
 
 /* Residuals: two a frame; then the priors of the parameters and of the exposure. */
@@ -100,8 +121,9 @@ static fst_status residuals(track_fit *f, const double *v, double *r, fst_error 
     const fst_status status = find_path(f, v, &path, error);
     if (status != FST_OK)
         return status;
+    const double complex tilt = nuisance(f, v, TILT_X) + nuisance(f, v, TILT_Y) * I;
     for (int i = 0; i < f->used; ++i) {
-        const double complex miss = (place(f, &path, v, i) - f->z[i]) * (f->weight[i] / NOISE);
+        const double complex miss = (place(f, &path, v, i) - on_plate(tilt, f->z[i])) * (f->weight[i] / NOISE);
         r[2 * i] = creal(miss);
         r[2 * i + 1] = cimag(miss);
     }
@@ -111,7 +133,7 @@ static fst_status residuals(track_fit *f, const double *v, double *r, fst_error 
             isnan(key->prior[0]) ? 0.0 : (fit_space_value(&f->space, v, k) - key->prior[0]) / key->prior[1];
     }
     r[2 * f->used + f->space.count] =
-        f->nuisances > EXPOSURE ? (nuisance(f, v, EXPOSURE) - f->exposure[0]) / f->exposure[1] : 0.0;
+        f->slot[EXPOSURE] >= 0 ? (nuisance(f, v, EXPOSURE) - f->exposure[0]) / f->exposure[1] : 0.0;
     return FST_OK;
 }
 
@@ -123,16 +145,20 @@ static fst_status derivatives(track_fit *f, const double *v, double *jacobian, f
     fst_status status =
         r ? residuals(f, v, r, error) : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
     const fst_orbit here = f->orbit;
+    const fit_path path = f->path;
+    const double drive = f->path_drive;
     for (int k = 0; k < n && status == FST_OK; ++k) {
         double *column = jacobian + (size_t)m * (size_t)k;
         memcpy(moved, v, (size_t)n * sizeof *v);
         moved[k] += step;
-        f->orbit = here;
         status = residuals(f, moved, column, error);
         for (int i = 0; i < m; ++i)
             column[i] = (column[i] - r[i]) / step;
+        f->orbit = here;
+        f->path = path;
+        f->path_drive = drive;
+        memcpy(f->path_at, v, (size_t)f->space.count * sizeof *v);
     }
-    f->orbit = here;
     free(r);
     return status;
 }
@@ -187,7 +213,7 @@ static fst_status find_phases(track_fit *f, fst_error *error)
         double complex mean_z = 0, mean_w = 0, product = 0;
         double square = 0;
         for (int i = 0; i < f->used; ++i) {
-            const double complex z = f->sense > 0 ? f->z[i] : conj(f->z[i]);
+            const double complex seen = on_plate(f->tilt, f->z[i]), z = f->sense > 0 ? seen : conj(seen);
             const double complex w =
                 fit_path_at(&path, f->drive, 0.0, (double)k / PHASES, f->exposure[0], f->t[i]);
             mean_z += z / f->used;
@@ -213,6 +239,9 @@ static fst_status take_frames(track_fit *f, const fst_track *track, const fst_me
                               fst_error *error)
 {
     const double *s = seen->stretch;
+    /* A tilt that is not sure is none: correcting for noise would make every radius too great. */
+    if (seen->tilt_deg > 3.0 * seen->tilt_deg_error)
+        f->tilt = 0.5 * (s[0] - s[2]) + s[1] * I;
     double unit;
     char one[32];
     f->t = calloc(track->rows + 1, sizeof *f->t);
@@ -229,7 +258,7 @@ static fst_status take_frames(track_fit *f, const fst_track *track, const fst_me
             continue;
         const double x = track->x[i] - seen->centre[0], y = track->y[i] - seen->centre[1];
         f->t[f->frames] = track->t[i] - track->t[0];
-        f->z[f->frames] = unit * (s[0] * x + s[1] * y + (s[1] * x + s[2] * y) * I);
+        f->z[f->frames] = unit * (x + y * I);
         f->weight[f->frames++] = 1.0;
     }
     return FST_OK;
@@ -418,7 +447,10 @@ static fst_status begin(track_fit *f, const fst_params *params, const fst_measur
     f->sense = drive < 0 ? -1.0 : 1.0;
     f->exposure[0] = isfinite(options->exposure) ? options->exposure : 0.0;
     f->exposure[1] = options->exposure_error;
-    f->nuisances = f->exposure[1] > 0.0 ? NUISANCES : EXPOSURE;
+    for (int k = 0; k < NUISANCES; ++k) {
+        const int held = (k == EXPOSURE && !(f->exposure[1] > 0.0)) || (k >= TILT_X && f->tilt == 0.0);
+        f->slot[k] = held ? -1 : f->nuisances++;
+    }
     f->progress = options->progress;
     status = fit_space_begin(&f->space, &start, options, error);
     if (status == FST_OK && f->space.count + f->nuisances > FIT_MOST)
