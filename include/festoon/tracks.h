@@ -115,8 +115,19 @@ FST_API const fst_measured_info *fst_measured_at(int index);
  * with an error.  Rows that cannot belong to the motion become FST_FRAME_REJECTED, and where the clock was
  * corrected the track's times and frame rate are corrected too.  FST_NO_CONVERGENCE: the bead rests, or goes
  * round too little for anything to be measured. */
-FST_API fst_status fst_measure_track(fst_track *track, const fst_measure_options *options, fst_measurement *measured,
-                               fst_error *error);
+FST_API fst_status fst_measure_track(fst_track *track, const fst_measure_options *options,
+                                     fst_measurement *measured, fst_error *error);
+
+/* Lay measured points with their errors over the curves of a sweep over the drive (a database) or of a branch
+ * over the drive (JSON), in mm and Hz, a panel for each quantity.  chi^2 is the sum over all measured numbers
+ * for which there is a curve at their frequency (of a branch with several: the nearest stable one), and
+ * `counted` says how many these are. */
+typedef struct fst_points_fit {
+    double chi2;
+    int counted, all;
+} fst_points_fit;
+FST_API fst_status fst_figure_points(const char *results, const char *points, const char *out,
+                                     fst_points_fit *fit, fst_error *error);
 
 /* A measurement as JSON; free() it.  NULL: no memory. */
 FST_API char *fst_measurement_json(const fst_measurement *measured);

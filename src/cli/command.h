@@ -43,6 +43,12 @@ const command *find_command(const char *name);
         "json", '\0', NULL, "one JSON document on standard output instead of text"                             \
     }
 
+#define UNITS_OPTION                                                                                           \
+    {                                                                                                          \
+        "units", '\0', "scaled|lab|si",                                                                        \
+            "the units shown: scaled (l, 1/gamma, B0), of the laboratory (Hz, mm, s, mT), or SI"               \
+    }
+
 /* Fill in `error` and return `code`. */
 fst_status fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
@@ -67,6 +73,14 @@ void tell_written(const char *path, const char *remark);
  * where the value is zero). */
 enum { ALL_DIGITS = 300 };
 double unsigned_zero(double value, int decimals);
+
+/* Read --units; as given where it is missing. */
+fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error);
+
+/* Read the names of --key, "mean_r,std_r", into `keys`, which point into `words`. */
+enum { KEY_LIMIT = 16, KEYS_SIZE = 512 };
+fst_status read_keys(const char *text, char words[KEYS_SIZE], const char *keys[KEY_LIMIT], int *count,
+                     fst_error *error);
 
 /* Read exactly `count` numbers separated by commas. */
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,

@@ -89,6 +89,16 @@ static fst_status take_line(answer *a, const char *line, fst_error *error)
     return FST_OK;
 }
 
+/* ffprobe's own words help unless they speak of the list of formats that it was given. */
+static fst_status no_film(const char *path, const char *said, fst_error *error)
+{
+    const int listed = strstr(said, "whitelist") != NULL || !said[0];
+    return fst_fail(error, FST_BAD_INPUT, path,
+                    "this is no film that can be read here (mp4, mov, webm, gif, avi, mpeg), nor a folder of "
+                    "images%s%.200s",
+                    listed ? "" : ": ", listed ? "" : said);
+}
+
 /* Ask ffprobe for `entries`, and take its answer line by line. */
 static fst_status ask(answer *a, const char *entries, const fst_progress *progress, fst_error *error)
 {
@@ -133,9 +143,7 @@ static fst_status ask(answer *a, const char *entries, const fst_progress *progre
     }
     const int well = track_child_end(&child, status != FST_OK);
     if (status == FST_OK && !well && a->source->frames == 0 && a->streams == 0)
-        return fst_fail(error, FST_BAD_INPUT, a->source->path,
-                        "this is no film that ffmpeg can read (mp4, mov, webm, gif, avi, ...): %.200s",
-                        child.said[0] ? child.said : "it said nothing");
+        return no_film(a->source->path, child.said, error);
     return status;
 }
 
@@ -171,6 +179,8 @@ static fst_status open_film(track_source *s, double fps, const fst_progress *pro
                      NULL, error);
     if (status == FST_OK && a.streams == 0)
         status = fst_fail(error, FST_BAD_INPUT, s->path, "there are no pictures in this file");
+    s->tick = a.unit;
+    s->announced = a.expected > 0.0 && a.expected < MOST_FRAMES ? (int)a.expected : 0;
     if (!(a.expected > 0.0))
         a.expected = a.rate * a.seconds > 0.0 ? a.rate * a.seconds : 0.0;
     if (status == FST_OK)

@@ -9,13 +9,14 @@
 #include <festoon/festoon_tools.h>
 
 typedef struct track_source {
-    const char *path;         /* the caller's */
-    int descriptor;           /* of the film; -1: a folder of images */
-    char **images;            /* the names of the images, in the order of the film */
-    int image_count, skipped; /* images, and files in the folder that are none */
-    const char *demuxer;      /* of the images: "png_pipe" */
-    double *times;            /* s, of each frame; NULL where the film has no clock */
-    int frames;
+    const char *path;           /* the caller's */
+    int descriptor;             /* of the film; -1: a folder of images */
+    char **images;              /* the names of the images, in the order of the film */
+    int image_count, skipped;   /* images, and files in the folder that are none */
+    const char *demuxer;        /* of the images: "png_pipe" */
+    double *times;              /* s, of each frame; NULL where the film has no clock */
+    int frames, announced;      /* counted by decoding them; as the film's head says, 0: it does not */
+    double tick;                /* of the film's clock, s; 0: unknown */
     char format[64], codec[64]; /* as ffprobe calls them, for a person */
 } track_source;
 

@@ -117,9 +117,10 @@ static fst_status follow(tracking *t, const fst_progress *progress, fst_error *e
     if (t->source.descriptor < 0 && t->frames < t->source.frames)
         return fst_fail(error, FST_BAD_INPUT, t->path, "%d of its %d images can be decoded: %.200s", t->frames,
                         t->source.frames, decoder.child.said);
-    if (!well || decoder.child.said[0] || t->frames < t->source.frames)
+    const int announced = t->source.announced > t->source.frames ? t->source.announced : t->source.frames;
+    if (!well || decoder.child.said[0] || t->frames < announced)
         (void)snprintf(t->report->remark, sizeof t->report->remark,
-                       "%d of %d frames could be decoded; ffmpeg says: %.150s", t->frames, t->source.frames,
+                       "%d of %d frames could be decoded; ffmpeg says: %.150s", t->frames, announced,
                        decoder.child.said[0] ? decoder.child.said : "nothing");
     return FST_OK;
 }
@@ -177,6 +178,7 @@ static fst_status tell_times(tracking *t, fst_error *error)
         for (int i = 0; i < steps; ++i)
             r->missing += room[i] > 1.5 * usual ? (int)fmin(1e6, floor(room[i] / usual + 0.5) - 1.0) : 0;
     }
+    r->tick = t->source.tick;
     r->jitter = jitter_of(t, room);
     free(room);
     return FST_OK;
@@ -367,8 +369,20 @@ static fst_status perform(tracking *t, fst_track *track, fst_error *error)
     if (status == FST_OK)
         status = make_track(t, track, error);
     if (status == FST_OK)
-        status = track_overlay_end(&t->overlay, &t->still, &t->look, t->columns, t->rows, t->frames,
-                                   t->has_rim ? &t->rim : NULL, error);
+        status = track_overlay_finish(&t->overlay, &t->still, &t->look, t->columns, t->rows, t->frames,
+                                      t->has_rim ? &t->rim : NULL, error);
+    if (status == FST_OK && o->csv)
+        status = fst_track_write(o->csv, track, error);
+    return status == FST_OK ? track_overlay_commit(&t->overlay, error) : status;
+}
+
+/* Whether a file can be written there: better told before the work than after it. */
+static fst_status check_place(const char *path, fst_error *error)
+{
+    fst_whole_file file;
+    const fst_status status = fst_whole_file_open(&file, path, error);
+    if (status == FST_OK)
+        fst_whole_file_discard(&file);
     return status;
 }
 
@@ -389,11 +403,13 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
                         "the options were not made by fst_default_film_track_options()");
     const fst_c_locale locale = fst_c_locale_enter();
     fst_status status = t.options->scale ? track_scale_read(t.options->scale, &t.scale, error) : FST_OK;
+    if (status == FST_OK && t.options->csv)
+        status = check_place(t.options->csv, error);
     if (status == FST_OK)
         status = perform(&t, track, error);
     if (status != FST_OK)
         fst_track_free(track);
-    track_overlay_abandon(&t.overlay);
+    track_overlay_free(&t.overlay);
     track_blobs_end(&t.blobs);
     track_still_free(&t.still);
     track_source_close(&t.source);

@@ -95,10 +95,11 @@ fst_status track_overlay_begin(track_overlay *overlay, const track_still *still,
         return fst_fail(error, FST_BAD_INPUT, film, "the name of an overlay film ends in .mp4 or .mov");
     if (picture && !format_of(picture, pictures))
         return fst_fail(error, FST_BAD_INPUT, picture, "the name of the picture ends in .png");
-    if (!film)
-        return FST_OK;
+    fst_status status = picture ? fst_whole_file_open(&overlay->picture, picture, error) : FST_OK;
+    if (!film || status != FST_OK)
+        return status;
     /* The encoder wants even sizes. */
-    fst_status status = make_canvas(&overlay->canvas, still->width & ~1, still->height & ~1, error);
+    status = make_canvas(&overlay->canvas, still->width & ~1, still->height & ~1, error);
     if (status == FST_OK)
         status = fst_whole_file_open(&overlay->film, film, error);
     if (status != FST_OK)
@@ -111,10 +112,6 @@ fst_status track_overlay_begin(track_overlay *overlay, const track_still *still,
                                   .quality = QUALITY};
     status = fst_ffmpeg_start(&overlay->process, &kind, overlay->film.temporary, film, error);
     overlay->started = status == FST_OK;
-    if (status != FST_OK) {
-        fst_whole_file_discard(&overlay->film);
-        overlay->film_path = NULL;
-    }
     return status;
 }
 
@@ -224,26 +221,19 @@ static void paint_crops(const track_overlay *o, track_canvas *canvas, const trac
     }
 }
 
-static fst_status write_picture(const char *path, const track_canvas *canvas, fst_error *error)
+static fst_status write_picture(const track_overlay *o, const track_canvas *canvas, fst_error *error)
 {
     const fst_ffmpeg_kind kind = {
         .width = canvas->width, .height = canvas->height, .fps = 1.0, .format = "png", .pixels = "bgr0"};
     fst_ffmpeg process;
-    fst_whole_file file;
-    fst_status status = fst_whole_file_open(&file, path, error);
+    fst_status status = fst_ffmpeg_start(&process, &kind, o->picture.temporary, o->picture_path, error);
     if (status != FST_OK)
         return status;
-    status = fst_ffmpeg_start(&process, &kind, file.temporary, path, error);
-    if (status == FST_OK) {
-        status = fst_ffmpeg_frame(&process, canvas->pixels, 4 * (size_t)canvas->width * (size_t)canvas->height,
-                                  error);
-        const fst_status ended = fst_ffmpeg_end(&process, status != FST_OK && status != FST_IO, error);
-        status = status == FST_OK || ended != FST_OK ? ended : status;
-    }
-    if (status == FST_OK)
-        return fst_whole_file_commit(&file, error);
-    fst_whole_file_discard(&file);
-    return status;
+    status =
+        fst_ffmpeg_frame(&process, canvas->pixels, 4 * (size_t)canvas->width * (size_t)canvas->height, error);
+    const fst_status ended = fst_ffmpeg_end(&process, status != FST_OK && status != FST_IO, error);
+    status = status == FST_OK || ended != FST_OK ? ended : status;
+    return status == FST_OK ? fst_whole_file_sync(&o->picture, error) : status;
 }
 
 static fst_status make_picture(const track_overlay *o, const track_still *still, const track_look *look,
@@ -270,33 +260,21 @@ static fst_status make_picture(const track_overlay *o, const track_still *still,
         paint_rim(&canvas, rim);
     paint_path(&canvas, columns, rows, count);
     paint_crops(o, &canvas, look, still->height + 4);
-    status = write_picture(o->picture_path, &canvas, error);
+    status = write_picture(o, &canvas, error);
     free(canvas.pixels);
     return status;
 }
 
 /* ------------------------------------------------------------------ the end */
 
-void track_overlay_abandon(track_overlay *overlay)
-{
-    if (overlay->started)
-        (void)fst_ffmpeg_end(&overlay->process, 1, NULL);
-    if (overlay->film_path && overlay->film.stream)
-        fst_whole_file_discard(&overlay->film);
-    overlay->started = 0;
-    overlay->film_path = NULL;
-    free(overlay->canvas.pixels);
-    overlay->canvas.pixels = NULL;
-}
-
-fst_status track_overlay_end(track_overlay *overlay, const track_still *still, const track_look *look,
-                             const double *columns, const double *rows, int count, const track_ellipse *rim,
-                             fst_error *error)
+fst_status track_overlay_finish(track_overlay *overlay, const track_still *still, const track_look *look,
+                                const double *columns, const double *rows, int count, const track_ellipse *rim,
+                                fst_error *error)
 {
     fst_status status = FST_OK;
-    if (overlay->film_path) {
-        status = fst_ffmpeg_end(&overlay->process, 0, error);
+    if (overlay->started) {
         overlay->started = 0;
+        status = fst_ffmpeg_end(&overlay->process, 0, error);
         if (status == FST_OK)
             status = fst_film_file_check(overlay->film.temporary, overlay->format, overlay->frames,
                                          overlay->film_path, error);
@@ -305,10 +283,30 @@ fst_status track_overlay_end(track_overlay *overlay, const track_still *still, c
     }
     if (status == FST_OK && overlay->picture_path)
         status = make_picture(overlay, still, look, columns, rows, count, rim, error);
-    if (status == FST_OK && overlay->film_path) {
-        status = fst_whole_file_commit(&overlay->film, error);
-        overlay->film_path = NULL;
-    }
-    track_overlay_abandon(overlay);
     return status;
+}
+
+fst_status track_overlay_commit(track_overlay *overlay, fst_error *error)
+{
+    fst_whole_file *const files[2] = {&overlay->film, &overlay->picture};
+    fst_status status = FST_OK;
+    for (int i = 0; i < 2 && status == FST_OK; ++i) {
+        if (!files[i]->stream)
+            continue;
+        status = fst_whole_file_commit(files[i], error);
+        files[i]->stream = NULL;
+    }
+    return status;
+}
+
+void track_overlay_free(track_overlay *overlay)
+{
+    if (overlay->started)
+        (void)fst_ffmpeg_end(&overlay->process, 1, NULL);
+    if (overlay->film.stream)
+        fst_whole_file_discard(&overlay->film);
+    if (overlay->picture.stream)
+        fst_whole_file_discard(&overlay->picture);
+    free(overlay->canvas.pixels);
+    *overlay = (track_overlay){.frames = 0};
 }

@@ -17,7 +17,7 @@ typedef struct track_canvas {
 
 typedef struct track_overlay {
     fst_ffmpeg process;
-    fst_whole_file film;
+    fst_whole_file film, picture;
     const char *film_path, *picture_path; /* the caller's; NULL: not wanted */
     const char *format;
     track_canvas canvas;
@@ -38,11 +38,15 @@ fst_status track_overlay_begin(track_overlay *overlay, const track_still *still,
 fst_status track_overlay_frame(track_overlay *overlay, const track_still *still, const unsigned char *frame,
                                int index, const track_look *look, const track_place *place, fst_error *error);
 
-/* Finish both.  `rim` (may be NULL) is the plate's edge.  After a failure, or with `abandon`, nothing is left.
- */
-fst_status track_overlay_end(track_overlay *overlay, const track_still *still, const track_look *look,
-                             const double *columns, const double *rows, int count, const track_ellipse *rim,
-                             fst_error *error);
-void track_overlay_abandon(track_overlay *overlay);
+/* Finish both, but leave them without their names yet.  `rim` (may be NULL) is the plate's edge. */
+fst_status track_overlay_finish(track_overlay *overlay, const track_still *still, const track_look *look,
+                                const double *columns, const double *rows, int count, const track_ellipse *rim,
+                                fst_error *error);
+
+/* Give them their names. */
+fst_status track_overlay_commit(track_overlay *overlay, fst_error *error);
+
+/* Free everything; what has no name yet is gone. */
+void track_overlay_free(track_overlay *overlay);
 
 #endif

@@ -28,6 +28,11 @@ static fst_status no_scale(const char *text, fst_error *error)
 static fst_status read_length(const char *text, const char *whole, double *length, fst_error *error)
 {
     double metres;
+    size_t size;
+    const char *number = fst_trim(text, &size);
+    if (fst_number_length(number) == size) /* whether metres or millimetres are meant is not guessed */
+        return fst_fail(error, FST_BAD_INPUT, where, "the length \"%.40s\" needs a unit: %s", number,
+                        fst_unit_accepted(FST_UNIT_LENGTH));
     if (fst_parse_value(text, FST_UNIT_LENGTH, &metres, error) != FST_OK || !(metres > 0.0 && metres < 1e3))
         return no_scale(whole, error);
     *length = 1e3 * metres;
@@ -44,9 +49,6 @@ static fst_status read_sides(const char *text, const char *whole, double length[
         length[1] = length[0];
         return status;
     }
-    size_t size = 0;
-    const char *side = fst_trim(text, &size);
-    (void)side;
     (void)snprintf(first, sizeof first, "%.*s", (int)(x - text < 40 ? x - text : 40), text);
     const char *last = first + strlen(first);
     while (last > first && last[-1] == ' ')
