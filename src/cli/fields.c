@@ -49,6 +49,7 @@ static const struct {
     {"fst_paper_options.only", "--only"},
     {"fst_fit_options.free", "--free"},
     {"fst_fit_options.given", "--given"},
+    {"fst_fit_options.drive", "--drive"},
     {"fst_fit", ""},
     {"fst_festoons_find.festoons", "--festoons"},
     {"fst_branch_options.key", "--over"},
