@@ -115,8 +115,8 @@ static int take(void *user, fst_row_job *job, fst_status status, const fst_run_r
     return 0;
 }
 
-/* The trajectories of a basin by so many lanes of a form; *alone: the time of one by one lane, which is measured
- * there. */
+/* The trajectories of a basin by so many lanes of a form; *alone: the time of one by one lane, which is
+ * measured there. */
 static void in_lanes(const fst_params *p, double exact, fst_arithmetic arithmetic, int lanes, double *alone)
 {
     basin b = {.params = *p, .exact = exact};

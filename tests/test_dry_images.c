@@ -151,7 +151,8 @@ static void check_close(const store *s, const store *runs)
         const fst_run_result *a = &s->results[i], *b = &runs->results[i];
         assert_int_equal(a->regime, b->regime);
         if (fabs(a->mean_r - b->mean_r) > 1e-6 || fabs(a->sticking - b->sticking) > 1e-6 ||
-            fabs(a->max_slip - b->max_slip) > 1e-6 || fabs(a->mean_friction_power - b->mean_friction_power) > 1e-6)
+            fabs(a->max_slip - b->max_slip) > 1e-6 ||
+            fabs(a->mean_friction_power - b->mean_friction_power) > 1e-6)
             fail_msg("job %d: mean_r %.12g, sticking %.12g, max_slip %.12g; of the run %.12g, %.12g, %.12g", i,
                      a->mean_r, a->sticking, a->max_slip, b->mean_r, b->sticking, b->max_slip);
     }

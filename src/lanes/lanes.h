@@ -58,9 +58,9 @@ typedef struct fst_lane_engine {
     void (*load)(void *batch, int lane, const fst_flow *flow, double t_limit);
     void (*release)(void *batch, int lane);
 
-    /* Dry contacts: accept the last step of the lanes `contact` after all; make the one of a lane anew as its next
-     * try, with another size and whatever its error; let a lane go on with the trajectory of its flow in another
-     * mode, where everything else that it knows stays. */
+    /* Dry contacts: accept the last step of the lanes `contact` after all; make the one of a lane anew as its
+     * next try, with another size and whatever its error; let a lane go on with the trajectory of its flow in
+     * another mode, where everything else that it knows stays. */
     void (*pass)(void *batch, unsigned lanes);
     void (*make_anew)(void *batch, int lane, double size);
     void (*reload)(void *batch, int lane, const fst_flow *flow, double t_limit);

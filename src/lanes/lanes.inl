@@ -329,8 +329,8 @@ static void extract_integrals(const void *memory, int lane, fst_integrals_double
 
 /* ------------------------------------------------------------------ steps */
 
-/* Whether steps measure their own time, so that no size can be chosen to land: the end of the way is found in the
- * step that would pass it. */
+/* Whether steps measure their own time, so that no size can be chosen to land: the end of the way is found in
+ * the step that would pass it. */
 static int is_paced(const batch *b)
 {
     (void)b; /* of lanes for other contacts none is */
@@ -346,8 +346,8 @@ static void plan(batch *b, fst_wide_mask mask)
 
 static void pass_time(batch *b, fst_wide_mask mask)
 {
-    const FN(twofold)
-        end = is_paced(b) ? FN(twofold_add)(b->t, b->passes) : FN(step_end)(&b->control, b->t, b->t_limit);
+    const FN(twofold) end =
+        is_paced(b) ? FN(twofold_add)(b->t, b->passes) : FN(step_end)(&b->control, b->t, b->t_limit);
     b->accepted = fst_wide_add_where(mask, b->accepted, R(1.0));
     b->t_start.high = fst_wide_select(mask, b->t.high, b->t_start.high);
     b->t_start.low = fst_wide_select(mask, b->t.low, b->t_start.low);
@@ -413,8 +413,8 @@ static fst_lane_tries try_steps(void *memory)
 #endif
     const REAL factor = FN(step_factor)(error);
     b->drift = FN(finish_step)(s);
-    fst_lane_tries tries = {.accepted = fst_wide_lanes_of(WIDE_LESS_EQUAL(error, R(1.0))) & b->in_use & ~b->anew,
-                            .anew = b->anew};
+    fst_lane_tries tries = {
+        .accepted = fst_wide_lanes_of(WIDE_LESS_EQUAL(error, R(1.0))) & b->in_use & ~b->anew, .anew = b->anew};
     const unsigned rejected = b->in_use & ~(tries.accepted | tries.anew);
     const fst_wide_mask accepted = fst_wide_mask_of(tries.accepted);
 #ifdef FST_FUSED

@@ -81,8 +81,8 @@ static inline void FN(lean_at_stage)(FN(bead) * bead, REAL h, int stage)
 #ifdef REAL_FORCES_AHEAD
 #define STEP_KNOWN(i) ((i) < FST_VX || ((i) >= FST_NX && (i) < FST_WX)) /* the place and n */
 #define STEP_SLOWED(bead, known, stage, k)                                                                     \
-    _Pragma("GCC unroll 32") for (int i = 0; i < FST_STATE_SIZE; ++i) if (STEP_KNOWN(i) == (known))            \
-        (k)[i] = (bead)->pace[stage] * (k)[i]
+    _Pragma("GCC unroll 32") for (int i = 0; i < FST_STATE_SIZE; ++i) if (STEP_KNOWN(i) == (known))(k)[i] =    \
+        (bead)->pace[stage] * (k)[i]
 
 /* The derivatives by theta that follow from the state at a stage alone, and the pace there. */
 static inline void FN(known_derivatives)(FN(bead) * bead, REAL h, REAL drive, const REAL *y, int stage, REAL *k)

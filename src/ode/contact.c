@@ -39,11 +39,11 @@
 
 #include "base/error.h"
 
-static const double HAND_OVER = 0.12;    /* times tolerance^(5/16) */
+static const double HAND_OVER = 0.12;   /* times tolerance^(5/16) */
 static const double USUAL_GROWTH = 0.1; /* of a slip, in l gamma^3: the time of the hand-over follows from it */
 static const double FEW = 0.01;         /* slip then, in those of the hand-over */
-static const double FALL_AT_ONCE = 1.01;   /* static friction over sliding */
-static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not met before */
+static const double FALL_AT_ONCE = 1.01; /* static friction over sliding */
+static const double FIRST_SIZE = 0.05;   /* of a step in a mode that was not met before */
 
 /* ------------------------------------------------------------------ the contact at a state */
 

@@ -1,6 +1,6 @@
-/* paced.inl - steps under a law with modes, over REAL: how good one is, how long it takes, and whether it may be
- * the last of its mode.  pace.c and contact.c tell the reasons; lanes ask the same questions of all their steps
- * at once.  The including file brings bead_step.inl and path.inl.
+/* paced.inl - steps under a law with modes, over REAL: how good one is, how long it takes, and whether it may
+ * be the last of its mode.  pace.c and contact.c tell the reasons; lanes ask the same questions of all their
+ * steps at once.  The including file brings bead_step.inl and path.inl.
  */
 #ifndef PACED_LEAST_DIGITS
 #define PACED_LEAST_DIGITS 0.03 /* relative error of V that a step may make */
@@ -22,8 +22,7 @@ static inline REAL FN(norm_2)(const REAL v[2])
 static inline REAL FN(slip_error)(const FN(bead_step) * s)
 {
     static const int slot[8] = {0, 5, 6, 7, 8, 9, 10, 11};
-    const REAL fifth[8] = {DOP_E5_1, DOP_E5_6,  DOP_E5_7,  DOP_E5_8,
-                           DOP_E5_9, DOP_E5_10, DOP_E5_11, DOP_E5_12};
+    const REAL fifth[8] = {DOP_E5_1, DOP_E5_6, DOP_E5_7, DOP_E5_8, DOP_E5_9, DOP_E5_10, DOP_E5_11, DOP_E5_12};
     REAL error[FST_STATE_SIZE], slip[2];
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         error[i] = R(0.0);
@@ -80,7 +79,8 @@ static inline REAL_MASK FN(slip_is_over)(const FN(bead_step) * s, REAL rtol)
     REAL before[2], after[2];
     FN(slip)(&s->context.coefficients, y, before);
     FN(slip)(&s->context.coefficients, s->end, after);
-    const REAL speeds = REAL_ABS(y[FST_VX]) + REAL_ABS(y[FST_VY]) + eps * (REAL_ABS(y[FST_WX]) + REAL_ABS(y[FST_WY]));
+    const REAL speeds =
+        REAL_ABS(y[FST_VX]) + REAL_ABS(y[FST_VY]) + eps * (REAL_ABS(y[FST_WX]) + REAL_ABS(y[FST_WY]));
     const REAL size = FN(norm_2)(after), change = REAL_ABS(size - FN(norm_2)(before));
     const REAL slow = REAL_MAX(rtol, R(PACED_LEAST_FALL)), captured = FN(captured)(rtol);
     const REAL stays = REAL_SELECT(REAL_LESS_EQUAL(change, R(PACED_ROUNDING) * speeds), slow, R(0.0));

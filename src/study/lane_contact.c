@@ -1,8 +1,8 @@
 /* lane_contact.c - steps in lanes that may end the mode of a dry contact, or the way.
  *
- * The engine makes steps in all modes, but where a mode ends it does not know: the event has to be located on the
- * step's dense output.  So such a step, which is good but not accepted, is copied out of its lane with all its
- * stages, and the run's own flow looks for the event (ode/contact.c):
+ * The engine makes steps in all modes, but where a mode ends it does not know: the event has to be located on
+ * the step's dense output.  So such a step, which is good but not accepted, is copied out of its lane with all
+ * its stages, and the run's own flow looks for the event (ode/contact.c):
  *
  *     lane    --step--|--step--|.tried...|                  |-made anew-|--step--|--step--
  *                                   |                       ^           ^

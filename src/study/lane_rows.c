@@ -30,8 +30,8 @@
  * exponent to be told (conclude.h).  Their runs are parked until there are as many as lanes, and followed side
  * by side too.
  *
- * Runs with dry friction have an engine of their own, which takes the place of the usual one while nothing is at
- * work, and modes that end in a step (lane_contact.c).  Those with a disc of contact or with flight are done
+ * Runs with dry friction have an engine of their own, which takes the place of the usual one while nothing is
+ * at work, and modes that end in a step (lane_contact.c).  Those with a disc of contact or with flight are done
  * alone, while the lanes wait.
  *
  * No row's bits depend on any of this: lanes do not mix (only the order in which rows come out does).
@@ -360,7 +360,8 @@ static void step_observed(fst_row_worker *w)
     if (w->engine->fused)
         fst_worker_set_aside(w, beaten);
     w->engine->advance(b->memory, accepted & ~over);
-    for (int l = 0; (over | tries.failed | contacts.turned | contacts.landed) != 0 && l < w->engine->width; ++l) {
+    for (int l = 0; (over | tries.failed | contacts.turned | contacts.landed) != 0 && l < w->engine->width;
+         ++l) {
         const unsigned bit = fst_lane_bit(l);
         if (contacts.landed & bit)
             (void)fst_worker_land(w, b, l);

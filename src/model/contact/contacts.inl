@@ -31,7 +31,8 @@
 #undef LAW_IS
 #undef IS_DRY
 #undef KNOWS_DRY
-#define IS_DRY(NAME) (FST_FRICTION_##NAME == FST_FRICTION_COULOMB || FST_FRICTION_##NAME == FST_FRICTION_ROLLING)
+#define IS_DRY(NAME)                                                                                           \
+    (FST_FRICTION_##NAME == FST_FRICTION_COULOMB || FST_FRICTION_##NAME == FST_FRICTION_ROLLING)
 #ifdef REAL_IS_SCALAR
 #define KNOWS_DRY 1
 #define HAS(kinds, what) ((kinds).what)
