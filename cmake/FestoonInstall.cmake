@@ -21,8 +21,9 @@ install(FILES "${PROJECT_BINARY_DIR}/festoon.pc" DESTINATION "${pkgconfig_dir}")
 
 if(FESTOON_TOOLS)
     list(APPEND exported_libraries festoon_tools_library)
-    install(FILES include/festoon/festoon_tools.h include/festoon/tracks.h include/festoon/fit.h
-            DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/festoon")
+    install(FILES include/festoon/festoon_tools.h include/festoon/fit.h include/festoon/tracks.h
+            include/festoon/film_tracks.h include/festoon/measure.def
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/festoon")
     configure_file(cmake/festoon-tools.pc.in festoon-tools.pc @ONLY)
     install(FILES "${PROJECT_BINARY_DIR}/festoon-tools.pc" DESTINATION "${pkgconfig_dir}")
     install(TARGETS festoon_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
@@ -42,6 +43,9 @@ if(FESTOON_TOOLS)
     endif()
     if(FESTOON_HAVE_MPI)
         install(TARGETS festoon_mpi_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/festoon")
+    endif()
+    if(FESTOON_HAVE_CMINPACK)
+        install(TARGETS festoon_minpack_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/festoon")
     endif()
     if(FESTOON_HAVE_CAIRO)
         install(TARGETS festoon_cairo_module LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/festoon")

@@ -87,12 +87,13 @@ class Usage(Case):
         with open(os.path.join(BUILD_DIR, "docs", "festoon.1"), encoding="utf-8") as file:
             page = re.sub(r"\\f[BIR]", "", file.read()).replace("\\-", "-").replace("\\e", "\\")
         commands = re.findall(r"^  ([a-z]+) +[A-Z]", self.good("--help"), re.M)
-        self.assertEqual(len(commands), 14)
+        with open(os.path.join(SOURCE_DIR, "src", "cli", "commands.c"), encoding="utf-8") as file:
+            self.assertEqual(len(commands), len(re.findall(r"&\w+_command\b", file.read())))
         known = set(re.findall(r"--[a-z0-9-]*[a-z0-9]", self.good("--help")))
         sections = dict(re.findall(r"^\.SS (\w+)\n(.*?)(?=^\.S[SH])", page, re.M | re.S))
         self.assertEqual(list(sections), commands)
         for command in commands:
-            self.assertRegex(page, rf"(?m)^\.BR? {command}\b")
+            self.assertTrue(re.search(rf"(?m)^\.BR? {command}\b", page), f"docs/festoon.1.in says nothing of {command}")
             helped = self.good(command, "--help")
             self.assertIn(re.search(r"usage: festoon \w+ (.*)", helped)[1], sections[command])
             table = helped.split("options:\n")[1].rsplit("   --help", 1)[0]

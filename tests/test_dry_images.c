@@ -17,7 +17,7 @@ static fst_params job_params(int i)
     if (i == 2)
         p.friction_mu_static = 0.5;
     if (i == 6)
-        p.friction_rolling_resistance = 1e-3;
+        p.friction_rolling_resistance = 0.3;
     if (i == 5) /* needs other lanes than its neighbours */
         p.friction_law = FST_FRICTION_VISCOUS;
     if (i == 8) { /* on its way out */
@@ -26,7 +26,7 @@ static fst_params job_params(int i)
     }
     if (i == 9)
         p.friction_contact_rate = 20.0;
-    if (i == 10) { /* done alone, as the next */
+    if (i == 10) { /* done alone, as the next, and the one that rolling resistance brings to rest */
         p.contact_patch = FST_PATCH_HERTZ;
         p.contact_radius = 5e-5;
     }

@@ -26,7 +26,7 @@ typedef struct command {
 /* The commands, a file each. */
 extern const command run_command, sweep_command, export_command, field_command, plot_command, movie_command,
     paper_command, init_command, check_command, schema_command, orbit_command, locked_command, branch_command,
-    lyapunov_command;
+    lyapunov_command, measure_command, track_command, fit_command;
 
 /* All of them, in the order of the help, with NULL behind the last; and the one of this name, or NULL. */
 extern const command *const all_commands[];
@@ -41,6 +41,12 @@ const command *find_command(const char *name);
 #define JSON_OPTION                                                                                            \
     {                                                                                                          \
         "json", '\0', NULL, "one JSON document on standard output instead of text"                             \
+    }
+
+#define UNITS_OPTION                                                                                           \
+    {                                                                                                          \
+        "units", '\0', "scaled|lab|si",                                                                        \
+            "the units shown: scaled (l, 1/gamma, B0), of the laboratory (Hz, mm, s, mT), or SI"               \
     }
 
 /* Fill in `error` and return `code`. */
@@ -67,6 +73,14 @@ void tell_written(const char *path, const char *remark);
  * where the value is zero). */
 enum { ALL_DIGITS = 300 };
 double unsigned_zero(double value, int decimals);
+
+/* Read --units; as given where it is missing. */
+fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error);
+
+/* Read the names of --key, "mean_r,std_r", into `keys`, which point into `words`. */
+enum { KEY_LIMIT = 16, KEYS_SIZE = 512 };
+fst_status read_keys(const char *text, char words[KEYS_SIZE], const char *keys[KEY_LIMIT], int *count,
+                     fst_error *error);
 
 /* Read exactly `count` numbers separated by commas. */
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,

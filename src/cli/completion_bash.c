@@ -20,6 +20,14 @@ static const char head[] =
     "    done\n"
     "}\n"
     "\n"
+    "# The same for the last word of a list with commas.\n"
+    "_festoon_list() {\n"
+    "    local list=$1 lead=$2\n"
+    "    shift 2\n"
+    "    compopt -o nospace 2>/dev/null\n"
+    "    _festoon_words \"${list##*,}\" \"$lead${list%\"${list##*,}\"}\" \"$@\"\n"
+    "}\n"
+    "\n"
     "# Offer directories, and files that have one of the endings behind $1 (any file where there are none).\n"
     "_festoon_files() {\n"
     "    local start=$1 file ending\n"
@@ -86,8 +94,11 @@ static void print_value(FILE *out, const option *row)
     case VALUE_KEY:
         (void)fputs("_festoon_key \"$value\" \"$lead\"", out);
         break;
-    case VALUE_RESULT:
-        (void)fputs("_festoon_words \"$rest\" \"$lead\" $_festoon_results", out);
+    case VALUE_KEYS:
+        (void)fputs("_festoon_list \"$rest\" \"$lead\" ${_festoon_keys//=/}", out);
+        break;
+    case VALUE_RESULTS:
+        (void)fputs("_festoon_list \"$rest\" \"$lead\" $_festoon_results", out);
         break;
     case VALUE_COLUMN:
         (void)fputs("_festoon_words \"$rest\" \"$lead\" $_festoon_columns", out);

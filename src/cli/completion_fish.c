@@ -43,7 +43,9 @@ static void print_value(FILE *out, const option *row)
         print_settings(out);
     else if (kind == VALUE_KEY)
         print_keys(out, " ", "=");
-    else if (kind == VALUE_RESULT)
+    else if (kind == VALUE_KEYS)
+        print_keys(out, " ", "");
+    else if (kind == VALUE_RESULTS)
         print_results(out, " ", "");
     else
         print_columns(out, " ", "");

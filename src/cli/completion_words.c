@@ -13,8 +13,10 @@ value_kind kind_of_value(const option *row)
         return VALUE_SETTING;
     if (strncmp(row->value, "KEY=", 4) == 0)
         return VALUE_KEY;
-    if (strncmp(row->value, "KEY", 3) == 0)
-        return VALUE_RESULT;
+    if (strcmp(row->value, "KEY,KEY") == 0)
+        return VALUE_KEYS;
+    if (strcmp(row->value, "KEY,...") == 0)
+        return VALUE_RESULTS;
     if (strcmp(row->value, "COLUMN") == 0)
         return VALUE_COLUMN;
     if (strchr(row->value, '|') &&

@@ -11,7 +11,8 @@ typedef enum value_kind {
     VALUE_CHOICE,  /* one of the words in option.value */
     VALUE_SETTING, /* a parameter, "=", and its choices if it has some */
     VALUE_KEY,     /* a parameter and "=" */
-    VALUE_RESULT,  /* a key of festoon run */
+    VALUE_KEYS,    /* parameters, with commas between */
+    VALUE_RESULTS, /* keys of festoon run, with commas between */
     VALUE_COLUMN,  /* a column of a trajectory */
     VALUE_FILE
 } value_kind;

@@ -32,10 +32,11 @@ static void print_action(FILE *out, const option *row)
     case VALUE_KEY:
         (void)fputs("_festoon_key", out);
         break;
-    case VALUE_RESULT:
-        (void)fputs("(", out);
-        print_results(out, "", " ");
-        (void)fputs(")", out);
+    case VALUE_KEYS:
+        (void)fputs("_festoon_keys", out);
+        break;
+    case VALUE_RESULTS:
+        (void)fputs("_festoon_results", out);
         break;
     case VALUE_COLUMN:
         (void)fputs("(", out);
@@ -73,6 +74,18 @@ static void print_settings(FILE *out)
                 "    compset -P '*=' || compadd -S = -q -- ",
                 out);
     print_keys(out, "", " ");
+    (void)fputs("\n}\n\n"
+                "_festoon_keys() {\n"
+                "    compset -P '*,'\n"
+                "    compadd -S , -q -- ",
+                out);
+    print_keys(out, "", " ");
+    (void)fputs("\n}\n\n"
+                "_festoon_results() {\n"
+                "    compset -P '*,'\n"
+                "    compadd -S , -q -- ",
+                out);
+    print_results(out, "", " ");
     (void)fputs("\n}\n\n"
                 "_festoon_setting() {\n"
                 "    if ! compset -P '*='; then\n"

@@ -142,7 +142,7 @@ static double bead_along(const fst_camera_paint *paint, const double place[2], c
 {
     static const double lamp[3] = {-0.4, 0.5, 0.768};
     const double centre[3] = {place[0], place[1], paint->bead};
-    double way = 0.0, off[3], squared = 0.0, towards = 0.0, mirror = 0.0;
+    double way = 0.0, off[3], squared = 0.0, towards = 0.0, mirror = 0.0, between = 0.0;
     for (int i = 0; i < 3; ++i)
         way += (centre[i] - paint->view.place[i]) * ray[i];
     for (int i = 0; i < 3; ++i) {
@@ -155,10 +155,10 @@ static double bead_along(const fst_camera_paint *paint, const double place[2], c
     for (int i = 0; i < 3; ++i) {
         const double normal = (off[i] - front * ray[i]) / paint->bead;
         towards += normal * lamp[i];
-        mirror +=
-            normal * (lamp[i] - ray[i]) / 1.88; /* the half of lamp and viewer; 1.88 is its usual length */
+        mirror += normal * (lamp[i] - ray[i]);
+        between += (lamp[i] - ray[i]) * (lamp[i] - ray[i]);
     }
-    *shade = mirror > 0.975 ? HIGHLIGHT : 0.10 + 0.25 * fmax(0.0, towards);
+    *shade = mirror > 0.975 * sqrt(between) ? HIGHLIGHT : 0.10 + 0.25 * fmax(0.0, towards);
     return part;
 }
 

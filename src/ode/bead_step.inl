@@ -71,7 +71,9 @@ static inline void FN(lean_at_stage)(FN(bead) * bead, REAL h, int stage)
 {
     FN(coefficients) *c = &bead->coefficients;
     if (c->kinds.paced && REAL_ANY(FN(coulomb_begins)(&c->law.coulomb)))
-        FN(coulomb_lean)(&c->law.coulomb, FN(stage_time)(bead, h, stage));
+        FN(lag_at)(&c->law.coulomb.lag, FN(stage_time)(bead, h, stage));
+    if (HAS(c->kinds, resists) && REAL_ANY(FN(starts_to_roll)(&c->resistance)))
+        FN(lag_at)(&c->resistance.lag, FN(stage_time)(bead, h, stage));
 }
 #endif
 
@@ -235,6 +237,14 @@ static inline void FN(stop_slip)(const FN(coefficients) * c, REAL_MASK mask, REA
 }
 
 #ifdef REAL_IS_SCALAR
+/* Take the rotation out of a state that does not roll, which keeps its slip. */
+static inline void FN(stop_rolling)(const FN(coefficients) * c, REAL *y)
+{
+    y[FST_VX] -= c->eps * y[FST_WY];
+    y[FST_VY] += c->eps * y[FST_WX];
+    y[FST_WX] = y[FST_WY] = R(0.0);
+}
+
 /* Change the slip by an impulse of the plate: the moment about the contact stays what it was. */
 static inline void FN(set_slip)(const FN(coefficients) * c, REAL *y, const REAL slip[2])
 {
@@ -265,6 +275,10 @@ static inline void FN(stop_contact)(const FN(coefficients) * c, REAL *y)
 static inline REAL FN(finish_step)(FN(bead_step) * s)
 {
     const REAL drift = FN(renormalise)(s->end);
+#ifdef REAL_IS_SCALAR
+    if (s->context.coefficients.kinds.resists && FN(rests)(&s->context.coefficients.resistance))
+        FN(stop_rolling)(&s->context.coefficients, s->end);
+#endif
 #if KNOWS_DRY
     if (HAS(s->context.coefficients.kinds, dry))
         FN(stop_contact)(&s->context.coefficients, s->end);

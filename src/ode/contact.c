@@ -36,10 +36,12 @@
  */
 #include "ode/disc.h"
 #include "ode/flight.h"
+#include "ode/rest.h"
 
 #include "base/error.h"
 
-static const double HAND_OVER = 0.12;   /* times tolerance^(5/16) */
+static const double HAND_OVER = 0.12;        /* times tolerance^(5/16) */
+static const double LEAST_HAND_OVER = 100.0; /* but at least so many captured */
 static const double USUAL_GROWTH = 0.1; /* of a slip, in l gamma^3: the time of the hand-over follows from it */
 static const double FEW = 0.01;         /* slip then, in those of the hand-over */
 static const double FALL_AT_ONCE = 1.01; /* static friction over sliding */
@@ -140,16 +142,12 @@ static int leave_or_return(fst_flow *flow, double *state)
     return FST_MODE_FLIGHT;
 }
 
-/* The mode changes at `state`, which may be moved by less than anything else feels. */
-static void enter(fst_flow *flow, int mode, double *state)
+/* The mode of the contact changes at `state`, which may be moved by less than anything else feels. */
+static void enter_contact(fst_flow *flow, int mode, double *state)
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
-    fst_coulomb_double *law = law_of(flow);
     static const double nothing[2] = {0.0, 0.0};
     double slip[2];
-    flow->contact.proposal[fst_contact_mode(flow)] = flow->control.proposal;
-    if (mode == FST_MODE_FLIGHT)
-        mode = leave_or_return(flow, state);
     fst_slip_double(c, state, slip);
     if (mode == FST_MODE_FLIGHT) {
         ; /* the state is no matter of the plate */
@@ -158,16 +156,74 @@ static void enter(fst_flow *flow, int mode, double *state)
     } else if (mode == FST_MODE_STICK) {
         fst_set_slip_double(c, state, nothing);
     } else if (mode == FST_MODE_ONSET) {
-        fst_contact_begin_onset(flow, state);
+        const double part = fst_contact_begin_onset(flow, state);
+        flow->contact.slips_from = fmax(handed_over(flow) * part * part, LEAST_HAND_OVER * captured(flow));
         flow->contact.released = flow->t;
     } else if (fst_norm_2_double(slip) < captured(flow)) {
         const fst_contact_double at = contact_at(flow, state);
         const double part = captured(flow) / fst_norm_2_double(at.push);
         fst_set_slip_double(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
     }
-    law->mode = mode;
-    flow->control.proposal = flow->contact.proposal[mode] > 0 ? flow->contact.proposal[mode] : FIRST_SIZE;
-    flow->contact.next_mode = -1;
+    law_of(flow)->mode = mode;
+}
+
+/* The mode of a contact that sticks while the bead comes to rest: it may not be able to hold it there. */
+static int held_at_rest(fst_flow *flow, int mode, const double *state)
+{
+    if (mode != FST_MODE_STICK || is_disc(flow))
+        return mode;
+    const fst_contact_double at = contact_at(flow, state);
+    return fst_norm_2_double(at.push) <= hold(flow, &at) * (1.0 + PACED_SLACK) ? mode : released_mode(flow);
+}
+
+/* The same where the plate resists rolling.  A bead that does not roll is at rest where both friction and
+ * resistance hold it; a bead that is to begin to slip and to roll at once is set rolling at a tiny speed. */
+static void enter_resisted(fst_flow *flow, int mode, int roll, double *state)
+{
+    const int released = roll == FST_ROLL_STARTS;
+    const int still = mode != FST_MODE_FLIGHT && fst_rest_is_still(flow, state);
+    fst_rest_enter(flow, still ? FST_ROLL_RESTS : FST_ROLL_ROLLS, state);
+    if (still)
+        mode = held_at_rest(flow, mode, state);
+    enter_contact(flow, mode, state);
+    if (!still)
+        return;
+    fst_rest_enter(flow, FST_ROLL_RESTS, state); /* what the impulse of a capture left */
+    if (!released && fst_rest_holds(flow, state))
+        return;
+    fst_rest_enter(flow, mode == FST_MODE_ONSET ? FST_ROLL_ROLLS : FST_ROLL_STARTS, state);
+    const int then = held_at_rest(flow, mode, state);
+    if (then != mode) {
+        fst_rest_enter(flow, FST_ROLL_ROLLS, state);
+        enter_contact(flow, then, state);
+    }
+}
+
+/* The mode of a contact that goes on while rolling changes: in an onset with another push. */
+static int goes_on(const fst_flow *flow, const double *state)
+{
+    double slip[2];
+    fst_slip_double(&flow->step.context.coefficients, state, slip);
+    const int mode = fst_contact_mode(flow);
+    return mode == FST_MODE_ONSET && fst_norm_2_double(slip) > captured(flow) ? FST_MODE_SLIP : mode;
+}
+
+/* The modes change at `state`; -1: one goes on. */
+static void enter(fst_flow *flow, int mode, int roll, double *state)
+{
+    fst_contact_state *contact = &flow->contact;
+    const int resists = flow->step.context.coefficients.kinds.resists;
+    contact->proposal[fst_contact_mode(flow)][fst_contact_roll(flow)] = flow->control.proposal;
+    if (mode == FST_MODE_FLIGHT)
+        mode = leave_or_return(flow, state);
+    mode = mode >= 0 ? mode : goes_on(flow, state);
+    if (resists)
+        enter_resisted(flow, mode, roll, state);
+    else
+        enter_contact(flow, mode, state);
+    const double known = contact->proposal[fst_contact_mode(flow)][fst_contact_roll(flow)];
+    flow->control.proposal = known > 0 ? known : FIRST_SIZE;
+    contact->next_mode = contact->next_roll = -1;
 }
 
 void fst_contact_put_down(fst_flow *flow, double *state)
@@ -178,10 +234,10 @@ void fst_contact_put_down(fst_flow *flow, double *state)
         fst_disc_begin(flow);
     if (fst_flight_is_on(flow))
         fst_flight_go_on(flow);
-    else if (c->kinds.paced)
-        enter(flow, mode_at(flow, state), state);
-    else if (c->kinds.contact == FST_FRICTION_ROLLING)
+    else if (flow->groups.friction == FST_FRICTION_ROLLING)
         fst_set_slip_double(c, state, nothing);
+    if (c->kinds.paced && !fst_flight_is_on(flow))
+        enter(flow, mode_at(flow, state), -1, state);
 }
 
 /* ------------------------------------------------------------------ events that end a mode */
@@ -203,7 +259,7 @@ static double onset_speed(const fst_flow *flow, const double *state, const fst_p
 
 static double until_handed_over(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
-    return handed_over(flow) - onset_speed(flow, state, p);
+    return flow->contact.slips_from - onset_speed(flow, state, p);
 }
 
 static double until_back_at_rest(const fst_flow *flow, const double *state, const fst_pull_double *p)
@@ -214,9 +270,10 @@ static double until_back_at_rest(const fst_flow *flow, const double *state, cons
 /* Where the slip hardly grows, its direction is no longer known after some time; *x: that place in the step. */
 static int onset_is_long(fst_flow *flow, double *x)
 {
-    const double time = sqrt(2.0 * handed_over(flow) / USUAL_GROWTH) - law_of(flow)->since;
-    *x = time > 0 && time < flow->step.h ? time / flow->step.h : 1.0;
-    return time <= flow->step.h && fst_flow_function_at(flow, *x, onset_speed) >= FEW * handed_over(flow);
+    const double time = sqrt(2.0 * flow->contact.slips_from / USUAL_GROWTH) - law_of(flow)->lag.since;
+    const double whole = fst_contact_elapsed(flow);
+    *x = time > 0 && time < whole ? fst_contact_fraction(flow, time) : 1.0;
+    return time <= whole && fst_flow_function_at(flow, *x, onset_speed) >= FEW * flow->contact.slips_from;
 }
 
 /* The fraction of the last step at which an event ends its mode, 2 where none does, and the mode that follows.
@@ -309,17 +366,44 @@ static void cut_at(fst_flow *flow, double x)
     }
 }
 
-void fst_contact_begin_step(fst_flow *flow)
+/* The fraction of the last step at which a mode ends, of the contact or of rolling, 2 where none does; the one
+ * of both that ends there has a mode that follows. */
+static double first_end(fst_flow *flow, int *next, int *next_roll)
+{
+    int contact = -1, roll = -1;
+    const double of_contact = mode_ends(flow, &contact);
+    const double of_roll = flow->step.context.coefficients.kinds.resists ? fst_rest_ends(flow, &roll) : 2.0;
+    *next = of_contact <= of_roll && of_contact <= 1.0 ? contact : -1;
+    *next_roll = of_roll <= of_contact && of_roll <= 1.0 ? roll : -1;
+    return fmin(of_contact, of_roll);
+}
+
+void fst_contact_begin_next(fst_flow *flow)
 {
     const int next_mode = flow->contact.next_mode;
-    if (next_mode >= 0) {
-        flow->contact.captures += fst_contact_mode(flow) == FST_MODE_SLIP && next_mode == FST_MODE_STICK;
-        enter(flow, next_mode, flow->step.end);
-        fst_bead_flow_restart(flow);
-    }
+    if (next_mode < 0 && flow->contact.next_roll < 0)
+        return;
+    flow->contact.captures += fst_contact_mode(flow) == FST_MODE_SLIP && next_mode == FST_MODE_STICK;
+    enter(flow, next_mode, flow->contact.next_roll, flow->step.end);
+    fst_bead_flow_restart(flow);
+}
+
+void fst_contact_begin_step(fst_flow *flow)
+{
+    fst_contact_begin_next(flow);
     fst_bead_flow_prepare(flow);
     if (fst_contact_mode(flow) == FST_MODE_ONSET)
-        law_of(flow)->since = fst_twofold_difference(flow->t, flow->contact.released);
+        law_of(flow)->lag.since = fst_twofold_difference(flow->t, flow->contact.released);
+    fst_rest_go_on(flow);
+}
+
+/* The modes that follow at the end of the last step, where no event has told. */
+static void look_at_end(fst_flow *flow)
+{
+    if (flow->contact.next_mode < 0)
+        flow->contact.next_mode = after_slip(flow);
+    if (flow->contact.next_roll < 0)
+        flow->contact.next_roll = fst_rest_after(flow);
 }
 
 int fst_contact_look_ahead(fst_flow *flow, double t_limit, double *end)
@@ -327,15 +411,18 @@ int fst_contact_look_ahead(fst_flow *flow, double t_limit, double *end)
     const fst_twofold limit = {t_limit, 0.0};
     flow->contact.has_clock = flow->has_dense = 0;
     flow->t_start = flow->t; /* times within the step are asked for before it is over */
-    int next = -1;
-    const double event = mode_ends(flow, &next);
+    int next = -1, next_roll = -1;
+    const double event = first_end(flow, &next, &next_roll);
     const double way = fst_contact_fraction(flow, fst_twofold_difference(limit, flow->t));
     if (way <= 1.0 && way <= event) {
         *end = way;
         return 1;
     }
     *end = event <= 1.0 ? event : 1.0;
-    flow->contact.next_mode = event <= 1.0 ? next : after_slip(flow);
+    flow->contact.next_mode = next;
+    flow->contact.next_roll = next_roll;
+    if (event > 1.0)
+        look_at_end(flow);
     return 0;
 }
 
@@ -353,7 +440,9 @@ void fst_contact_end_step(fst_flow *flow, double t_limit)
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));
     flow->has_step = 1;
     if (lands)
-        flow->contact.next_mode = after_slip(flow);
+        flow->contact.next_mode = flow->contact.next_roll = -1;
+    if (lands || end < 1.0)
+        look_at_end(flow);
 }
 
 fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)

@@ -6,7 +6,8 @@
  * the end of the way is made anew, so short that it lands there.
  *
  * Errors.  While |V| falls over many orders of magnitude, a tolerance on v and W would stop seeing V long
- * before the end.  So a step must also keep some digits of V itself, however small it is.
+ * before the end.  So a step must also keep some digits of V itself, however small it is.  Where the plate
+ * resists rolling the same holds for W_h.
  */
 #include "ode/flight.h"
 
@@ -15,6 +16,17 @@
 int fst_contact_mode(const fst_flow *flow)
 {
     return (int)flow->step.context.coefficients.law.coulomb.mode;
+}
+
+int fst_contact_roll(const fst_flow *flow)
+{
+    return (int)flow->step.context.coefficients.resistance.mode;
+}
+
+/* Whether the last step measured a time of its own. */
+static int has_pace(const fst_flow *flow)
+{
+    return fst_measures_time_double(&flow->step.context.coefficients);
 }
 
 /* ------------------------------------------------------------------ errors */
@@ -52,7 +64,7 @@ static void make_clock(fst_flow *flow)
 
 double fst_contact_time(fst_flow *flow, double x)
 {
-    if (fst_contact_mode(flow) != FST_MODE_SLIP)
+    if (!has_pace(flow))
         return x * flow->step.h;
     double time;
     make_clock(flow);
@@ -63,7 +75,7 @@ double fst_contact_time(fst_flow *flow, double x)
 double fst_contact_fraction(fst_flow *flow, double since_start)
 {
     const double whole = fst_contact_elapsed(flow);
-    if (fst_contact_mode(flow) != FST_MODE_SLIP || !(since_start > 0 && since_start < whole))
+    if (!has_pace(flow) || !(since_start > 0 && since_start < whole))
         return since_start / whole;
     fst_bracket z = {0.0, 1.0, -since_start, whole - since_start, 0};
     for (int i = 0; i < 100 && z.hi - z.lo > 1e-16; ++i) {

@@ -3,7 +3,7 @@
  * steps at once.  The including file brings bead_step.inl and path.inl.
  */
 #ifndef PACED_LEAST_DIGITS
-#define PACED_LEAST_DIGITS 0.03 /* relative error of V that a step may make */
+#define PACED_LEAST_DIGITS 0.03 /* relative error of V or W_h that a step may make */
 #define PACED_SLOWER 1e-3       /* captured, in tolerances */
 #define PACED_LEAST_SPEED 1e-14 /* that rounding leaves of a slip's digits */
 #define PACED_LEAST_FALL 1e-12  /* below this slip, or the tolerance, rounding may end it: */
@@ -18,8 +18,8 @@ static inline REAL FN(norm_2)(const REAL v[2])
 
 /* ------------------------------------------------------------------ how good a step is */
 
-/* The embedded error of the slip in a step, as dop853.inl has it for the whole state. */
-static inline REAL FN(slip_error)(const FN(bead_step) * s)
+/* The embedded errors of the slip and of W_h in a step, as dop853.inl has them for the whole state. */
+static inline void FN(contact_errors)(const FN(bead_step) * s, REAL *of_slip, REAL *of_roll)
 {
     static const int slot[8] = {0, 5, 6, 7, 8, 9, 10, 11};
     const REAL fifth[8] = {DOP_E5_1, DOP_E5_6, DOP_E5_7, DOP_E5_8, DOP_E5_9, DOP_E5_10, DOP_E5_11, DOP_E5_12};
@@ -31,37 +31,60 @@ static inline REAL FN(slip_error)(const FN(bead_step) * s)
             for (int j = 0; j < 8; ++j)
                 error[i] += s->h * fifth[j] * s->k[slot[j]][i];
     FN(slip)(&s->context.coefficients, error, slip);
-    return FN(norm_2)(slip);
+    *of_slip = FN(norm_2)(slip);
+    *of_roll = FN(norm_2)(error + FST_WX);
 }
 
-/* The error of a step over its tolerance, from `error`, that of the whole state: a slip keeps some digits. */
+/* Where the plate resists rolling (ode/rest.c), the mask of a bead that rolls, in a time of its own. */
+static inline REAL_MASK FN(rolls_in_theta)(const FN(coefficients) * c)
+{
+    const REAL mode = REAL_SELECT(FN(in_flight)(c), R(1.0), c->resistance.mode);
+    return REAL_LESS(HAS(c->kinds, resists) ? mode : R(1.0), R(0.5));
+}
+
+/* The error of a step over its tolerance, from `error`, that of the whole state: a slip keeps some digits, and
+ * so does a rotation that a plate resists. */
 static inline REAL FN(paced_error)(const FN(bead_step) * s, REAL error)
 {
     const FN(coefficients) *c = &s->context.coefficients;
     const REAL_MASK slips = FN(coulomb_slips)(&c->law.coulomb);
-    REAL start[2], end[2];
-    if (!REAL_ANY(slips))
+    const REAL_MASK rolls = FN(rolls_in_theta)(c);
+    REAL start[2], end[2], slip_error, roll_error;
+    if (!REAL_ANY(slips) && !REAL_ANY(rolls))
         return error;
+    FN(contact_errors)(s, &slip_error, &roll_error);
     FN(slip)(c, s->y, start);
     FN(slip)(c, s->end, end);
     const REAL first = FN(contact_motion_2)(c, start, s->y[FST_WZ]);
     const REAL last = FN(contact_motion_2)(c, end, s->end[FST_WZ]);
     const REAL least = REAL_SELECT(REAL_LESS(last, first), last, first);
-    const REAL of_slip = FN(slip_error)(s) / (R(PACED_LEAST_DIGITS) * REAL_SQRT(least));
-    return REAL_SELECT(slips, REAL_MAX(of_slip, error), error);
+    const REAL of_slip = slip_error / (R(PACED_LEAST_DIGITS) * REAL_SQRT(least));
+    const REAL with_slip = REAL_SELECT(slips, REAL_MAX(of_slip, error), error);
+    if (!REAL_ANY(rolls))
+        return with_slip;
+    const REAL w1 = FN(norm_2)(s->y + FST_WX), w2 = FN(norm_2)(s->end + FST_WX);
+    const REAL of_roll = roll_error / (R(PACED_LEAST_DIGITS) * REAL_SELECT(REAL_LESS(w2, w1), w2, w1));
+    return REAL_SELECT(rolls, REAL_MAX(of_roll, with_slip), with_slip);
 }
 
 /* ------------------------------------------------------------------ how long it takes */
 
+/* The mask of a step that measures its own time. */
+static inline REAL_MASK FN(measures_time)(const FN(coefficients) * c)
+{
+    const REAL slips = REAL_SELECT(FN(coulomb_slips)(&c->law.coulomb), R(1.0), R(0.0));
+    return REAL_LESS(R(0.5), REAL_SELECT(FN(rolls_in_theta)(c), R(1.0), slips));
+}
+
 static inline REAL FN(paced_time)(const FN(bead_step) * s)
 {
-    const REAL_MASK slips = FN(coulomb_slips)(&s->context.coefficients.law.coulomb);
+    const REAL_MASK measures = FN(measures_time)(&s->context.coefficients);
     REAL pace[FST_PATH_PLACES];
-    if (!REAL_ANY(slips))
+    if (!REAL_ANY(measures))
         return s->h;
     for (int place = 0; place < FST_PATH_PLACES; ++place)
         pace[place] = FST_PATH_PACE(s, place);
-    return REAL_SELECT(slips, FN(path_integral)(s, pace, 1), s->h);
+    return REAL_SELECT(measures, FN(path_integral)(s, pace, 1), s->h);
 }
 
 /* ------------------------------------------------------------------ whether its mode ends */

@@ -106,7 +106,7 @@ typedef enum { BEGUN, REFUSED, ALONE, FAILED } beginning;
 /* Whether lanes know the contact of a model. */
 static int lanes_know(const fst_kinds *kinds)
 {
-    return !kinds->dry || (kinds->patch == FST_PATCH_POINT && !kinds->flies);
+    return !kinds->dry || (kinds->patch == FST_PATCH_POINT && !kinds->flies && !kinds->resists);
 }
 
 /* Change the engine, while nothing is at work. */
