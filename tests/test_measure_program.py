@@ -109,6 +109,17 @@ class Points(Program):
 
 
 class Figures(Program):
+    def blocks(self, name):
+        """The blocks of a figure's data by their names: a comment line of one word begins a block."""
+        found, rows = {}, []
+        with open(self.path(name), encoding="utf-8") as data:
+            for line in data:
+                if re.fullmatch(r"# [a-z-]+\n", line):
+                    rows = found[line[2:-1]] = []
+                elif line.strip() and not line.startswith("#"):
+                    rows.append([float(word) for word in line.split()])
+        return found
+
     def test_a_scene_over_its_own_track(self):
         """A scene's own motion, measured, and the scene laid over it: both are the same curve in the magnet's frame."""
         if not shutil.which("gnuplot"):
@@ -132,16 +143,7 @@ class Figures(Program):
             track = self.write("track.csv", text)
             drive = "-10.7Hz" if mirrored else "10.7Hz"
             self.festoon("measure", track, "--drive", drive, "--figure", self.path("fig.svg"), "--compare", scene)
-            with open(self.path("fig.dat"), encoding="utf-8") as data:
-                blocks = {}
-                name = ""
-                for line in data:
-                    if line.strip() and not line.startswith("#"):
-                        if re.match(r"[\"']?[a-z]", line) and not line.startswith("nan"):
-                            name = line.strip().strip("\"'")
-                            blocks[name] = []
-                        elif name:
-                            blocks[name].append([float(word) for word in line.split()])
+            blocks = self.blocks("fig.dat")
             curve = [tuple(row) for row in blocks["model-magnet"]]
             far = max(min(math.hypot(row[3] - a, row[4] - b) for a, b in curve) for row in blocks["seen"][::7])
             self.assertLess(far, 0.15)  # mm; the curve has 512 places on some 110 mm
