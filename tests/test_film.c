@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "film/file.h"
+#include "io/film_file.h"
 #include "film/motion.h"
 
 #include <festoon/festoon_tools.h>

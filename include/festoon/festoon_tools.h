@@ -72,6 +72,24 @@ FST_API fst_status fst_branch_read(const char *path, fst_branch *branch, fst_err
 FST_API fst_status fst_run_dots_read(const char *path, const char *key, const char *observable, double **dots,
                                      size_t *count, fst_error *error);
 
+/* ------------------------------------------------------------------ units */
+
+/* The units of numbers that leave: those in which they were given; those of a laboratory (Hz, mm, s, mm/s, mT,
+ * mN, mW); scaled ones (l, 1/gamma, B0, per mass); or SI. */
+typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED, FST_SHOWN_SI } fst_shown_units;
+
+/* What the scaled units are: l in m, 1/gamma in s, the bead's mass in kg, B0 in T (NAN: it does not follow from
+ * the parameters). */
+typedef struct fst_scales {
+    double length, time, mass, field;
+} fst_scales;
+FST_API fst_scales fst_scales_of(const fst_params *params);
+
+/* The factor that turns a value in `unit`, as the tables of columns and results name it ("l gamma"), into the
+ * wanted units, and the name of the unit there ("mm/s").  A unit without counterpart stays: the factor is 1. */
+FST_API double fst_unit_shown(const char *unit, fst_shown_units units, const fst_scales *scales,
+                              const char **name);
+
 /* ------------------------------------------------------------------ trajectories */
 
 /* A file into which a run streams its samples; the ending chooses the format: .h5 (HDF5, with the scene and the
@@ -213,6 +231,13 @@ typedef enum { FST_EXPORT_CSV, FST_EXPORT_JSON, FST_EXPORT_HDF5 } fst_export_for
 FST_API fst_status fst_sweep_export(const char *path, fst_export_format format, const char *out, FILE *stream,
                                     fst_error *error);
 
+/* Write chosen columns as CSV: the varied parameters and `keys` (count = 0: regime, mean_r, std_r,
+ * mean_alpha_dot), in the wanted units, each name with its unit behind it: "mean_r [mm]".  Fails where rows are
+ * damaged. */
+FST_API fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int count,
+                                         fst_shown_units units, const char *out, FILE *stream,
+                                         fst_error *error);
+
 /* Some keys of a sweep by point.  The value of key i at a point is values[i * fst_grid_points(grid) + point],
  * NAN where there is none; `regime` and `symmetry` have their numbers. */
 typedef struct fst_sweep_table {
@@ -225,10 +250,6 @@ FST_API void fst_sweep_table_free(fst_sweep_table *table);
 
 /* Read only the grid; free it with fst_grid_free(). */
 FST_API fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *error);
-
-/* The units on the axes of a sweep's figure: those of the parameters that were varied (lengths in mm); those of
- * the laboratory (Hz, mm, mm/s, 1/s, s); or scaled ones (drive omega, lengths in l). */
-typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED } fst_shown_units;
 
 /* Draw a sweep: over one axis curves of the keys; over two axes a map of one key, or of regimes where the key
  * is `regime`.  With count = 0 the keys are chosen: mean r and its deviation, the mean angular velocity and the
@@ -261,6 +282,44 @@ FST_API fst_film_options fst_default_film_options(void);
  */
 FST_API fst_status fst_film(const fst_table *table, const char *out, const fst_film_options *options,
                             fst_error *error);
+
+/* A film as a camera over the plate takes it.  Lengths are in m, times in s, angles in degrees. */
+typedef struct fst_camera_options {
+    uint32_t cookie;
+    int width, height;        /* pixels, both even */
+    double fps;               /* frames a second */
+    double stored_fps;        /* what the film claims them to be; NAN: the truth */
+    double from, to;          /* drive periods that are filmed; NAN: everything */
+    double exposure, readout; /* of a row; from the first row to the last (a rolling shutter) */
+    double noise;             /* deviation of a pixel, in gray levels of 255 */
+    double uneven, flicker;   /* how much darker the darkest corner is; how much the lamps flicker: 0 to 1 */
+    double tilt, side;        /* the camera's angle off the vertical; where it stands, from the x axis */
+    double distance, plate;   /* from the plate's middle; the plate's diameter; NAN: what fits */
+    int quality;              /* of the compression: 0, lossless, to 51 */
+    int drop;                 /* every drop-th frame is lost; 0: none */
+    uint64_t seed;            /* of the noise */
+    const fst_progress *progress; /* NULL: nobody is told */
+} fst_camera_options;
+/* 1280 x 720 pixels, 240 frames a second exposed for 1 ms, 5 degrees of tilt, a readout of 3 ms, noise of 2
+ * gray levels, light that falls by a fifth, a quality of 23. */
+FST_API fst_camera_options fst_default_camera_options(void);
+
+/* What such a film shows. */
+typedef struct fst_camera_facts {
+    int frames, lost;
+    double plate, distance, square; /* m; at the corners of a square around the axis there are four marks */
+    double scale;                   /* m a pixel in the middle */
+    double marks[4][2]; /* pixels from the top left, in an order around the square; the first side is
+                           along x */
+} fst_camera_facts;
+
+/* Film a trajectory: gray pictures of plate and bead, in .mp4, .mov, .gif or a folder of images, and beside
+ * them the truth as a table (NULL: none): frame, true time of its beginning, where the bead was on the mean
+ * over the exposure, and the pixel that saw it (columns from the left, rows from the bottom).  The arguments
+ * fail as those of fst_film(). */
+FST_API fst_status fst_camera_film(const fst_table *table, const char *out, const char *truth,
+                                   const fst_camera_options *options, fst_camera_facts *facts,
+                                   fst_error *error);
 
 /* ------------------------------------------------------------------ the paper */
 
@@ -301,5 +360,6 @@ FST_API const char *fst_tools_components(void);
 
 #include <festoon/fit.h>
 #include <festoon/tracks.h>
+#include <festoon/film_tracks.h>
 
 #endif

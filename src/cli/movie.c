@@ -1,31 +1,23 @@
-/* movie.c - festoon movie: a trajectory as a film. */
+/* movie.c - festoon movie: a trajectory as a film, drawn or as a camera takes it. */
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/camera.h"
 #include "cli/command.h"
 #include "cli/terminal.h"
 
 static const option options[] = {
-    {"output", 'o', "FILM", "FILM.mp4, FILM.gif, or a folder for PNG frames (a name without an ending)"},
-    {"size", '\0', "WxH", "pixels, both even (720x720)"},
-    {"fps", '\0', "F", "frames a second (30)"},
+    {"output", 'o', "FILM",
+     "FILM.mp4, FILM.gif, or a folder for frames (a name without an ending); camera: FILM.mov too"},
+    {"size", '\0', "WxH", "pixels, both even (720x720; camera: 1280x720)"},
+    {"fps", '\0', "F", "frames a second (30; camera: 240)"},
     {"turn", '\0', "S", "seconds of film for a turn of the magnet (1)"},
     {"from", '\0', "P", "first drive period shown (the beginning)"},
-    {"to", '\0', "P", "last drive period shown (20 after the first)"},
+    {"to", '\0', "P", "last drive period shown (20 after the first; camera: the last)"},
     {"colour", '\0', "COLUMN", "the column that colours the trail: slip, n_z, angle, ..."},
+    CAMERA_OPTIONS,
     {NULL, '\0', NULL, NULL},
 };
-
-static fst_status read_size(const char *text, fst_film_options *film, fst_error *error)
-{
-    char *end;
-    long width = strtol(text, &end, 10), height = *end == 'x' ? strtol(end + 1, &end, 10) : 0;
-    if (*end || width < 1 || height < 1 || width > 100000 || height > 100000)
-        return fail(error, FST_BAD_INPUT, "--size", "\"%.40s\" is no size: write it as 720x720", text);
-    film->width = (int)width;
-    film->height = (int)height;
-    return FST_OK;
-}
 
 static fst_status read_film(const arguments *given, fst_film_options *film, fst_error *error)
 {
@@ -37,7 +29,7 @@ static fst_status read_film(const arguments *given, fst_film_options *film, fst_
         double *value;
     } numbers[] = {
         {"fps", &film->fps}, {"turn", &film->seconds_per_turn}, {"from", &film->from}, {"to", &film->to}};
-    fst_status status = size ? read_size(size, film, error) : FST_OK;
+    fst_status status = size ? read_size(size, &film->width, &film->height, error) : FST_OK;
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == FST_OK; ++i) {
         char name[16];
         (void)snprintf(name, sizeof name, "--%s", numbers[i].name);
@@ -45,34 +37,62 @@ static fst_status read_film(const arguments *given, fst_film_options *film, fst_
         if (text)
             status = read_numbers(name, text, numbers[i].value, 1, error);
     }
-    if (status == FST_OK && !isnan(film->from) && !isnan(film->to) && !(film->from < film->to))
-        status = fail(error, FST_BAD_INPUT, "--to", "it must be greater than --from");
     return status;
+}
+
+static fst_status check_range(double from, double to, fst_error *error)
+{
+    return isnan(from) || isnan(to) || from < to
+               ? FST_OK
+               : fail(error, FST_BAD_INPUT, "--to", "it must be greater than --from");
+}
+
+/* Options of one kind of film do not go with the other. */
+static fst_status check_kind(const arguments *given, int camera, fst_error *error)
+{
+    static const char *const drawn[] = {"turn", "colour"};
+    const char *other = camera ? NULL : camera_option(given);
+    for (size_t i = 0; i < sizeof drawn / sizeof *drawn && camera && !other; ++i)
+        other = option_value(given, drawn[i]) ? drawn[i] : NULL;
+    if (!other)
+        return FST_OK;
+    return camera ? fail(error, FST_BAD_INPUT, "", "--%s has no meaning with --camera", other)
+                  : fail(error, FST_BAD_INPUT, "", "--%s needs --camera", other);
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
-    (void)out;
     enum { USUAL_PERIODS = 20 };
     fst_film_options film;
+    fst_camera_options camera;
     fst_table table;
     progress_line line;
     const fst_progress progress = {&line, progress_tell};
     const char *path = operand(given), *to = option_value(given, "output");
+    const int by_camera = option_value(given, "camera") != NULL;
     if (!path)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "say where the film goes: -o FILM.mp4");
-    fst_status status = read_film(given, &film, error);
+    fst_status status = check_kind(given, by_camera, error);
+    if (status == FST_OK)
+        status = by_camera ? read_camera(given, &camera, error) : read_film(given, &film, error);
+    if (status == FST_OK)
+        status = check_range(by_camera ? camera.from : film.from, by_camera ? camera.to : film.to, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);
     if (status != FST_OK)
         return status;
-    if (isnan(film.to))
-        film.to = (isnan(film.from) ? 0.0 : film.from) + USUAL_PERIODS;
     progress_begin(&line);
-    film.progress = &progress;
-    status = fst_film(&table, to, &film, error);
+    if (by_camera) {
+        camera.progress = &progress;
+        status = film_by_camera(&table, to, &camera, out, error);
+    } else {
+        if (isnan(film.to))
+            film.to = (isnan(film.from) ? 0.0 : film.from) + USUAL_PERIODS;
+        film.progress = &progress;
+        status = fst_film(&table, to, &film, error);
+    }
     progress_end(&line);
     if (status == FST_OK)
         tell_written(to, table.complete ? "" : " (of an interrupted run)");
@@ -82,9 +102,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command movie_command = {
     .name = "movie",
-    .synopsis = "FILE.(h5|csv) -o FILM.(mp4|gif)|FOLDER [options]",
+    .synopsis = "FILE.(h5|csv) -o FILM.(mp4|gif)|FOLDER [--camera] [options]",
     .summary = "Make a film of a trajectory that run -o or run --csv wrote",
-    .details = "",
+    .details =
+        "With --camera the film is gray and as quick as the motion: exposure, noise, uneven light, tilt,\n"
+        "rolling shutter and compression are those of a camera, and FILM.truth.csv tells where the bead was.\n"
+        "It is what festoon track can be tried on.\n",
     .options = options,
     .most_operands = 1,
     .has_helpers = 1,

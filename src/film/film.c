@@ -1,6 +1,6 @@
 /* film.c - fst_film(): a trajectory as a film, frame by frame.
  *
- *  samples --> motion.c --> frame.h --> cairo_module.c --> ffmpeg --> file.c --> OUT.mp4, OUT.gif
+ *  samples --> motion.c --> frame.h --> cairo_module.c --> ffmpeg --> film_file.c --> OUT.mp4, OUT.gif
  *  (a table)   where all    what is     pixels               |        is it      renamed into
  *              is at t      drawn                            |        whole?     its place
  *                                                            `--> or OUT/frame-00001.png, ...
@@ -14,8 +14,8 @@
 #include "base/number.h"
 #include "base/watch.h"
 #include "draw/style.h"
-#include "film/ffmpeg.h"
-#include "film/file.h"
+#include "io/ffmpeg.h"
+#include "io/film_file.h"
 #include "film/motion.h"
 #include "host/module.h"
 #include "host/whole_file.h"
@@ -36,7 +36,8 @@ enum {
     LEAST_SIZE = 160,
     GREATEST_SIZE = 4096,
     MOST_FRAMES = 1000000,
-    FRAME_PATH = 4160
+    FRAME_PATH = 4160,
+    QUALITY = 20 /* of x264 */
 };
 
 fst_film_options fst_default_film_options(void)
@@ -263,8 +264,13 @@ static fst_status frames_into_process(film *f, const char *out, const char *form
     fst_status status = fst_whole_file_open(&file, out, error);
     if (status != FST_OK)
         return status;
-    status = fst_ffmpeg_start(&f->process, f->layout.width, f->layout.height, f->options->fps, format,
-                              file.temporary, out, error);
+    const fst_ffmpeg_kind kind = {.width = f->layout.width,
+                                  .height = f->layout.height,
+                                  .fps = f->options->fps,
+                                  .format = format,
+                                  .pixels = "bgr0",
+                                  .quality = QUALITY};
+    status = fst_ffmpeg_start(&f->process, &kind, file.temporary, out, error);
     if (status == FST_OK) {
         status = make_frames(f, error);
         /* Where ffmpeg failed, its own words say more than that it took no more frames. */

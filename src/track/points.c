@@ -386,10 +386,13 @@ static void write_number(FILE *out, double value, int shift)
         return;
     (void)fst_number_write(text, sizeof text, value);
     const double shifted = fst_number_read(text, strlen(text), shift);
-    (void)fst_number_write(plain, sizeof plain, shifted);
-    if (fst_number_read(plain, strlen(plain), -shift) == value) {
-        (void)fputs(plain, out);
-        return;
+    const double near[] = {shifted, nextafter(shifted, INFINITY), nextafter(shifted, -INFINITY)};
+    for (int i = 0; i < 3; ++i) {
+        (void)fst_number_write(plain, sizeof plain, near[i]);
+        if (fst_number_read(plain, strlen(plain), -shift) == value) {
+            (void)fputs(plain, out);
+            return;
+        }
     }
     const char *exponent = strchr(text, 'e');
     const int digits = (int)(exponent ? exponent - text : (long)strlen(text));

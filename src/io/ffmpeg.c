@@ -1,7 +1,7 @@
 /* ffmpeg.c - an ffmpeg process: starting it, handing it frames, and finding out whether it failed. */
 #define _GNU_SOURCE /* pipe2, strsignal */
 
-#include "film/ffmpeg.h"
+#include "io/ffmpeg.h"
 
 #include "base/error.h"
 #include "host/process.h"
@@ -16,34 +16,64 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { MOST_ARGUMENTS = 40 };
+enum { MOST_ARGUMENTS = 48 };
 
-fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps, const char *format,
-                            const char *out, const char *name, fst_error *error)
+/* The numbers of a kind of film as ffmpeg wants them. */
+typedef struct spelled {
+    char size[32], rate[32], quality[16], times[96], file[4096];
+} spelled;
+
+static int spell(const fst_ffmpeg_kind *kind, const char *out, spelled *words)
+{
+    (void)snprintf(words->size, sizeof words->size, "%dx%d", kind->width, kind->height);
+    (void)snprintf(words->rate, sizeof words->rate, "%.6g", kind->fps);
+    (void)snprintf(words->quality, sizeof words->quality, "%d", kind->quality);
+    (void)snprintf(words->times, sizeof words->times, "setpts='(N+floor(N/%d))/(%.6g*TB)'", kind->drop - 1,
+                   kind->fps);
+    return snprintf(words->file, sizeof words->file, "file:%s", out) < (int)sizeof words->file;
+}
+
+/* The whole command line.  The encoders get two threads. */
+static void list_arguments(const fst_ffmpeg_kind *kind, const spelled *words,
+                           const char *arguments[MOST_ARGUMENTS])
+{
+    const char *const head[] = {"ffmpeg", "-nostdin",  "-hide_banner", "-loglevel",  "error",    "-y",
+                                "-f",     "rawvideo",  "-pix_fmt",     kind->pixels, "-s",       words->size,
+                                "-r",     words->rate, "-i",           "pipe:0",     "-threads", "2",
+                                NULL};
+    const char *const mpeg[] = {"-c:v",     "libx264", "-preset",   "veryfast",   "-crf", words->quality,
+                                "-pix_fmt", "yuv420p", "-movflags", "+faststart", NULL};
+    const char *const drop[] = {"-vf", words->times, "-fps_mode", "passthrough", NULL};
+    static const char *const gif[] = {
+        "-vf", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=none", "-loop", "0", NULL};
+    static const char *const png[] = {"-c:v", "png", "-frames:v", "1", NULL}, *const none[] = {NULL};
+    const int is_gif = strcmp(kind->format, "gif") == 0, is_png = strcmp(kind->format, "png") == 0;
+    const char *const *parts[] = {head,
+                                  is_gif   ? gif
+                                  : is_png ? png
+                                           : mpeg,
+                                  kind->drop && !is_gif ? drop : none};
+    int count = 0;
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
+        for (const char *const *word = parts[i]; *word; ++word)
+            arguments[count++] = *word;
+    arguments[count++] = "-f";
+    arguments[count++] = is_png ? "image2pipe" : kind->format;
+    arguments[count++] = words->file;
+    arguments[count] = NULL;
+}
+
+fst_status fst_ffmpeg_start(fst_ffmpeg *film, const fst_ffmpeg_kind *kind, const char *out, const char *name,
+                            fst_error *error)
 {
     film->name = name;
     film->said_size = 0;
     film->said[0] = '\0';
-    /* posix_spawn() wants writable arguments, but does not change them. */
-    char size[32], rate[32], file[4096], kind[8];
-    (void)snprintf(size, sizeof size, "%dx%d", width, height);
-    (void)snprintf(rate, sizeof rate, "%.6g", fps);
-    (void)snprintf(kind, sizeof kind, "%s", format);
-    if (snprintf(file, sizeof file, "file:%s", out) >= (int)sizeof file)
+    spelled spelt;
+    const char *arguments[MOST_ARGUMENTS];
+    if (!spell(kind, out, &spelt))
         return fst_fail(error, FST_BAD_INPUT, name, "the file name is too long");
-    static const char *const mp4[] = {"-c:v",     "libx264", "-preset",   "veryfast",   "-crf", "20",
-                                      "-pix_fmt", "yuv420p", "-movflags", "+faststart", NULL};
-    static const char *const gif[] = {
-        "-vf", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=none", "-loop", "0", NULL};
-    const char *arguments[MOST_ARGUMENTS] = {
-        "ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "error", "-y", "-f",     "rawvideo", "-pix_fmt",
-        "bgr0",   "-s",       size,           "-r",        rate,    "-i", "pipe:0", "-threads", "2"};
-    int count = 18;
-    for (const char *const *word = strcmp(format, "gif") ? mp4 : gif; *word; ++word)
-        arguments[count++] = *word;
-    arguments[count++] = "-f";
-    arguments[count++] = kind;
-    arguments[count] = file;
+    list_arguments(kind, &spelt, arguments);
     int input[2], words[2];
     /* A socket instead of a pipe, because send() can be told to raise no SIGPIPE when ffmpeg ends early. */
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, input) != 0)
@@ -53,6 +83,7 @@ fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps,
         (void)close(input[1]);
         return fst_fail(error, FST_IO, name, "no pipe from ffmpeg: %s", strerror(errno));
     }
+    /* posix_spawn() wants writable arguments, but does not change them. */
     char *writable[MOST_ARGUMENTS];
     memcpy(writable, arguments, sizeof writable);
     const fst_process ffmpeg = {"ffmpeg", writable, NULL, input[1], -1, words[1]};

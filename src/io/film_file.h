@@ -1,6 +1,6 @@
-/* file.h - whether the file of a film is whole. */
-#ifndef FST_FILM_FILE_H
-#define FST_FILM_FILE_H
+/* film_file.h - whether the file of a film is whole. */
+#ifndef FST_IO_FILM_FILE_H
+#define FST_IO_FILM_FILE_H
 
 #include <festoon/festoon.h>
 

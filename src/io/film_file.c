@@ -1,4 +1,4 @@
-/* file.c - checking the structure of a film, because ffmpeg may report success on a full disk.
+/* film_file.c - checking the structure of a film, because ffmpeg may report success on a full disk.
  *
  * An mp4 is a row of boxes, [size][type][contents], that fill the file exactly.  The box `moov` says where in
  * `mdat` each picture lies and how long it is.  It is written last, so a film that was cut short has none, or
@@ -8,7 +8,7 @@
  *
  * A GIF is a row of blocks that ends with the byte 0x3B.
  */
-#include "film/file.h"
+#include "io/film_file.h"
 
 #include <errno.h>
 #include <stdint.h>

@@ -1,6 +1,6 @@
 /* ffmpeg.h - an ffmpeg process that makes a film of frames. */
-#ifndef FST_FILM_FFMPEG_H
-#define FST_FILM_FFMPEG_H
+#ifndef FST_IO_FFMPEG_H
+#define FST_IO_FFMPEG_H
 
 #include <festoon/festoon.h>
 
@@ -15,11 +15,20 @@ typedef struct fst_ffmpeg {
     size_t said_size;
 } fst_ffmpeg;
 
-/* Start ffmpeg on raw frames of width x height pixels (four bytes each: blue, green, red, unused).  It writes
- * the format "mp4" or "gif" to `out`, over any file there; `name`, which is kept, stands for `out` in messages.
- * FST_UNAVAILABLE: there is no ffmpeg (the sentence names the package). */
-fst_status fst_ffmpeg_start(fst_ffmpeg *film, int width, int height, double fps, const char *format,
-                            const char *out, const char *name, fst_error *error);
+/* What kind of film is made of which frames. */
+typedef struct fst_ffmpeg_kind {
+    int width, height;
+    double fps;
+    const char *format; /* "mp4", "mov", "gif", or "png", a picture of one frame */
+    const char *pixels; /* "bgr0" (four bytes: blue, green, red, unused) or "gray" (one byte) */
+    int quality;        /* of mp4 and mov: from 0, lossless, to 51 */
+    int drop; /* every drop-th frame was lost before it came here, so the times jump there; 0: none was */
+} fst_ffmpeg_kind;
+
+/* Start ffmpeg on raw frames.  It writes to `out`, over any file there; `name`, which is kept, stands for `out`
+ * in messages.  FST_UNAVAILABLE: there is no ffmpeg (the sentence names the package). */
+fst_status fst_ffmpeg_start(fst_ffmpeg *film, const fst_ffmpeg_kind *kind, const char *out, const char *name,
+                            fst_error *error);
 
 /* Hand over the bytes of a frame.  FST_IO: ffmpeg has ended; fst_ffmpeg_end() tells why. */
 fst_status fst_ffmpeg_frame(fst_ffmpeg *film, const unsigned char *bytes, size_t size, fst_error *error);

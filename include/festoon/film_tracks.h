@@ -1,0 +1,54 @@
+/* film_tracks.h - from a film of a bead to its track; festoon_tools.h includes it. */
+#ifndef FESTOON_FILM_TRACKS_H
+#define FESTOON_FILM_TRACKS_H
+
+#include <festoon/festoon.h>
+#include <festoon/tracks.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How a film is tracked.  What stays as fst_default_film_track_options() makes it follows from the film. */
+typedef struct fst_film_track_options {
+    uint32_t cookie;
+    double fps;          /* frames a second, instead of the film's clock; NAN: that clock */
+    const char *scale;   /* "bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm", four points; NULL: pixels */
+    double distance;     /* m from the camera to the plate, by which the bead's height over the plate is
+                            allowed for; NAN: it is not */
+    const char *csv;     /* the track as a file, festoon\'s own CSV; NULL: none */
+    const char *overlay; /* a film, .mp4 or .mov, that shows what was found; NULL: none */
+    const char *picture; /* a picture, .png, of the same; NULL: none */
+    const fst_progress *progress; /* NULL: nobody is told */
+} fst_film_track_options;
+FST_API fst_film_track_options fst_default_film_track_options(void);
+
+/* What is known of a tracked film. */
+typedef struct fst_film_track_report {
+    int width, height;       /* of its pictures, after turning them as the film says */
+    int frames, lost, twins; /* all; those in which the bead was not found; those that repeat the one before */
+    int first_lost, missing; /* the first lost frame (-1: none); frames that the clock leaves room for */
+    double fps, least_step, most_step; /* mean frames a second; shortest and longest time between frames, s */
+    double tick;                       /* of the film's clock, s; 0: unknown */
+    double diameter, noise,
+        contrast;     /* of the bead, pixels; of a pixel, gray levels; of the bead, gray levels */
+    double jitter;    /* pixels by which places scatter about a smooth path; NAN: too few frames */
+    double scale;     /* mm a pixel in the middle of the path; NAN: no scale */
+    double plate[2];  /* the longer and the shorter diameter of the plate's edge, pixels; NAN: not asked */
+    double rim_error; /* how far its points are from the ellipse, pixels */
+    char format[64], codec[64]; /* the file's, for a person */
+    char remark[256];           /* what else a person should know; "" */
+} fst_film_track_report;
+
+/* Track the bead of a film (whatever ffmpeg reads of mp4, mov, webm, gif, avi, ...) or of a folder of images,
+ * which needs `fps`.  Frames count from 0; times are those of the film; y points up in the picture.  Without a
+ * scale the unit is px: (0, 0) is the centre of the pixel at the bottom left.  Memory does not grow with the
+ * film, but for the track itself.  FST_BAD_INPUT: it is no film, no bead or two are found, the scale does not
+ * fit. FST_UNAVAILABLE: there is no ffmpeg.  The files appear only where the call succeeds. */
+FST_API fst_status fst_film_track(const char *film, const fst_film_track_options *options, fst_track *track,
+                                  fst_film_track_report *report, fst_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,123 @@
+/* track.c - festoon track: where the bead is in every frame of a film. */
+#include <math.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+
+static const option options[] = {
+    {"output", 'o', "TRACK.csv",
+     "columns frame,t [s],x [mm],y [mm] (px without a scale), a row a frame; y points up"},
+    {"scale", '\0', "SCALE",
+     "\"bead 5 mm\", \"plate 460 mm\", \"X1,Y1:X2,Y2=50mm\", or four corners \"...=80x60mm\""},
+    {"fps", '\0', "F", "frames a second, instead of the film's clock; a folder of images needs it"},
+    {"distance", '\0', "LENGTH", "from the camera to the plate: allows for the bead's height above it"},
+    {"overlay", '\0', "FILM.mp4",
+     "a film (mp4, mov) that shows what was found, slowed down to 30 frames a second"},
+    {"picture", '\0', "FIG.png", "one picture to check by eye: the path, the plate's edge, and beads enlarged"},
+    {NULL, '\0', NULL, NULL},
+};
+
+static fst_status read_options(const arguments *given, fst_film_track_options *track, fst_error *error)
+{
+    *track = fst_default_film_track_options();
+    track->scale = option_value(given, "scale");
+    track->overlay = option_value(given, "overlay");
+    track->picture = option_value(given, "picture");
+    const char *fps = option_value(given, "fps"), *distance = option_value(given, "distance");
+    fst_status status = fps ? read_numbers("--fps", fps, &track->fps, 1, error) : FST_OK;
+    if (status == FST_OK && distance) {
+        status = fst_parse_value(distance, FST_UNIT_LENGTH, &track->distance, error);
+        if (status != FST_OK)
+            (void)snprintf(error->where, sizeof error->where, "--distance");
+    }
+    return status;
+}
+
+static void print_report(const fst_film_track_report *r, FILE *out)
+{
+    (void)fprintf(out, "film        %s, %s, %d x %d pixels\n", r->format, r->codec, r->width, r->height);
+    (void)fprintf(out, "frames      %d, %.6g a second on average\n", r->frames, r->fps);
+    if (r->most_step - r->least_step > fmax(0.01 * r->least_step, 1.5 * r->tick)) /* a coarse clock rounds */
+        (void)fprintf(out, "            the frame rate varies: %.4g to %.4g ms from frame to frame\n",
+                      1e3 * r->least_step, 1e3 * r->most_step);
+    if (r->missing)
+        (void)fprintf(out, "            the clock leaves room for %d more, which the film does not have\n",
+                      r->missing);
+    (void)fprintf(out, "duplicates  %d\n", r->twins);
+    (void)fprintf(out, "lost        %d", r->lost);
+    if (r->lost)
+        (void)fprintf(out, ", first frame %d", r->first_lost);
+    (void)fprintf(out, "\nbead        %.1f pixels wide; noise of a pixel %.1f gray levels\n", r->diameter,
+                  r->noise);
+    if (!isnan(r->jitter))
+        (void)fprintf(out, "scatter     %.2f pixels about a smooth path\n", r->jitter);
+    if (!isnan(r->scale))
+        (void)fprintf(out, "scale       %.5g mm a pixel in the middle of the path\n", r->scale);
+    if (!isnan(r->plate[0]))
+        (void)fprintf(out, "plate       %.1f x %.1f pixels; its edge is within %.2f pixels of an ellipse\n",
+                      r->plate[0], r->plate[1], r->rim_error);
+}
+
+/* What makes a person look twice. */
+static void warn(const fst_film_track_report *r)
+{
+    if (r->remark[0])
+        (void)fprintf(stderr, "festoon: warning: %s\n", r->remark);
+    if (r->twins > r->frames / 50)
+        (void)fprintf(
+            stderr,
+            "festoon: warning: %d frames repeat the one before: the film was converted to another frame "
+            "rate, and its clock is wrong by as much as a frame; take the original\n",
+            r->twins);
+    if (r->lost > r->frames / 50)
+        (void)fprintf(
+            stderr,
+            "festoon: warning: the bead was lost in %d of %d frames: look at them with an overlay; shorter "
+            "exposure, more light and a plain plate help\n",
+            r->lost, r->frames);
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    fst_film_track_options film;
+    fst_film_track_report report;
+    fst_track track;
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    const char *path = operand(given), *to = option_value(given, "output");
+    if (!path)
+        return fail(error, FST_BAD_INPUT, "", "a film is missing, or a folder of images");
+    if (!to)
+        return fail(error, FST_BAD_INPUT, "", "say where the track goes: -o TRACK.csv");
+    fst_status status = read_options(given, &film, error);
+    if (status != FST_OK)
+        return status;
+    film.progress = &progress;
+    film.csv = to;
+    progress_begin(&line);
+    status = fst_film_track(path, &film, &track, &report, error);
+    progress_end(&line);
+    if (status != FST_OK)
+        return status;
+    print_report(&report, out);
+    warn(&report);
+    tell_written(to, "");
+    fst_track_free(&track);
+    return FST_OK;
+}
+
+const command track_command = {
+    .name = "track",
+    .synopsis = "FILM|FOLDER -o TRACK.csv [--scale SCALE] [options]",
+    .summary = "Find the bead in every frame of a film, for festoon measure",
+    .details =
+        "FILM is what ffmpeg reads of mp4, mov, webm, gif, avi ...; FOLDER has images (PNG, JPEG, BMP, PGM, "
+        "PPM),\n"
+        "taken in the order of their names and numbers.  The camera must stand still; the bead must be darker\n"
+        "or brighter than the plate.  Pixels of a scale count from the top left, as in viewers of pictures.\n",
+    .options = options,
+    .most_operands = 1,
+    .has_helpers = 1,
+    .perform = perform,
+};

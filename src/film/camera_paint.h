@@ -1,0 +1,51 @@
+/* camera_paint.h - what a camera over the plate sees, in gray levels.
+ *
+ *   scene x light --> still picture --> the bead, row by row at the time of that row --> flicker --> noise
+ *
+ * A row of a rolling shutter begins later than the row above it.  Over its exposure the bead moves: its picture
+ * is the mean over some moments, which blurs it as in a film.
+ */
+#ifndef FST_FILM_CAMERA_PAINT_H
+#define FST_FILM_CAMERA_PAINT_H
+
+#include "film/camera_view.h"
+
+#include <festoon/festoon_tools.h>
+
+/* Where the bead is: columns of a trajectory, between whose rows cubic curves go. */
+typedef struct fst_camera_motion {
+    const double *t, *x, *y, *vx, *vy; /* scaled, as the trajectory has them */
+    size_t rows;
+    double second, millimetre; /* what the units of t and x are worth */
+    size_t row;                /* where the last look was */
+} fst_camera_motion;
+
+/* The place at a moment, in mm. */
+void fst_camera_motion_at(fst_camera_motion *motion, double seconds, double place[2]);
+
+typedef struct fst_camera_paint {
+    fst_camera_view view;
+    int width, height;
+    double plate, bead;       /* radii, mm */
+    double marks;             /* half the side of the square at whose corners marks are printed, mm */
+    double exposure, readout; /* s */
+    double noise, flicker, uneven;
+    uint64_t seed;
+    float *still; /* the picture without a bead, in gray levels */
+    float *row;   /* room for a row of a frame */
+} fst_camera_paint;
+
+/* Paint the still picture; `paint` has its other members.  FST_NO_MEMORY. */
+fst_status fst_camera_paint_begin(fst_camera_paint *paint, fst_error *error);
+void fst_camera_paint_end(fst_camera_paint *paint);
+
+/* Paint the frame number `index`, which begins at a moment of the motion. */
+void fst_camera_paint_frame(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds,
+                            uint64_t index, unsigned char *pixels);
+
+/* Where the bead was on the mean over the exposure of the row on which it is seen: its place in mm, and column
+ * and row. */
+void fst_camera_paint_truth(const fst_camera_paint *paint, fst_camera_motion *motion, double seconds,
+                            double place[2], double seen[2]);
+
+#endif
