@@ -74,8 +74,9 @@ enum { FST_WARNING_LIMIT = 24, FST_WARNING_SIZE = 360, FST_WAVE_LIMIT = 8 };
 
 typedef struct fst_measure_options {
     uint32_t cookie;
-    double drive;    /* Hz; negative where the magnet turns clockwise in the film; NAN: unknown */
-    double exposure; /* s that a frame was exposed; NAN: unknown, nothing is corrected */
+    double drive;                 /* Hz; negative where the magnet turns clockwise in the film; NAN: unknown */
+    double exposure;              /* s that a frame was exposed; NAN: unknown, nothing is corrected */
+    const fst_progress *progress; /* NULL: nobody is told */
 } fst_measure_options;
 FST_API fst_measure_options fst_default_measure_options(void);
 

@@ -227,8 +227,14 @@ static fst_status measure_track(job *j, int index, fst_error *error)
     fst_status status = fst_track_read(path, &j->how, &track, &understood, error);
     if (status == FST_OK && understood)
         (void)fprintf(stderr, "%s: %s\n", shown(path, text), understood);
-    if (status == FST_OK)
+    if (status == FST_OK) {
+        progress_line line;
+        const fst_progress progress = {&line, progress_tell};
+        j->what.progress = &progress;
+        progress_begin(&line);
         status = fst_measure_track(&track, &j->what, &measured, error);
+        progress_end(&line);
+    }
     if (status != FST_OK && !error->where[0])
         (void)snprintf(error->where, sizeof error->where, "%.255s", path);
     if (status == FST_OK)

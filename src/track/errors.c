@@ -240,7 +240,7 @@ static void take_radius(const track_work *work, const turn_sums *turns, const do
     for (int k = 1; k < harmonics; ++k)
         waves += 0.5 * (c[k] * c[k] - square * work->gain * work->gain * work->radial.inverse[k][k]);
     measured->noise = sqrt(noise);
-    measured->mean_r = factor * c[0];
+    measured->mean_r = factor * (c[0] - noise / (2.0 * c[0])); /* noise across the radius lengthens it */
     measured->mean_r_error = sqrt(isfinite(of_r0) ? fmax(of_r0, variance[R0])
                                                   : variance[R0] + c[0] * c[0] * systematic * systematic);
     measured->std_r = factor * sqrt(fmax(0.0, waves));

@@ -20,6 +20,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/watch.h"
 #include "track/spectrum.h"
 
 enum { LEAST_ROWS = 16, MOST_ROUNDS = 60 };
@@ -81,12 +82,18 @@ static int harmonic_row(const track_work *work, size_t i, double *row)
 {
     int n = 0;
     row[n++] = 1.0;
-    for (int k = 1; k <= work->harmonics && work->f0 > 0; ++k) {
+    if (!(work->f0 > 0))
+        return n;
+    const double angle = FST_TWO_PI * work->f0 * work->t[i], c1 = cos(angle), s1 = sin(angle);
+    double c = 1.0, s = 0.0;
+    for (int k = 1; k <= work->harmonics; ++k) {
+        const double turned = c * c1 - s * s1;
+        s = s * c1 + c * s1;
+        c = turned;
         if (work->skipped[k - 1])
             continue;
-        const double angle = FST_TWO_PI * k * work->f0 * work->t[i];
-        row[n++] = cos(angle);
-        row[n++] = sin(angle);
+        row[n++] = c;
+        row[n++] = s;
     }
     return n;
 }
@@ -336,6 +343,11 @@ static fst_status settle(track_work *work, fst_error *error)
     work->angular.coefficient[0] = phase;
     work->angular.coefficient[work->angular.columns - 1] = rate;
     for (int round = 0; round < MOST_ROUNDS; ++round) {
+        /* How many rounds there will be is not known: some forty are usual. */
+        const fst_status told = fst_tell(work->progress, work->rounds / (work->rounds + 10.0), NULL, error);
+        if (told != FST_OK)
+            return told;
+        work->rounds += 1.0;
         place_rows(work);
         fit_angular(work);
         fit_radial(work);

@@ -34,6 +34,8 @@ typedef struct track_work {
     int skipped[TRACK_HARMONICS]; /* harmonics that cannot be told from others at this frame rate */
     double peak;                  /* the strongest line of r; 0: none beyond the noise */
     int half;                     /* there is a line at half that frequency too */
+    const fst_progress *progress; /* NULL: nobody is told */
+    double rounds;                /* of the regression so far */
     double gain;                  /* by how much r oscillates more since an exposure was undone */
     track_fit radial, angular;
 } track_work;
