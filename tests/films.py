@@ -4,6 +4,9 @@ import csv
 import math
 import os
 import subprocess
+import tempfile
+import unittest
+from pathlib import Path
 
 FESTOON = os.environ["FESTOON"]
 
@@ -63,3 +66,38 @@ def compare(track, truth):
     mean = [sum(math.hypot(p[i] - means[i], p[i + 1] - means[i + 1]) for p in pairs) for i in (0, 2)]
     return {"rms": rms, "lost": len(rows) - len(pairs), "rows": len(rows), "true_rows": len(true),
             "ratio": mean[0] / mean[1], "offset": math.hypot(means[0] - means[2], means[1] - means[3])}
+
+
+SMALL = ("--size", "320x240", "--tilt", "10deg", "--readout", "0ms", "--seed", "7")
+
+
+class OnFilms(unittest.TestCase):
+    """Tests on a short film, a.mp4, in a folder of their own."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.scratch = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.scratch.name)
+        cls.path = cls.folder / "t.csv"
+        trajectory(cls.path)
+        cls.facts = film(cls.path, cls.folder / "a.mp4", *SMALL, "--to", "2.7")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.scratch.cleanup()
+
+    def track(self, film, *options):
+        out = self.folder / "out.csv"
+        out.unlink(missing_ok=True)
+        done = run("track", film, "-o", out, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return out, done
+
+    def refused(self, film, words, *options, status=2):
+        """The sentence has these words, and nothing is left behind."""
+        before = set(os.listdir(self.folder))
+        done = run("track", film, "-o", self.folder / "no.csv", *options)
+        self.assertEqual(done.returncode, status, done.stderr)
+        for word in words.split("|"):
+            self.assertIn(word, done.stderr)
+        self.assertEqual(set(os.listdir(self.folder)), before)

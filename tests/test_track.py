@@ -1,5 +1,5 @@
-"""`festoon movie --camera` and `festoon track`, on short films of few pixels: places and times against the truth, scales,
-lost frames, names of files that could be taken for something else, and what cannot be tracked.
+"""`festoon movie --camera` and `festoon track` on a short film of few pixels: places and times against the truth, scales,
+names of files, and what cannot be tracked.  More: test_track_long.py.
 
 Environment: FESTOON is the program.  Without ffmpeg the test is skipped.
 """
@@ -8,48 +8,16 @@ import math
 import os
 import shutil
 import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import films
-from films import compare, ffmpeg, run
+from films import SMALL, compare, ffmpeg, run
 
 if not films.can_film():
     sys.exit(77)
 
-SMALL = ("--size", "320x240", "--tilt", "10deg", "--readout", "0ms", "--seed", "7")
 
-
-class Track(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.scratch.name)
-        cls.path = cls.folder / "t.csv"
-        films.trajectory(cls.path)
-        cls.facts = films.film(cls.path, cls.folder / "a.mp4", *SMALL, "--to", "2.7")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
-
-    def track(self, film, *options):
-        out = self.folder / "out.csv"
-        out.unlink(missing_ok=True)
-        done = run("track", film, "-o", out, *options)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return out, done
-
-    def refused(self, film, words, *options, status=2):
-        """The sentence has these words, and nothing is left behind."""
-        before = set(os.listdir(self.folder))
-        done = run("track", film, "-o", self.folder / "no.csv", *options)
-        self.assertEqual(done.returncode, status, done.stderr)
-        for word in words.split("|"):
-            self.assertIn(word, done.stderr)
-        self.assertEqual(set(os.listdir(self.folder)), before)
-
+class Track(films.OnFilms):
     def test_places_and_times(self):
         """Within 0.3 pixels of the truth, none lost, y up, rows and times those of the film."""
         out, done = self.track(self.folder / "a.mp4")
@@ -64,10 +32,6 @@ class Track(unittest.TestCase):
             self.assertAlmostEqual(row[1], i / 240, places=9)
         self.assertIn(f"frames      {len(rows)}, 240 a second", done.stdout)
         self.assertIn("lost        0\n", done.stdout)
-
-    def test_the_same_track_again(self):
-        first = self.track(self.folder / "a.mp4")[0].read_bytes()
-        self.assertEqual(first, self.track(self.folder / "a.mp4")[0].read_bytes())
 
     def test_millimetres(self):
         """By the plate's edge and by four marks of a tilted plate: lengths within half a percent.  The bead's own
@@ -89,55 +53,6 @@ class Track(unittest.TestCase):
             self.assertAlmostEqual(b[2], 0.5 * a[2], places=9)
             self.assertAlmostEqual(b[3], 0.5 * a[3], places=9)
 
-    def test_frames_that_the_camera_lost(self):
-        """Times jump where a frame is missing, and a person is told."""
-        films.film(self.path, self.folder / "d.mp4", *SMALL, "--to", "2.7", "--drop", "7")
-        out, done = self.track(self.folder / "d.mp4")
-        rows, truth = films.read(out)[1], films.read(self.folder / "d.truth.csv")[1]
-        self.assertEqual(len(rows), len(truth))
-        for row, true in zip(rows, truth):
-            self.assertAlmostEqual(row[1], true[1], places=6)
-        self.assertLess(compare(out, self.folder / "d.truth.csv")["rms"], 0.3)
-        self.assertIn("the frame rate varies", done.stdout)
-        self.assertIn("leaves room for", done.stdout)
-
-    def test_turned_films(self):
-        """A film that says it is to be turned is turned: x becomes what was down."""
-        ffmpeg("-i", self.folder / "a.mp4", "-c", "copy", "-metadata:s:v", "rotate=90", self.folder / "r.mp4")
-        plain = films.read(self.track(self.folder / "a.mp4")[0])[1]
-        turned = films.read(self.track(self.folder / "r.mp4")[0])[1]
-        for a, b in zip(plain, turned):
-            self.assertAlmostEqual(b[2], 239 - a[3], delta=0.2)
-            self.assertAlmostEqual(b[3], a[2], delta=0.2)
-
-    def test_images_in_a_folder(self):
-        """Frames as PGM and PNG, in the order of their numbers; without --fps they have no clock."""
-        films.film(self.path, self.folder / "images", *SMALL, "--to", "1.5")
-        found = compare(self.track(self.folder / "images", "--fps", "240")[0], self.folder / "images.truth.csv")
-        self.assertLess(found["rms"], 0.3)
-        self.assertEqual((found["lost"], found["rows"]), (0, found["true_rows"]))
-        self.refused(self.folder / "images", "clock|fps")
-        (self.folder / "png").mkdir()
-        ffmpeg("-i", self.folder / "images" / "frame-%05d.pgm", self.folder / "png" / "f%d.png")
-        (self.folder / "png" / "notes.txt").write_text("not an image")
-        found = compare(self.track(self.folder / "png", "--fps", "240")[0], self.folder / "images.truth.csv")
-        self.assertLess(found["rms"], 0.3)
-        self.assertEqual(found["lost"], 0)
-
-    def test_names_are_only_names(self):
-        """Names that ffmpeg could take for options, patterns or protocols."""
-        (self.folder / "http:").mkdir()
-        plain = self.track(self.folder / "a.mp4")[0].read_bytes()
-        for name in ("-i.mp4", "a%d 'q\"\n.mp4", "concat:x|y.mp4", "http:/x.mp4"):
-            shutil.copy(self.folder / "a.mp4", self.folder / name)
-            done = run("track", "-o", "named.csv", "--", name, cwd=self.folder)
-            self.assertEqual(done.returncode, 0, (name, done.stderr))
-            self.assertEqual((self.folder / "named.csv").read_bytes(), plain)
-        done = run("track", "a.mp4", "-o", "o%d.csv", "--overlay", "v%d.mp4", "--picture", "p%d.png", cwd=self.folder)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn(b"ftyp", (self.folder / "v%d.mp4").read_bytes()[:12])
-        self.assertEqual((self.folder / "p%d.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
-
     def test_lists_of_other_files_are_no_films(self):
         """A playlist that names a film is not followed."""
         for name, text in (("x.m3u8", f"#EXTM3U\n#EXTINF:1,\nfile://{self.folder}/a.mp4\n"),
@@ -148,17 +63,6 @@ class Track(unittest.TestCase):
         self.refused("/dev/zero", "regular file")
         (self.folder / "empty").mkdir()
         self.refused(self.folder / "empty", "no images")
-
-    def test_what_cannot_be_tracked(self):
-        """No bead, one frame, two beads, no pictures: each a sentence that helps."""
-        ffmpeg("-f", "lavfi", "-i", "color=gray:s=160x120:d=1,noise=alls=8", self.folder / "blank.mp4")
-        self.refused(self.folder / "blank.mp4", "no bead was found|gray levels")
-        ffmpeg("-i", self.folder / "a.mp4", "-frames:v", "1", self.folder / "one.mp4")
-        self.refused(self.folder / "one.mp4", "1 frame|5 frames")
-        ffmpeg("-i", self.folder / "a.mp4", "-filter_complex", "[0]split[b][c];[b][c]hstack", self.folder / "two.mp4")
-        self.refused(self.folder / "two.mp4", "two things|one bead")
-        ffmpeg("-f", "lavfi", "-i", "sine=d=1", self.folder / "sound.mp4")
-        self.refused(self.folder / "sound.mp4", "no pictures")
 
     def test_what_is_not_understood(self):
         good = self.folder / "a.mp4"
@@ -207,6 +111,20 @@ class Track(unittest.TestCase):
             for key, value in (("x", x), ("y", y)):
                 between = rows[i][key] + part * (rows[i + 1][key] - rows[i][key])
                 self.assertTrue(math.isclose(23.0 * between, value, abs_tol=0.1), (frame, key))
+
+    def test_names_are_only_names(self):
+        """A name that ffmpeg could take for an option, a pattern or a protocol; names of files to write."""
+        name = "-i concat:a%d 'q\"\n|x.mp4"
+        shutil.copy(self.folder / "a.mp4", self.folder / name)
+        done = run("track", "-o", "o%d.csv", "--overlay", "v%d.mp4", "--picture", "p%d.png", "--", name, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn(b"ftyp", (self.folder / "v%d.mp4").read_bytes()[:12])
+        self.assertEqual((self.folder / "p%d.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(compare(self.folder / "o%d.csv", self.folder / "a.truth.csv")["lost"], 0)
+
+    def test_no_bead(self):
+        ffmpeg("-f", "lavfi", "-i", "color=gray:s=160x120:d=1,noise=alls=8", self.folder / "blank.mp4")
+        self.refused(self.folder / "blank.mp4", "no bead was found|gray levels")
 
 
 if __name__ == "__main__":
