@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PACKAGES = tools/install-packages.sh
 C_FILES = $(shell find src include tests bench docs examples tools -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp')
 
-.PHONY: build demo test test-long reliability mutants bench install docs format check-format clean help
+.PHONY: build demo test test-long reliability mutants bench install deb docs format check-format clean help
 
 build: ## build build/festoon (optimised)
 	@$(PACKAGES) build
@@ -63,6 +63,10 @@ install: ## install under $(DESTDIR)$(PREFIX), /usr/local unless told
 	@cmake --preset release --log-level=WARNING -DCMAKE_INSTALL_PREFIX=$(PREFIX)
 	@cmake --build build -j $(JOBS)
 	@DESTDIR=$(DESTDIR) cmake --install build
+
+deb: ## Debian packages libfestoon0, libfestoon-dev and festoon, in build-deb
+	@$(PACKAGES) deb
+	@tools/make-deb build-deb
 
 docs: ## the API reference, in build/docs/html
 	@$(PACKAGES) docs

@@ -115,11 +115,11 @@ static int take(void *user, fst_row_job *job, fst_status status, const fst_run_r
     return 0;
 }
 
-static void in_lanes(double exact, fst_arithmetic arithmetic, int lanes)
+/* The trajectories of a basin by so many lanes of a form; *alone: the time of one by one lane, which is
+ * measured there. */
+static void in_lanes(const fst_params *p, double exact, fst_arithmetic arithmetic, int lanes, double *alone)
 {
-    basin b = {.params = dry_bead(), .exact = exact};
-    b.params.run_method = FST_METHOD_SPLITTING;
-    b.params.run_step = 0.0125;
+    basin b = {.params = *p, .exact = exact};
     const fst_row_work work = {
         .user = &b, .arithmetic = arithmetic, .lanes = lanes, .next = next_start, .done = take};
     fst_error error = {FST_OK, "", ""};
@@ -129,12 +129,24 @@ static void in_lanes(double exact, fst_arithmetic arithmetic, int lanes)
         return;
     }
     const double time = (seconds() - began) / BASIN;
-    (void)printf("            %-9s %d lanes   %6.1f ms a trajectory;", fst_arithmetic_name(arithmetic), lanes,
-                 1e3 * time);
+    if (lanes == 1)
+        *alone = time;
+    (void)printf("            %-9s %d lanes   %6.1f ms a trajectory, %5.2f times cheaper;",
+                 fst_arithmetic_name(arithmetic), lanes, 1e3 * time, *alone / time);
     for (int i = 0; i <= FST_REGIME_LIFTED; ++i)
         if (b.outcomes[i])
             (void)printf(" %d %s", b.outcomes[i], fst_regime_name((fst_regime)i));
     (void)printf(", <r> of those to %.1e\n", b.worst);
+}
+
+static void basins(const fst_params *p, double exact)
+{
+    double alone = 0.0;
+    in_lanes(p, exact, FST_ARITHMETIC_PORTABLE, 1, &alone);
+    in_lanes(p, exact, FST_ARITHMETIC_PORTABLE, 4, &alone);
+    in_lanes(p, exact, FST_ARITHMETIC_PORTABLE, 8, &alone);
+    in_lanes(p, exact, FST_ARITHMETIC_AVX2, 4, &alone);
+    in_lanes(p, exact, FST_ARITHMETIC_AVX512, 8, &alone);
 }
 
 int main(void)
@@ -148,12 +160,16 @@ int main(void)
     (void)printf("dry friction, mu = 0.2, 10.7 Hz: <r> = %.12f\n", exact);
     by_events(exact);
     by_splitting(exact);
-    (void)printf("a basin's trajectories: %g drive periods, run.step = 0.0125, %d starts\n", PERIODS,
-                 (int)BASIN);
-    in_lanes(exact, FST_ARITHMETIC_PORTABLE, 1);
-    in_lanes(exact, FST_ARITHMETIC_PORTABLE, 4);
-    in_lanes(exact, FST_ARITHMETIC_PORTABLE, 8);
-    in_lanes(exact, FST_ARITHMETIC_AVX2, 4);
-    in_lanes(exact, FST_ARITHMETIC_AVX512, 8);
+    p = dry_bead();
+    p.run_method = FST_METHOD_SPLITTING;
+    p.run_step = 0.0125;
+    (void)printf("a basin's trajectories: %g drive periods, %d starts, by splitting, run.step = %g\n", PERIODS,
+                 (int)BASIN, p.run_step);
+    basins(&p, exact);
+    p = dry_bead();
+    for (p.run_rtol = 1e-5; p.run_rtol > 1e-11; p.run_rtol *= 1e-3) {
+        (void)printf("the same by events, run.rtol = %.0e\n", p.run_rtol);
+        basins(&p, exact);
+    }
     return 0;
 }

@@ -1,5 +1,5 @@
 # What the tools need (the physics in libfestoon needs the C library alone).  POSIX threads, libyaml, jansson and
-# SQLite are required; HDF5, LAPACK, Cairo, MPI, gnuplot and ffmpeg are optional, and a program without them says so in
+# SQLite are required; HDF5, LAPACK, Cairo, MPI, cminpack, gnuplot and ffmpeg are optional, and a program without them says so in
 # `festoon --version`.
 
 # libfestoon itself needs the C library alone; what seeks orbits loads LAPACK as a module.
@@ -13,6 +13,7 @@ endif()
 set(FESTOON_HAVE_HDF5 OFF)
 set(FESTOON_HAVE_CAIRO OFF)
 set(FESTOON_HAVE_MPI OFF)
+set(FESTOON_HAVE_CMINPACK OFF)
 if(NOT FESTOON_TOOLS)
     return()
 endif()
@@ -44,6 +45,13 @@ if(MPI_FOUND)
     set(FESTOON_HAVE_MPI ON)
 else()
     message(STATUS "Open MPI not found (libopenmpi-dev): festoon sweep will run as one process only")
+endif()
+
+pkg_check_modules(CMINPACK QUIET IMPORTED_TARGET cminpack)
+if(CMINPACK_FOUND)
+    set(FESTOON_HAVE_CMINPACK ON)
+else()
+    message(STATUS "cminpack not found (libcminpack-dev): festoon will fit no parameters")
 endif()
 
 # gnuplot is run as a process when a figure is drawn; it need not be there now.

@@ -9,6 +9,7 @@ Limits of time only end what hangs.
 Environment: FESTOON_SHORTER (1) is what times of work are divided by; tests must pass, or say that they skip, with any.
 """
 
+import fcntl
 import os
 import pty
 import resource
@@ -16,6 +17,7 @@ import select
 import signal
 import sqlite3
 import subprocess
+import termios
 import time
 import unittest
 
@@ -156,8 +158,9 @@ def on_a_terminal(words, until, number=signal.SIGINT, as_key=False, used=None):
     processor time from the strike on is added to the list `used`."""
     before, at_signal = children_time(), 0.0
     leader, follower = pty.openpty()
+    own_terminal = (lambda: fcntl.ioctl(follower, termios.TIOCSCTTY, 0)) if as_key else None  # else no key is a signal
     process = subprocess.Popen(words, stdin=follower if as_key else subprocess.DEVNULL, stdout=subprocess.PIPE,
-                               stderr=follower, start_new_session=as_key)
+                               stderr=follower, start_new_session=as_key, preexec_fn=own_terminal)
     os.close(follower)
     shown, sent = "", False
     while True:

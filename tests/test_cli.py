@@ -1,13 +1,14 @@
 """The program as a user meets it: exit statuses, output on the right stream, the JSON keys that scripts rely on,
 files.
 
-Environment: FESTOON is the program, SOURCE_DIR the source tree.
+Environment: FESTOON is the program, SOURCE_DIR the source tree, BUILD_DIR the build tree.
 """
 
 import json
 import math
 import os
 import re
+import shlex
 import signal
 import subprocess
 import tempfile
@@ -18,6 +19,7 @@ import events
 
 FESTOON = os.environ["FESTOON"]
 SOURCE_DIR = os.environ["SOURCE_DIR"]
+BUILD_DIR = os.environ["BUILD_DIR"]
 
 SHORT = ["--set", "run.periods=30", "--set", "run.discard=10"]
 
@@ -81,16 +83,38 @@ class Usage(Case):
             self.assertIn(command, self.good("--help"))
 
     def test_the_manual_page_names_what_the_help_names(self):
-        """Every option in the manual page is in a command's help, and every command is in the manual page."""
-        with open(os.path.join(SOURCE_DIR, "docs", "festoon.1.in"), encoding="utf-8") as file:
-            page = file.read().replace("\\-", "-")
+        """The page has every command, every option of each with its value and its words, and no other option."""
+        with open(os.path.join(BUILD_DIR, "docs", "festoon.1"), encoding="utf-8") as file:
+            page = re.sub(r"\\f[BIR]", "", file.read()).replace("\\-", "-").replace("\\e", "\\")
         commands = re.findall(r"^  ([a-z]+) +[A-Z]", self.good("--help"), re.M)
-        self.assertEqual(len(commands), 14)
-        helps = self.good("--help") + "".join(self.good(command, "--help") for command in commands)
-        known = set(re.findall(r"--[a-z-]*[a-z]", helps))
-        self.assertEqual(set(re.findall(r"--[a-z-]*[a-z]", page)) - known - {"--mpi"}, set())
+        with open(os.path.join(SOURCE_DIR, "src", "cli", "commands.c"), encoding="utf-8") as file:
+            self.assertEqual(len(commands), len(re.findall(r"&\w+_command\b", file.read())))
+        known = set(re.findall(r"--[a-z0-9-]*[a-z0-9]", self.good("--help")))
+        sections = dict(re.findall(r"^\.SS (\w+)\n(.*?)(?=^\.S[SH])", page, re.M | re.S))
+        self.assertEqual(list(sections), commands)
         for command in commands:
-            self.assertRegex(page, rf"(?m)^\.BR? {command}\b")
+            self.assertTrue(re.search(rf"(?m)^\.BR? {command}\b", page), f"docs/festoon.1.in says nothing of {command}")
+            helped = self.good(command, "--help")
+            self.assertIn(re.search(r"usage: festoon \w+ (.*)", helped)[1], sections[command])
+            table = helped.split("options:\n")[1].rsplit("   --help", 1)[0]
+            rows = re.findall(r"^ +(?:-\w, )?--\S+(?: \S+)?\s+(.*)", table, re.M)
+            self.assertEqual(sections[command].count("\n.TP\n") + sections[command].startswith(".TP"), len(rows))
+            for option, value in re.findall(r"^ +((?:-\w, )?--\S+)((?: \S+)?)", table, re.M):
+                self.assertIn(f".TP\n{option}{value}\n", sections[command], command)
+                known.add(re.search(r"--[a-z0-9-]+", option)[0])
+            for words in rows:
+                self.assertIn(words, sections[command], command)
+        self.assertEqual(set(re.findall(r"--[a-z0-9-]*[a-z0-9]", page)) - known - {"--mpi"}, set())
+
+    def test_alone_it_greets(self):
+        """Without a word, festoon shows three commands, which work in this order; an empty word is still an error."""
+        text = self.good()
+        commands = re.findall(r"^  festoon (.*?)  ", text, re.M)
+        self.assertEqual([command.split()[0] for command in commands], ["run", "plot", "init"])
+        for command in commands:
+            self.good(*shlex.split(command), cwd=self.directory)
+        self.assertEqual(sorted(os.listdir(self.directory)), ["bead.h5", "my-bead.yaml", "path.dat", "path.gp", "path.png"])
+        self.bad([""], "unknown command")
 
     def test_version_is_quick(self):
         """A start takes less than 10 ms. The test takes the best of many, because the machine may be busy."""
@@ -102,7 +126,6 @@ class Usage(Case):
         print(f"festoon --version: {1e3 * best:.1f} ms")
 
     def test_unknown_words(self):
-        self.bad([], "command is missing")
         self.bad(["rnu"], "nearest is run")
         self.bad(["help", "feild"], "nearest is field")
         self.bad(["--versoin"], "nearest is --version")
@@ -130,8 +153,8 @@ class Usage(Case):
     def test_bad_options(self):
         self.bad(["field"], "--at")
         self.bad(["field", "--json", "-o", self.path("f.svg")], "--at")
-        for at in ("1", "1,2,3", "1,", ",1", "1,b", "1;2", "1,nan", ""):
-            self.bad(["field", "--at", at], "--at")
+        for at in ("1", "1,2,3", "1,", ",1", "1,b", "1;2", "1,nan", "", "1Hz,2", "1mm,2g", "1mm", "1,5mm,2mm"):
+            self.bad(["field", "--at", at], "--at", "10mm,5mm")
         for ramp in ("7", "7:", ":7", "7:0", "7:-3", "7:8:9", "omega=0.2", "omega=0.2:9 Hz", "7 mm:8 mm"):
             self.bad(["run", "--ramp", ramp], "--ramp")
         self.bad(["run", "--ramp-points", "3"], "--ramp")
@@ -152,7 +175,43 @@ class Usage(Case):
         self.bad(["run", "--set", "bead.material=paramagnetic", "--set", "bead.b=1e-3"], "bead.b", "mixed only")
 
 
+    def test_nearest_names(self):
+        self.bad(["run", "--set", "drive.freq=9"], "the nearest is drive.frequency ")
+        self.bad(["run", "--set", "freq=9"], "the nearest is drive.frequency ")
+        self.bad(["branch", "--kind", "counter", "--over", "drive.freq=9:10"], "the nearest is drive.frequency")
+        self.bad(["sweep", "--over", "drive.freq=9:10:3", "-o", self.path("a.db")], "the nearest is drive.frequency ")
+        self.bad(["run", "--out=x.h5"], "the nearest is --output")
+
+    def test_decimal_comma(self):
+        self.bad(["run", "--set", "drive.frequency=1,5 Hz"], 'has a decimal comma: write "1.5 Hz", with a point')
+        self.bad(["run", "--ramp", "7,5:20"], 'has a decimal comma: write "7.5", with a point')
+        scene = self.path("s.yaml", "bead:\n  radius: 2,5 mm\n")
+        self.bad(["check", scene], "s.yaml:2", 'write "2.5 mm"')
+
+
 class Scenes(Case):
+    def test_from_standard_input(self):
+        """`-` is a scene that another program writes; its errors name the line."""
+        scene = self.path("s.yaml", self.good("init", "-", "--set", "drive.frequency=12 RPM"))
+        with open(scene, "rb") as file:
+            piped = self.good("check", "-", "--json", stdin=file)
+        self.assertEqual(piped, self.good("check", scene, "--json"))
+        for contents, status, part in (("bead:\n  raduis: 1 mm\n", 2, "standard input:2: unknown key"), ("", 2, "empty"),
+                                       ("# " + "x" * (1 << 20), 2, "1048576")):
+            reader = subprocess.run([FESTOON, "run", "-"], input=contents.encode(), capture_output=True, check=False)
+            self.assertEqual((reader.returncode, reader.stdout), (status, b""))
+            self.assertIn(part, reader.stderr.decode())
+        closed = subprocess.run(["/bin/sh", "-c", '"$0" run - <&-', FESTOON], capture_output=True, check=False)
+        self.assertEqual(closed.returncode, 1)
+        self.assertIn(b"standard input", closed.stderr)
+
+    def test_interrupted_while_it_waits_for_a_scene(self):
+        with subprocess.Popen([FESTOON, "run", "-"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as waits:
+            events.wait_for(waits, lambda: events.listens(waits))
+            waits.send_signal(signal.SIGINT)
+            self.assertEqual(waits.wait(events.HANG), 130)
+            self.assertIn(b"interrupted while reading the scene", waits.stderr.read())
+
     def refused(self, contents, where, *parts):
         path = self.path("s.yaml", contents)
         return self.bad(["check", path], path + where, *parts)
@@ -431,11 +490,62 @@ class StandardOutput(Case):
         with open(path) as file:
             self.assertEqual(file.read().splitlines()[-1], "# complete = true")
 
+    def test_a_reader_that_takes_a_part(self):
+        """export --csv | head -1: no error and no message, whether the output is small or larger than a pipe."""
+        base = self.path("a.db")
+        self.good("sweep", "--over", "drive.frequency=9Hz:12Hz:200", "--set", "run.periods=1", "--set", "run.discard=0.5", "-o", base)
+        for words in (["export", base, "--csv"], ["export", base, "--json"], ["schema"], ["run", "--json", *SHORT]):
+            with open(self.path("said"), "wb") as said, \
+                    subprocess.Popen([FESTOON, *words], stdout=subprocess.PIPE, stderr=said) as writer:
+                self.assertTrue(writer.stdout.readline())
+                writer.stdout.close()
+                self.assertEqual(writer.wait(events.HANG), 0)
+            self.assertEqual(os.path.getsize(self.path("said")), 0)
+
     def test_broken_pipe(self):
         reader, writer = os.pipe()
         os.close(reader)
         with os.fdopen(writer, "w") as stream:
             self.bad(["schema"], "standard output", status=1, stdout=stream)
+
+
+class ForPeople(Case):
+    """What a person reads on the screen."""
+
+    def test_no_negative_zero(self):
+        for words in (["locked"], ["locked", "--set", "friction.law=coulomb", "--set", "drive.frequency=3"],
+                      ["field", "--at", "0,0"], ["field", "--at", "0.3,0"], ["field", "--at", "-10mm,0mm"],
+                      ["run", "--set", "drive.frequency=3", *SHORT], ["orbit", "--set", "drive.omega=1"], ["check"],
+                      ["branch", "--kind", "locked", "--over", "drive.frequency=3:4"],
+                      ["lyapunov", "--set", "drive.frequency=3", *SHORT]):
+            out = self.good(*words)
+            self.assertIsNone(re.search(r"(?<![\w.])-0(\.0*)?(?![\w.])", out), f"{words}\n{out}")
+
+    def test_locked_says_stable_or_not(self):
+        for frequency in (3, 10.7):
+            words = ["locked", "--set", f"drive.frequency={frequency}"]
+            out = self.good(*words)
+            told = re.findall(r"^ +\d.* (stable|unstable)$", out, re.M)
+            states = self.json(*words)["states"]
+            self.assertEqual([word == "stable" for word in told], [state["stable"] for state in states])
+            self.assertEqual("None is stable" in out, not any(state["stable"] for state in states))
+
+    def test_branch_tells_each_number_once(self):
+        path = self.path("b.json")
+        status, out, said = festoon("branch", "--kind", "locked", "--over", "drive.omega=0.06:0.11", "-o", path)
+        self.assertEqual(status, 0, said)
+        self.assertIn(f"wrote {path}", said)
+        specials = re.findall(r"^  \S+ +drive\.omega = .*", out, re.M)
+        self.assertTrue(specials, out)
+        for line in specials:
+            self.assertEqual(line.count("omega"), 1, line)
+        out = self.good("branch", "--kind", "locked", "--over", "drive.frequency=3:5.5")
+        self.assertRegex(out, r"drive\.frequency = [\d.]+  omega = [\d.]+")
+
+    def test_field_takes_lengths(self):
+        self.assertEqual(self.json("field", "--at", "11.5mm,23 mm")["b"], self.json("field", "--at", "0.5,1")["b"])
+        self.assertEqual(self.json("field", "--at", "1cm, -0.2")["b"], self.json("field", "--at", "10 mm,-0.2")["b"])
+        self.assertIn("(10 mm, 5 mm)", self.good("field", "--at", "10mm,5mm"))
 
 
 class Advice(Case):

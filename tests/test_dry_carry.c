@@ -24,6 +24,7 @@ static fst_params dry_scene(const char *law, const char *dynamics, double mu, do
 /* What a motion did on its way. */
 typedef struct way {
     int captures, releases, onsets, sunk, mode;
+    int rests, starts, roll;
 } way;
 
 static void end_of(const fst_params *params, const double *start, double duration, double *end, way *did)
@@ -48,6 +49,10 @@ static void end_of(const fst_params *params, const double *start, double duratio
         did->onsets += after == FST_MODE_ONSET;
         did->sunk += before == FST_MODE_ONSET && after == FST_MODE_STICK;
         did->mode = before;
+        const int roll = fst_contact_roll(flow), roll_after = flow->contact.next_roll;
+        did->rests += roll == FST_ROLL_ROLLS && roll_after == FST_ROLL_RESTS;
+        did->starts += roll == FST_ROLL_RESTS && roll_after == FST_ROLL_STARTS;
+        did->roll = roll;
     }
     memcpy(end, flow->step.end, FST_STATE_SIZE * sizeof *end);
     fst_flow_free(flow);
@@ -83,6 +88,8 @@ typedef struct carry_case {
     int captures, releases; /* at least */
     double within;
     const char *radius; /* of a contact that is a disc */
+    double resistance;  /* c_rr, */
+    int rests;          /* and how often the bead stops rolling at least */
 } carry_case;
 
 static double column_error(const carry_case *k, double h, int print)
@@ -98,6 +105,7 @@ static double column_error(const carry_case *k, double h, int print)
     if (k->radius && (fst_params_set(&params, "contact.patch", "hertz", &error) != FST_OK ||
                       fst_params_set(&params, "contact.radius", k->radius, &error) != FST_OK))
         fail_msg("%s", error.sentence);
+    params.friction_rolling_resistance = k->resistance;
     if (fst_family_begin(&family, &params, k->key, &error) != FST_OK)
         fail_msg("%s", error.sentence);
     const double value = fst_family_value(&family), scale = fabs(value);
@@ -107,7 +115,7 @@ static double column_error(const carry_case *k, double h, int print)
     const double length = sqrt(y[4] * y[4] + y[5] * y[5] + y[6] * y[6]);
     for (int i = FST_NX; i <= FST_NZ; ++i)
         y[i] /= length;
-    if (setup.model.coefficients.kinds.contact == FST_FRICTION_ROLLING) { /* it begins rolling */
+    if (strcmp(k->law, "rolling") == 0) { /* it begins rolling */
         y[FST_VX] = setup.model.groups.eps * y[FST_WY];
         y[FST_VY] = -setup.model.groups.eps * y[FST_WX];
     }
@@ -123,8 +131,8 @@ static double column_error(const carry_case *k, double h, int print)
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         CHECK_CLOSE(y[i], end[i], 1e-11);
     if (print)
-        printf("%s: %d captures, %d releases, %d sunk, ends in mode %d\n", k->name, did.captures, did.releases,
-               did.sunk, did.mode);
+        printf("%s: %d captures, %d releases, %d sunk, %d rests, %d starts, ends in modes %d, %d\n", k->name,
+               did.captures, did.releases, did.sunk, did.rests, did.starts, did.mode, did.roll);
     for (int c = 0; c < FST_COLUMNS; ++c) {
         double along[FST_STATE_SIZE], numeric[FST_STATE_SIZE], size = 1.0, off = 0.0;
         for (int i = 0; i < FST_STATE_SIZE; ++i)
@@ -140,7 +148,7 @@ static double column_error(const carry_case *k, double h, int print)
             printf("  column %d: size %.3g, off %.3g\n", c, size, off / size);
         greatest = fmax(greatest, off / size);
     }
-    assert_true(did.captures >= k->captures && did.releases >= k->releases);
+    assert_true(did.captures >= k->captures && did.releases >= k->releases && did.rests >= k->rests);
     return greatest;
 }
 
@@ -148,21 +156,31 @@ static void columns_against_differences(void **unused)
 {
     (void)unused;
     static const carry_case cases[] = {
-        {"one capture", "drive.omega", "coulomb", "rigid", 0.2, NAN, NAN, 0.5, 1, 0, 1e-9, NULL},
-        {"captures and releases", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 14.0, 3, 3, 1e-7, NULL},
-        {"more of them", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL},
-        {"farago2020", "model.kappa", "coulomb", "farago2020", 0.2, NAN, NAN, 24.0, 4, 4, 4e-7, NULL},
-        {"by eps", "model.eps", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL},
-        {"by omega", "drive.omega", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL},
-        {"static > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.25, NAN, 24.0, 4, 4, 1e-8, NULL},
-        {"by static friction", "friction.mu_static", "coulomb", "rigid", 0.2, 0.25, NAN, 24.0, 4, 4, 1e-8,
-         NULL},
+        {"one capture", "drive.omega", "coulomb", "rigid", 0.2, NAN, NAN, 0.5, 1, 0, 1e-9, NULL, 0, 0},
+        {"captures and releases", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 14.0, 3, 3, 1e-7, NULL, 0,
+         0},
+        {"more of them", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL, 0, 0},
+        {"farago2020", "model.kappa", "coulomb", "farago2020", 0.2, NAN, NAN, 24.0, 4, 4, 4e-7, NULL, 0, 0},
+        {"by eps", "model.eps", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL, 0, 0},
+        {"by omega", "drive.omega", "coulomb", "rigid", 0.2, NAN, NAN, 24.0, 5, 5, 2e-7, NULL, 0, 0},
+        {"static > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.25, NAN, 24.0, 4, 4, 1e-8, NULL, 0, 0},
+        {"by static friction", "friction.mu_static", "coulomb", "rigid", 0.2, 0.25, NAN, 24.0, 4, 4, 1e-8, NULL,
+         0, 0},
         {"static > sliding, farago2020", "drive.omega", "coulomb", "farago2020", 0.2, 0.25, NAN, 24.0, 4, 4,
-         1e-8, NULL},
-        {"Stribeck", "friction.mu", "coulomb", "rigid", 0.2, 0.25, 0.05, 24.0, 5, 4, 3e-7, NULL},
-        {"static hardly > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.201, NAN, 14.0, 2, 2, 1e-6, NULL},
-        {"rolling", "model.eps", "rolling", "rigid", 0.2, NAN, NAN, 5.0, 0, 0, 1e-9, NULL},
-        {"a disc", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 6.0, 0, 0, 1e-7, "0.5mm"},
+         1e-8, NULL, 0, 0},
+        {"Stribeck", "friction.mu", "coulomb", "rigid", 0.2, 0.25, 0.05, 24.0, 5, 4, 3e-7, NULL, 0, 0},
+        {"static hardly > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.201, NAN, 14.0, 2, 2, 1e-6, NULL,
+         0, 0},
+        {"rolling", "model.eps", "rolling", "rigid", 0.2, NAN, NAN, 5.0, 0, 0, 1e-9, NULL, 0, 0},
+        {"a disc", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 6.0, 0, 0, 1e-7, "0.5mm", 0, 0},
+        {"rests", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 40.0, 4, 3, 1e-7, NULL, 0.2, 2},
+        {"rests, by omega", "drive.omega", "coulomb", "rigid", 0.2, NAN, NAN, 40.0, 4, 3, 1e-7, NULL, 0.2, 2},
+        {"rests, by resistance", "friction.rolling_resistance", "coulomb", "farago2020", 0.2, NAN, NAN, 40.0, 4,
+         3, 1e-7, NULL, 0.2, 2},
+        {"rests and rolls", "model.kappa", "rolling", "rigid", 0.2, NAN, NAN, 40.0, 0, 0, 1e-7, NULL, 0.2, 2},
+        {"slips without rolling", "friction.mu", "coulomb", "rigid", 0.2, NAN, NAN, 20.0, 1, 1, 1e-7, NULL, 0.5,
+         5},
+        {"by eps, with rests", "model.eps", "coulomb", "rigid", 0.2, NAN, NAN, 40.0, 4, 3, 1e-7, NULL, 0.2, 2},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         const double off = column_error(&cases[i], 1e-5, 1);
@@ -176,7 +194,7 @@ static void differences_converge(void **unused)
 {
     (void)unused;
     const carry_case k = {
-        "static > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.25, NAN, 14.0, 1, 1, 0, NULL};
+        "static > sliding", "friction.mu", "coulomb", "rigid", 0.2, 0.25, NAN, 14.0, 1, 1, 0, NULL, 0, 0};
     const double coarse = column_error(&k, 8e-4, 0), fine = column_error(&k, 2e-4, 0);
     printf("8e-4: %.3g, 2e-4: %.3g\n", coarse, fine);
     assert_true(fine < coarse / 64.0 && coarse > 1e-9);

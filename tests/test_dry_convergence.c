@@ -85,6 +85,8 @@ static void test_error_follows_tolerance(void **unused)
     p.friction_mu_static = p.friction_stribeck_speed = NAN;
     p.friction_rolling_resistance = 5e-3;
     check(p, 10.7, 3e-9);
+    p.friction_rolling_resistance = 0.3; /* the bead stops rolling, and starts again */
+    check(p, 10.7, 2e-8);
 }
 
 int main(void)

@@ -143,13 +143,50 @@ static void test_rolling_stops(void **unused)
             CHECK_CLOSE(lab[FST_X], 0.4 + v * t - 0.5 * brake * t * t, 1e-10 * stops);
             const double energy = fst_observe(model, start).energy, now = fst_observe(model, lab).energy;
             CHECK_CLOSE((energy - now) / energy, 1 - 0.1 * 0.1, 1e-9);
-            state_after(model, 1e-12, start, 1.1 * stops, lab);
+            state_after(model, 1e-13, start, 1.1 * stops, lab);
             turn_state(lab, g.omega * 1.1 * stops, lab);
-            CHECK_CLOSE(lab[FST_VX], 0, 1e-7);
+            for (int k = 0; k < 2; ++k) { /* at rest: not slow, but at rest */
+                CHECK_SAME_BITS(fabs(lab[FST_VX + k]), 0.0);
+                CHECK_SAME_BITS(fabs(lab[FST_WX + k]), 0.0);
+            }
             CHECK_CLOSE(lab[FST_X], 0.4 + 0.5 * v * stops, 1e-6);
             CHECK_CLOSE(lab[FST_Y], 0.1, 1e-7);
             fst_model_free(model);
         }
+}
+
+/* A plate that resists rolling more than friction can drive it, c > mu: a bead that is thrown with a rotation w
+ * and slips stops rotating after 2 eps w/(5 (c - mu) g), slides on without rolling, against mu g, and is at
+ * rest after v/(mu g), a distance v^2/(2 mu g) away.  Without rotation it slides from the start. */
+static void test_slides_without_rolling(void **unused)
+{
+    (void)unused;
+    const double mu = 0.2, c = 0.5, v = 0.06;
+    for (int i = 0; i < 2; ++i) {
+        fst_params p = plate_alone(FST_FRICTION_COULOMB, mu);
+        p.friction_rolling_resistance = c;
+        fst_model *model = model_of(&p);
+        const fst_groups g = fst_model_groups(model);
+        const double w = i ? 0.0 : 0.5 * v / g.eps, stops = v / (mu * g.gravity);
+        const double start[FST_STATE_SIZE] = {0.4, 0.1, v, 0, 0, 0, 1, 0, w, 0};
+        const double rolls = 2 * g.eps * w / (5 * (c - mu) * g.gravity);
+        double lab[FST_STATE_SIZE];
+        assert_true(rolls < 0.5 * stops);
+        for (int k = 0; k < 3; ++k) {
+            const double t = k == 2 ? 1.2 * stops : k == 1 ? 0.9 * stops : 0.5 * rolls;
+            const double until = fmin(t, stops);
+            state_after(model, 1e-12, start, t, lab);
+            turn_state(lab, g.omega * t, lab);
+            CHECK_CLOSE(lab[FST_VX], v - mu * g.gravity * until, 1e-11);
+            CHECK_CLOSE(lab[FST_X], 0.4 + v * until - 0.5 * mu * g.gravity * until * until, 1e-10);
+            CHECK_CLOSE(lab[FST_WY], fmax(w * (1 - t / fmax(rolls, 1e-300)), 0), 1e-11);
+            if (t > rolls)
+                CHECK_SAME_BITS(fabs(lab[FST_WY]), 0.0);
+            if (t > stops)
+                CHECK_SAME_BITS(fabs(lab[FST_VX]), 0.0);
+        }
+        fst_model_free(model);
+    }
 }
 
 int main(void)
@@ -158,6 +195,7 @@ int main(void)
         cmocka_unit_test(test_thrown),
         cmocka_unit_test(test_end_of_slip),
         cmocka_unit_test(test_rolling_stops),
+        cmocka_unit_test(test_slides_without_rolling),
     };
     return cmocka_run_group_tests_name("dry_exact", tests, NULL, NULL);
 }

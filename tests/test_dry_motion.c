@@ -14,8 +14,8 @@ static fst_params dry_bead(double omega, fst_dynamics dynamics, fst_friction_law
     return p;
 }
 
-/* The law coulomb in six variants that use every key. */
-enum { VARIANTS = 6 };
+/* The law coulomb in eight variants that use every key. */
+enum { VARIANTS = 8 };
 static fst_params variant(int which, double omega)
 {
     fst_params p =
@@ -26,6 +26,8 @@ static fst_params variant(int which, double omega)
         p.friction_stribeck_speed = 0.05;
     if (which / 2 == 2)
         p.friction_rolling_resistance = 2e-3;
+    if (which / 2 == 3)
+        p.friction_rolling_resistance = 0.2; /* at rest for a part of the time */
     if (which == 4)
         p.friction_contact_rate = 20;
     return p;

@@ -18,7 +18,9 @@ class Commands(unittest.TestCase):
             paper = json.loads((Path(scratch) / "paper.json").read_text())
         printed = {}
         for statement in paper["statements"]:
-            for prefix, dynamics in (("", "farago2020"), ("rigid_", "rigid")):
+            for prefix, dynamics in (("", "farago2020"), ("rigid_", "rigid"), ("coulomb_", "coulomb")):
+                if dynamics not in statement:
+                    continue
                 command = statement[prefix + "command"]
                 if command not in printed:
                     done = subprocess.run([FESTOON, *command.split()[1:]], capture_output=True, text=True)

@@ -64,6 +64,10 @@ static void units_are_read(void **state)
         {"200 G", FST_UNIT_FIELD, 0.02},
         {"20000 uT", FST_UNIT_FIELD, 0.02},
         {"642 rpm", FST_UNIT_FREQUENCY, 10.7},
+        {"642 RPM", FST_UNIT_FREQUENCY, 10.7},
+        {"642 1/min", FST_UNIT_FREQUENCY, 10.7},
+        {"10 hz", FST_UNIT_FREQUENCY, 10},
+        {"2 KHZ", FST_UNIT_FREQUENCY, 2000},
         {"0.0107 kHz", FST_UNIT_FREQUENCY, 10.7},
         {"1 rad/s", FST_UNIT_FREQUENCY, 0.15915494309189535},
         {"312.5 1/s", FST_UNIT_RATE, 312.5},
@@ -152,7 +156,20 @@ static void messages_help(void **state)
     expect_message("", "1", "unknown key");
     expect_message("bead.radius", "1 km", "um mm cm m");
     expect_message("bead.radius", "1 MM", "nearest is mm");
-    expect_message("drive.frequency", "10 hz", "nearest is Hz");
+    expect_message("drive.frequency", "10 hertz", "nearest is Hz");
+    expect_message("drive.freq", "1", "nearest is drive.frequency");
+    expect_message("freq", "1", "nearest is drive.frequency");
+    expect_message("magnet.frequency", "1", "nearest is drive.frequency");
+    expect_message("plat.radius", "1", "nearest is plate.radius");
+    expect_message("bead.moment_", "1", "nearest is bead.moment ");
+    expect_message("drive.frequency", "1,5 Hz", "decimal comma: write \"1.5 Hz\"");
+    expect_message("drive.frequency", "1,234.5 Hz", "nothing between thousands");
+    expect_message("drive.frequency", "1.234,5 Hz", "nothing between thousands");
+    expect_message("drive.frequency", "1,234,5 Hz", "nothing between thousands");
+    expect_message("model.kappa", "1,5", "decimal comma: write \"1.5\"");
+    expect_message("run.samples", "1,5", "decimal comma");
+    expect_message("model.kappa", "1,", "unit \",\"");
+    expect_message("magnet.b0", "3 MT", "nearest is mT");
     expect_message("bead.radius", "5 m", "1000 mm");
     expect_message("bead.radius", "-1 mm", "0.0001 mm to 1000 mm");
     expect_message("model.kappa", "1.5 mm", "without a unit");
@@ -271,6 +288,14 @@ static void nearest_names(void **state)
     assert_string_equal(nearest, "run");
     assert_int_equal(fst_nearest_name("field", "run|field|plot", nearest, sizeof nearest), 0);
     assert_string_equal(nearest, "field");
+    (void)fst_nearest_name("freq", "omega|frequency", nearest, sizeof nearest);
+    assert_string_equal(nearest, "frequency");
+    (void)fst_nearest_name("out", "output|oat|frequency", nearest, sizeof nearest);
+    assert_string_equal(nearest, "oat");
+    (void)fst_nearest_name("out", "frequency|output|ot", nearest, sizeof nearest);
+    assert_string_equal(nearest, "ot");
+    (void)fst_nearest_name("out", "in|outputs|output", nearest, sizeof nearest);
+    assert_string_equal(nearest, "output");
     (void)fst_nearest_name("MM", "um|mm|m", nearest, sizeof nearest);
     assert_string_equal(nearest, "mm");
     assert_int_equal(fst_nearest_name("x", "", nearest, sizeof nearest), -1);

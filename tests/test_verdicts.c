@@ -48,6 +48,8 @@ static const border borders[] = {
     /* One exception is too many. */
     {FST_RULE_NEVER, 0.0, 1.0, 0.0, 1.0, YES, NO},
     {FST_RULE_SYMMETRY, 2.0, 1.0, 2.0, 1.0, YES, NO},
+    {FST_RULE_SEVERAL, 0.0, 1.0, 2.0, 1.0, YES, NO},
+    {FST_RULE_SEVERAL, 0.0, 1.0, 5.0, 0.0, YES, NO},
 };
 
 static fst_verdict verdict_of(const border *b, double value)

@@ -1,14 +1,15 @@
 #!/bin/sh
 # Install the Debian packages that a make target needs and the machine lacks.
 #
-#   tools/install-packages.sh SET        SET: build demo test test-long bench docs format ci
+#   tools/install-packages.sh SET            SET: build demo test test-long bench docs format deb ci
+#   tools/install-packages.sh --list SET     print their names, a line each, and install nothing
 #
 # With nothing missing it costs a look into dpkg's database.  Otherwise it says what is missing and installs it,
 # as root or by a sudo that asks nothing; failing both, it prints the command to run and ends with status 1.
 set -eu
 
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansson-dev libsqlite3-dev libhdf5-dev
-    liblapacke-dev libcairo2-dev libopenmpi-dev"
+    liblapacke-dev libcairo2-dev libopenmpi-dev libcminpack-dev"
 demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
 test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
 # A Slurm of its own for the sweep under Slurm: the daemons run as root without systemd, in a container too.
@@ -17,8 +18,14 @@ bench_packages="$build_packages g++ gnuplot-nox libgsl-dev libboost-dev python3-
     libsundials-dev"
 docs_packages="$build_packages doxygen"
 format_packages="clang-format"
-ci_packages="$long_packages clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev libboost-dev librsvg2-bin"
+deb_packages="$build_packages dpkg-dev debhelper lintian"
+ci_packages="$long_packages dpkg-dev debhelper lintian zsh fish clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev libboost-dev librsvg2-bin"
 
+only_list=
+if [ "${1-}" = --list ]; then
+    only_list=yes
+    shift
+fi
 case "${1-}" in
 build) wanted=$build_packages ;;
 demo) wanted=$demo_packages ;;
@@ -27,12 +34,18 @@ test-long) wanted=$long_packages ;;
 bench) wanted=$bench_packages ;;
 docs) wanted=$docs_packages ;;
 format) wanted=$format_packages ;;
+deb) wanted=$deb_packages ;;
 ci) wanted=$ci_packages ;;
 *)
-    echo "usage: $0 build|demo|test|test-long|bench|docs|format|ci" >&2
+    echo "usage: $0 [--list] build|demo|test|test-long|bench|docs|format|deb|ci" >&2
     exit 2
     ;;
 esac
+if [ "$only_list" ]; then
+    # shellcheck disable=SC2086 # the lists are meant to be split
+    printf '%s\n' $wanted
+    exit 0
+fi
 
 if ! command -v dpkg-query >/dev/null 2>&1; then
     echo "$0: this is no Debian system; the packages' Debian names are: $wanted" >&2

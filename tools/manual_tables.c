@@ -1,10 +1,10 @@
 /* manual_tables.c - completes the manual page while festoon is built.
  *
- * Copies the template from standard input to standard output; the lines @PARAMETERS@ and @RESULTS@ give way
- * to the tables of params.def and run.def, @VERSION@ within a line to the version, so that the page cannot
- * disagree with the program.
+ * Copies the template from standard input to standard output; the lines @OPTIONS@, @PARAMETERS@ and
+ * @RESULTS@ give way to the program's tables of options and to those of params.def and run.def, @VERSION@
+ * within a line to the version, so that the page cannot disagree with the program.
  */
-#include <festoon/festoon.h>
+#include "cli/command.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -75,12 +75,40 @@ static void put_results(void)
     }
 }
 
+/* Of each command its usage and its options; "a\nb" in a help is one line. */
+static void put_options(void)
+{
+    for (const command *const *row = all_commands; *row; row++) {
+        printf(".SS %s\n.B festoon %s\n", (*row)->name, (*row)->name);
+        put_text((*row)->synopsis);
+        putchar('\n');
+        for (const option *o = (*row)->options; o->name; o++) {
+            fputs(".TP\n", stdout);
+            if (o->letter)
+                printf("\\fB\\-%c\\fR, ", o->letter);
+            fputs("\\fB\\-\\-", stdout);
+            put_text(o->name);
+            fputs("\\fR", stdout);
+            if (o->value) {
+                fputs(" \\fI", stdout);
+                put_text(o->value);
+                fputs("\\fR", stdout);
+            }
+            putchar('\n');
+            put_text(o->help);
+            putchar('\n');
+        }
+    }
+}
+
 int main(void)
 {
     char line[1024];
     while (fgets(line, sizeof line, stdin)) {
         char *version = strstr(line, "@VERSION@");
-        if (strcmp(line, "@PARAMETERS@\n") == 0) {
+        if (strcmp(line, "@OPTIONS@\n") == 0) {
+            put_options();
+        } else if (strcmp(line, "@PARAMETERS@\n") == 0) {
             put_parameters();
         } else if (strcmp(line, "@RESULTS@\n") == 0) {
             put_results();

@@ -43,7 +43,7 @@ extern "C" {
 
 /* Increased when the same parameters give other bits than before.  A sweep that was begun by another version is
  * not continued. */
-#define FST_RESULTS_VERSION 7
+#define FST_RESULTS_VERSION 8
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
@@ -194,8 +194,9 @@ FST_API const char *fst_param_other_form(const char *key);
  * given.  Returns the length, as snprintf does. */
 FST_API int fst_params_get(const fst_params *params, int index, char *text, size_t size);
 
-/* The name in a '|'-separated list that is nearest to `word`, by edit distance, is copied to `nearest`.
- * Returns the distance, or -1 where the list is empty.  For "did you mean". */
+/* The name in a '|'-separated list that is nearest to `word`, by edit distance, is copied to `nearest`; a name
+ * that begins with `word` comes before all that are more than one edit away.  Returns the distance, or -1 where
+ * the list is empty.  For "did you mean". */
 FST_API int fst_nearest_name(const char *word, const char *names, char *nearest, size_t size);
 
 /* Make a text from outside harmless for a terminal, a figure or a page.  A '?' replaces each control character

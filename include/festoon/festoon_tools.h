@@ -72,6 +72,24 @@ FST_API fst_status fst_branch_read(const char *path, fst_branch *branch, fst_err
 FST_API fst_status fst_run_dots_read(const char *path, const char *key, const char *observable, double **dots,
                                      size_t *count, fst_error *error);
 
+/* ------------------------------------------------------------------ units */
+
+/* The units of numbers that leave: those in which they were given; those of a laboratory (Hz, mm, s, mm/s, mT,
+ * mN, mW); scaled ones (l, 1/gamma, B0, per mass); or SI. */
+typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED, FST_SHOWN_SI } fst_shown_units;
+
+/* What the scaled units are: l in m, 1/gamma in s, the bead's mass in kg, B0 in T (NAN: it does not follow from
+ * the parameters). */
+typedef struct fst_scales {
+    double length, time, mass, field;
+} fst_scales;
+FST_API fst_scales fst_scales_of(const fst_params *params);
+
+/* The factor that turns a value in `unit`, as the tables of columns and results name it ("l gamma"), into the
+ * wanted units, and the name of the unit there ("mm/s").  A unit without counterpart stays: the factor is 1. */
+FST_API double fst_unit_shown(const char *unit, fst_shown_units units, const fst_scales *scales,
+                              const char **name);
+
 /* ------------------------------------------------------------------ trajectories */
 
 /* A file into which a run streams its samples; the ending chooses the format: .h5 (HDF5, with the scene and the
@@ -213,6 +231,13 @@ typedef enum { FST_EXPORT_CSV, FST_EXPORT_JSON, FST_EXPORT_HDF5 } fst_export_for
 FST_API fst_status fst_sweep_export(const char *path, fst_export_format format, const char *out, FILE *stream,
                                     fst_error *error);
 
+/* Write chosen columns as CSV: the varied parameters and `keys` (count = 0: regime, mean_r, std_r,
+ * mean_alpha_dot), in the wanted units, each name with its unit behind it: "mean_r [mm]".  Fails where rows are
+ * damaged. */
+FST_API fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int count,
+                                         fst_shown_units units, const char *out, FILE *stream,
+                                         fst_error *error);
+
 /* Some keys of a sweep by point.  The value of key i at a point is values[i * fst_grid_points(grid) + point],
  * NAN where there is none; `regime` and `symmetry` have their numbers. */
 typedef struct fst_sweep_table {
@@ -225,10 +250,6 @@ FST_API void fst_sweep_table_free(fst_sweep_table *table);
 
 /* Read only the grid; free it with fst_grid_free(). */
 FST_API fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *error);
-
-/* The units on the axes of a sweep's figure: those of the parameters that were varied (lengths in mm); those of
- * the laboratory (Hz, mm, mm/s, 1/s, s); or scaled ones (drive omega, lengths in l). */
-typedef enum { FST_SHOWN_AS_GIVEN, FST_SHOWN_LAB, FST_SHOWN_SCALED } fst_shown_units;
 
 /* Draw a sweep: over one axis curves of the keys; over two axes a map of one key, or of regimes where the key
  * is `regime`.  With count = 0 the keys are chosen: mean r and its deviation, the mean angular velocity and the
@@ -337,6 +358,7 @@ FST_API const char *fst_tools_components(void);
 }
 #endif
 
+#include <festoon/fit.h>
 #include <festoon/tracks.h>
 #include <festoon/film_tracks.h>
 

@@ -53,6 +53,14 @@ typedef struct fst_orbit {
 FST_API fst_status fst_orbit_find(const fst_params *params, const fst_progress *progress, fst_orbit *orbit,
                                   fst_error *error);
 
+/* The stable orbit beside a guess: another setup's orbit, of which state, means.period, symmetry and turns are
+ * used. Newton's method alone, no integration to the orbit: many times quicker than fst_orbit_find() where
+ * parameters change little.  `tolerance` is that of the integration, 1e-12 in fst_orbit_find(); the residual is
+ * at most ten times it.  FST_NO_CONVERGENCE: Newton's method did not converge, or what it found repels, stands
+ * still or turns otherwise than the guess.  `progress` may be NULL. */
+FST_API fst_status fst_orbit_near(const fst_params *params, const fst_orbit *guess, double tolerance,
+                                  const fst_progress *progress, fst_orbit *orbit, fst_error *error);
+
 /* An equilibrium of the turning frame: the bead goes round with the magnet. */
 typedef struct fst_locked {
     double state[FST_STATE_SIZE];
@@ -201,7 +209,9 @@ typedef struct fst_branch {
     fst_branch_end *ends; /* two for each branch */
     size_t end_count;
     int branches;
-    int complete; /* 0: the caller stopped it before its end */
+    int complete;              /* 0: the caller stopped it before its end */
+    double half_length, gamma; /* magnet.half_length (m) and friction.gamma (1/s), by which everything here is
+                                  scaled; NAN: the file from which it was read does not say */
 } fst_branch;
 
 typedef struct fst_branch_options {

@@ -68,6 +68,70 @@ FST_API const char *fst_track_formats(void);
 FST_API fst_status fst_track_read(const char *path, const fst_track_options *options, fst_track *track,
                                   char **understood, fst_error *error);
 
+/* ------------------------------------------------------------------ measuring */
+
+enum { FST_WARNING_LIMIT = 24, FST_WARNING_SIZE = 360 };
+
+typedef struct fst_measure_options {
+    uint32_t cookie;
+    double drive;    /* Hz; negative where the magnet turns clockwise in the film; NAN: unknown */
+    double exposure; /* s that a frame was exposed; NAN: unknown, nothing is corrected */
+} fst_measure_options;
+FST_API fst_measure_options fst_default_measure_options(void);
+
+/* How the bead goes round in the film. */
+typedef enum {
+    FST_MOTION_TURNING, /* it circles, at another rate than the magnet */
+    FST_MOTION_LOCKED,  /* it goes round with the magnet: locked or librating */
+    FST_MOTION_UNKNOWN  /* it circles, but the film does not tell how the magnet turns */
+} fst_motion;
+
+/* What was measured of a track.  A number that is unknown or has no meaning here is NAN. */
+typedef struct fst_measurement {
+#define FST_MEASURED(name, unit, doc) double name;
+#include <festoon/measure.def>
+#undef FST_MEASURED
+    double centre[2], centre_error[2]; /* of the path, in the file's axes with y up */
+    double stretch[3]; /* xx, xy, yy of the symmetric matrix that undoes the tilt: (x, y) - centre times it is
+                          the place on the plate */
+    int64_t frames, lost; /* frames from the first to the last; how many of them are missing or were rejected */
+    int64_t rejected, repeated; /* of these, rejected ones; frames that repeat the one before exactly */
+    int symmetry; /* a: 2 where r oscillates twice in a turn against the magnet (S2), 1 (S1), 0: unknown */
+    fst_motion motion;
+    char length_unit[FST_LENGTH_UNIT_SIZE];
+    int warning_count;
+    char warnings[FST_WARNING_LIMIT][FST_WARNING_SIZE];
+} fst_measurement;
+
+/* One row of measure.def. */
+typedef struct fst_measured_info {
+    const char *name, *unit, *doc; /* unit "length": the track's */
+    size_t offset;                 /* of the double in fst_measurement */
+} fst_measured_info;
+FST_API int fst_measured_count(void);
+FST_API const fst_measured_info *fst_measured_at(int index);
+
+/* Measure a track: mean radius and its deviation, frequencies, festoons, the drive from the track itself, each
+ * with an error.  Rows that cannot belong to the motion become FST_FRAME_REJECTED, and where the clock was
+ * corrected the track's times and frame rate are corrected too.  FST_NO_CONVERGENCE: the bead rests, or goes
+ * round too little for anything to be measured. */
+FST_API fst_status fst_measure_track(fst_track *track, const fst_measure_options *options,
+                                     fst_measurement *measured, fst_error *error);
+
+/* Lay measured points with their errors over the curves of a sweep over the drive (a database) or of a branch
+ * over the drive (JSON), in mm and Hz, a panel for each quantity.  chi^2 is the sum over all measured numbers
+ * for which there is a curve at their frequency (of a branch with several: the nearest stable one), and
+ * `counted` says how many these are. */
+typedef struct fst_points_fit {
+    double chi2;
+    int counted, all;
+} fst_points_fit;
+FST_API fst_status fst_figure_points(const char *results, const char *points, const char *out,
+                                     fst_points_fit *fit, fst_error *error);
+
+/* A measurement as JSON; free() it.  NULL: no memory. */
+FST_API char *fst_measurement_json(const fst_measurement *measured);
+
 #ifdef __cplusplus
 }
 #endif

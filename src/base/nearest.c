@@ -53,19 +53,29 @@ static unsigned distance(const char *a, size_t a_length, const char *b, size_t b
     return up[b_length];
 }
 
+/* Whether `name` goes on where `word` ends, which is at least two letters long: a word that was cut short. */
+static int goes_on(const char *word, size_t word_length, const char *name, size_t name_length)
+{
+    return word_length > 1 && word_length < name_length && memcmp(word, name, word_length) == 0;
+}
+
 int fst_nearest_name(const char *word, const char *names, char *nearest, size_t size)
 {
     size_t word_length = strlen(word);
     if (word_length > LONGEST)
         word_length = LONGEST;
     unsigned best = 0;
+    int best_goes_on = 0;
     const char *best_name = NULL;
     size_t best_length = 0;
     for (const char *name = names; *name; name += strspn(name, "|")) {
         size_t length = strcspn(name, "|");
         unsigned cost = distance(word, word_length, name, length < LONGEST ? length : LONGEST);
-        if (!best_name || cost < best) {
+        /* A name that is cut short is preferred to any other, save one that is a single edit away. */
+        const int cut = cost > EDIT_COST && goes_on(word, word_length, name, length);
+        if (!best_name || (cut == best_goes_on ? cost < best : cut ? best > EDIT_COST : cost <= EDIT_COST)) {
             best = cost;
+            best_goes_on = cut;
             best_name = name;
             best_length = length;
         }

@@ -20,37 +20,22 @@ typedef struct unit_row {
 } unit_row;
 
 static const unit_row unit_rows[] = {
-    {FST_UNIT_LENGTH, "m", 0, 1, 1},
-    {FST_UNIT_LENGTH, "cm", -2, 1, 1},
-    {FST_UNIT_LENGTH, "mm", -3, 1, 1},
-    {FST_UNIT_LENGTH, "um", -6, 1, 1},
-    {FST_UNIT_MASS, "kg", 0, 1, 1},
-    {FST_UNIT_MASS, "g", -3, 1, 1},
-    {FST_UNIT_MASS, "mg", -6, 1, 1},
-    {FST_UNIT_MOMENT, "A m2", 0, 1, 1},
-    {FST_UNIT_MOMENT, "mA m2", -3, 1, 1},
-    {FST_UNIT_FIELD, "T", 0, 1, 1},
-    {FST_UNIT_FIELD, "mT", -3, 1, 1},
-    {FST_UNIT_FIELD, "uT", -6, 1, 1},
-    {FST_UNIT_FIELD, "G", -4, 1, 1},
-    {FST_UNIT_FREQUENCY, "Hz", 0, 1, 1},
-    {FST_UNIT_FREQUENCY, "kHz", 3, 1, 1},
-    {FST_UNIT_FREQUENCY, "rpm", 0, 1, 60},
-    {FST_UNIT_FREQUENCY, "rad/s", 0, 1, 2 * FST_PI},
-    {FST_UNIT_RATE, "1/s", 0, 1, 1},
-    {FST_UNIT_RATE, "s-1", 0, 1, 1},
-    {FST_UNIT_RATE, "1/ms", 3, 1, 1},
-    {FST_UNIT_ACCELERATION, "m/s2", 0, 1, 1},
-    {FST_UNIT_SPEED, "m/s", 0, 1, 1},
-    {FST_UNIT_SPEED, "cm/s", -2, 1, 1},
-    {FST_UNIT_SPEED, "mm/s", -3, 1, 1},
-    {FST_UNIT_PRESSURE, "Pa", 0, 1, 1},
-    {FST_UNIT_PRESSURE, "kPa", 3, 1, 1},
-    {FST_UNIT_PRESSURE, "MPa", 6, 1, 1},
-    {FST_UNIT_PRESSURE, "GPa", 9, 1, 1},
-    {FST_UNIT_ANGLE, "deg", 0, 1, 1},
-    {FST_UNIT_ANGLE, "rad", 0, 180, FST_PI},
-    {FST_UNIT_ANGLE, "turn", 0, 360, 1},
+    {FST_UNIT_LENGTH, "m", 0, 1, 1},         {FST_UNIT_LENGTH, "cm", -2, 1, 1},
+    {FST_UNIT_LENGTH, "mm", -3, 1, 1},       {FST_UNIT_LENGTH, "um", -6, 1, 1},
+    {FST_UNIT_MASS, "kg", 0, 1, 1},          {FST_UNIT_MASS, "g", -3, 1, 1},
+    {FST_UNIT_MASS, "mg", -6, 1, 1},         {FST_UNIT_MOMENT, "A m2", 0, 1, 1},
+    {FST_UNIT_MOMENT, "mA m2", -3, 1, 1},    {FST_UNIT_FIELD, "T", 0, 1, 1},
+    {FST_UNIT_FIELD, "mT", -3, 1, 1},        {FST_UNIT_FIELD, "uT", -6, 1, 1},
+    {FST_UNIT_FIELD, "G", -4, 1, 1},         {FST_UNIT_FREQUENCY, "Hz", 0, 1, 1},
+    {FST_UNIT_FREQUENCY, "kHz", 3, 1, 1},    {FST_UNIT_FREQUENCY, "rpm", 0, 1, 60},
+    {FST_UNIT_FREQUENCY, "1/min", 0, 1, 60}, {FST_UNIT_FREQUENCY, "rad/s", 0, 1, 2 * FST_PI},
+    {FST_UNIT_RATE, "1/s", 0, 1, 1},         {FST_UNIT_RATE, "s-1", 0, 1, 1},
+    {FST_UNIT_RATE, "1/ms", 3, 1, 1},        {FST_UNIT_ACCELERATION, "m/s2", 0, 1, 1},
+    {FST_UNIT_SPEED, "m/s", 0, 1, 1},        {FST_UNIT_SPEED, "cm/s", -2, 1, 1},
+    {FST_UNIT_SPEED, "mm/s", -3, 1, 1},      {FST_UNIT_PRESSURE, "Pa", 0, 1, 1},
+    {FST_UNIT_PRESSURE, "kPa", 3, 1, 1},     {FST_UNIT_PRESSURE, "MPa", 6, 1, 1},
+    {FST_UNIT_PRESSURE, "GPa", 9, 1, 1},     {FST_UNIT_ANGLE, "deg", 0, 1, 1},
+    {FST_UNIT_ANGLE, "rad", 0, 180, FST_PI}, {FST_UNIT_ANGLE, "turn", 0, 360, 1},
 };
 static const size_t unit_row_count = sizeof unit_rows / sizeof unit_rows[0];
 
@@ -64,7 +49,7 @@ static const struct {
     [FST_UNIT_MASS] = {"kg", "mg g kg", "g"},
     [FST_UNIT_MOMENT] = {"A m^2", "\"A m^2\" \"mA m^2\"", "A m2"},
     [FST_UNIT_FIELD] = {"T", "uT mT T G", "mT"},
-    [FST_UNIT_FREQUENCY] = {"Hz", "Hz kHz rpm rad/s", "Hz"},
+    [FST_UNIT_FREQUENCY] = {"Hz", "Hz kHz rpm 1/min rad/s", "Hz"},
     [FST_UNIT_RATE] = {"1/s", "1/s s-1 1/ms", "1/s"},
     [FST_UNIT_ACCELERATION] = {"m/s^2", "m/s^2", "m/s2"},
     [FST_UNIT_SPEED] = {"m/s", "mm/s cm/s m/s", "mm/s"},
@@ -122,11 +107,30 @@ static void plain_unit(const char *text, size_t length, char *plain, size_t size
     plain[out] = '\0';
 }
 
+static int lower(char letter)
+{
+    return letter >= 'A' && letter <= 'Z' ? letter - 'A' + 'a' : letter;
+}
+
+static int same_but_for_case(const char *a, const char *b)
+{
+    while (*a && lower(*a) == lower(*b)) {
+        ++a;
+        ++b;
+    }
+    return *a == *b;
+}
+
+/* Units of frequency are also read in capitals, because stirrers say "RPM".  In other kinds the case tells mT
+ * from MT, and mPa from MPa. */
 static const unit_row *find_unit(fst_unit kind, const char *plain)
 {
-    for (size_t i = 0; i < unit_row_count; ++i)
-        if (unit_rows[i].kind == kind && strcmp(unit_rows[i].name, plain) == 0)
-            return &unit_rows[i];
+    for (size_t i = 0; i < unit_row_count; ++i) {
+        const unit_row *row = &unit_rows[i];
+        if (row->kind == kind && (strcmp(row->name, plain) == 0 ||
+                                  (kind == FST_UNIT_FREQUENCY && same_but_for_case(row->name, plain))))
+            return row;
+    }
     return NULL;
 }
 
@@ -160,6 +164,31 @@ static fst_value_fault no_number(const char *text, fst_error *error)
     return FST_VALUE_NO_NUMBER;
 }
 
+/* The number of `text` breaks off at a comma with a digit behind it.  The sentence shows the value with a point
+ * where the comma can only be a decimal one. */
+static fst_value_fault decimal_comma(const char *text, fst_error *error)
+{
+    char quoted[FST_QUOTE_SIZE];
+    const char *comma = strchr(text, ',');
+    const char next = comma[1 + strspn(comma + 1, "0123456789")];
+    if (memchr(text, '.', (size_t)(comma - text)) || next == ',' || next == '.') {
+        (void)fst_fail(
+            error, FST_BAD_INPUT, "value",
+            "%s has a comma in the number: write a decimal point, and nothing between thousands, as in "
+            "1234.5",
+            fst_quote(text, quoted));
+        return FST_VALUE_COMMA;
+    }
+    char corrected[64];
+    (void)snprintf(corrected, sizeof corrected, "%s", text);
+    if (strcspn(corrected, ",") < strlen(corrected))
+        corrected[strcspn(corrected, ",")] = '.';
+    char quoted_corrected[FST_QUOTE_SIZE];
+    (void)fst_fail(error, FST_BAD_INPUT, "value", "%s has a decimal comma: write %s, with a point",
+                   fst_quote(text, quoted), fst_quote(corrected, quoted_corrected));
+    return FST_VALUE_COMMA;
+}
+
 fst_value_fault fst_value_read(const char *text, fst_unit unit, double *value, fst_error *error)
 {
     char quoted[FST_QUOTE_SIZE];
@@ -172,6 +201,9 @@ fst_value_fault fst_value_read(const char *text, fst_unit unit, double *value, f
     size_t number = fst_number_length(trimmed);
     if (number == 0)
         return no_number(text, error);
+
+    if (trimmed[number] == ',' && trimmed[number + 1] >= '0' && trimmed[number + 1] <= '9')
+        return decimal_comma(trimmed, error);
 
     size_t gap = number + strspn(trimmed + number, " \t\r\n");
     char written[64] = "", plain[32];

@@ -14,6 +14,7 @@ typedef enum {
     FST_VALUE_READ, /* it is one */
     FST_VALUE_MISSING,
     FST_VALUE_NO_NUMBER,
+    FST_VALUE_COMMA,      /* the sentence says how to write it */
     FST_VALUE_WRONG_UNIT, /* the sentence names the units that fit */
     FST_VALUE_TOO_LARGE
 } fst_value_fault;

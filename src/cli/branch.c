@@ -9,14 +9,14 @@
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
-    {"kind", '\0', "KIND",
+    {"kind", '\0', "counter|locked|all",
      "counter: the counter-rotating family; locked: every family of equilibria; all: these and the orbits "
      "born at their Hopf points"},
     {"over", '\0', "KEY=LO:HI", "the parameter and its range, as in drive.omega=0.2:3"},
     {"with", '\0', "KEY=LO:HI",
      "a second parameter and its range: special points are followed as curves over both"},
-    {"follow", '\0', "TYPE",
-     "type of these special points: fold, pitchfork, period-doubling, hopf, neimark-sacker, origin-crossing"},
+    {"follow", '\0', "fold|pitchfork|period-doubling|hopf|neimark-sacker|origin-crossing",
+     "type of these special points"},
     {"output", 'o', "FILE.json", "write the branch to a file, for festoon plot"},
     {"tolerance", '\0', "T",
      "tolerance of the integration; that of Newton's method and of special points follows it (1e-12)"},
@@ -152,7 +152,7 @@ static void print_curve(FILE *out, const fst_branch *b, int curve)
     const size_t rows = count < 16 ? count : 16;
     for (size_t k = 0; k < rows; ++k) {
         const fst_branch_point *p = &b->points[first + (rows > 1 ? k * (count - 1) / (rows - 1) : 0)];
-        (void)fprintf(out, "  %16.10f %16.10f  %s\n", p->value, p->second,
+        (void)fprintf(out, "  %16.10f %16.10f  %s\n", unsigned_zero(p->value, 10), unsigned_zero(p->second, 10),
                       p->stable ? "of a stable state" : "");
     }
 }
@@ -166,24 +166,27 @@ static void print_branch(FILE *out, const fst_branch *b)
             print_curve(out, b, curve);
         (void)fprintf(out, "\nends\n");
         for (size_t i = 0; i < b->end_count; ++i)
-            (void)fprintf(out, "  curve %d at %s = %.10g: %s\n", b->ends[i].branch, b->key, b->ends[i].value,
-                          b->ends[i].reason);
+            (void)fprintf(out, "  curve %d at %s = %.10g: %s\n", b->ends[i].branch, b->key,
+                          unsigned_zero(b->ends[i].value, ALL_DIGITS), b->ends[i].reason);
         return;
     }
     (void)fprintf(out, "%d branches, %zu points over %s = %.10g to %.10g\n\nspecial points\n", b->branches,
-                  b->point_count, b->key, b->from, b->to);
+                  b->point_count, b->key, unsigned_zero(b->from, ALL_DIGITS), unsigned_zero(b->to, ALL_DIGITS));
     for (size_t i = 0; i < b->special_count; ++i) {
         const fst_special *s = &b->specials[i];
-        (void)fprintf(out, "  %-16s %s = %.12g  omega = %.12g  branch %d%s\n", fst_special_name(s->type),
-                      b->key, s->value, s->omega, s->branch,
+        (void)fprintf(out, "  %-16s %s = %.12g", fst_special_name(s->type), b->key,
+                      unsigned_zero(s->value, ALL_DIGITS));
+        if (strcmp(b->key, "drive.omega") != 0)
+            (void)fprintf(out, "  omega = %.12g", s->omega);
+        (void)fprintf(out, "  branch %d%s\n", s->branch,
                       s->criticality > 0   ? "  supercritical"
                       : s->criticality < 0 ? "  subcritical"
                                            : "");
     }
     (void)fprintf(out, "\nends\n");
     for (size_t i = 0; i < b->end_count; ++i)
-        (void)fprintf(out, "  branch %d at %.10g: %s\n", b->ends[i].branch, b->ends[i].value,
-                      b->ends[i].reason);
+        (void)fprintf(out, "  branch %d at %.10g: %s\n", b->ends[i].branch,
+                      unsigned_zero(b->ends[i].value, ALL_DIGITS), b->ends[i].reason);
 }
 
 /* Warn if the bead of either end contradicts any material; one warning is enough. */
@@ -229,6 +232,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     const int stopped = status == FST_INTERRUPTED;
     if (path)
         status = fst_branch_write(path, &params, &branch, error);
+    if (path && status == FST_OK)
+        tell_written(path, stopped ? " (incomplete)" : "; festoon plot draws it");
     if (stopped && (!path || status == FST_OK))
         status = fail(error, FST_INTERRUPTED, path ? path : "branch",
                       path ? "interrupted: it holds the %zu points found until then, and is marked incomplete"

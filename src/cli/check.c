@@ -16,7 +16,7 @@ static void print_text(FILE *out, const char *path, const fst_model *model, cons
     print_groups(out, &groups);
     (void)fprintf(out, "\nStart state (X Y vX vY nX nY nZ WX WY WZ):\n ");
     for (int i = 0; i < FST_STATE_SIZE; ++i)
-        (void)fprintf(out, " %.6g", state[i]);
+        (void)fprintf(out, " %.6g", unsigned_zero(state[i], ALL_DIGITS));
     (void)fprintf(out, "\n");
 }
 

@@ -26,7 +26,11 @@ typedef struct command {
 /* The commands, a file each. */
 extern const command run_command, sweep_command, export_command, field_command, plot_command, movie_command,
     paper_command, init_command, check_command, schema_command, orbit_command, locked_command, branch_command,
-    lyapunov_command, track_command;
+    lyapunov_command, measure_command, track_command, fit_command;
+
+/* All of them, in the order of the help, with NULL behind the last; and the one of this name, or NULL. */
+extern const command *const all_commands[];
+const command *find_command(const char *name);
 
 /* The options of every command that reads a scene: the first rows of its table. */
 #define SCENE_OPTIONS                                                                                          \
@@ -39,11 +43,17 @@ extern const command run_command, sweep_command, export_command, field_command, 
         "json", '\0', NULL, "one JSON document on standard output instead of text"                             \
     }
 
+#define UNITS_OPTION                                                                                           \
+    {                                                                                                          \
+        "units", '\0', "scaled|lab|si",                                                                        \
+            "the units shown: scaled (l, 1/gamma, B0), of the laboratory (Hz, mm, s, mT), or SI"               \
+    }
+
 /* Fill in `error` and return `code`. */
 fst_status fail(fst_error *error, fst_status code, const char *where, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* The parameters of the scene `path` (NULL: the defaults), with all --set applied. */
+/* The parameters of the scene `path` (NULL: the defaults; "-": standard input), with all --set applied. */
 fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error);
 
 /* Warn on standard error where mass and radius of the bead contradict any material. */
@@ -58,6 +68,19 @@ const char *shown(const char *path, char text[SHOWN_SIZE]);
 
 /* Say "wrote PATH", with a remark behind it, on standard error. */
 void tell_written(const char *path, const char *remark);
+
+/* The value as a person reads it: 0 without a sign where all `decimals` that are printed are zeros (ALL_DIGITS:
+ * where the value is zero). */
+enum { ALL_DIGITS = 300 };
+double unsigned_zero(double value, int decimals);
+
+/* Read --units; as given where it is missing. */
+fst_status read_units(const arguments *given, fst_shown_units *units, fst_error *error);
+
+/* Read the names of --key, "mean_r,std_r", into `keys`, which point into `words`. */
+enum { KEY_LIMIT = 16, KEYS_SIZE = 512 };
+fst_status read_keys(const char *text, char words[KEYS_SIZE], const char *keys[KEY_LIMIT], int *count,
+                     fst_error *error);
 
 /* Read exactly `count` numbers separated by commas. */
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,

@@ -1,4 +1,4 @@
-/* common.c - what several commands need: scenes with --set, warnings, names of files, numbers. */
+/* common.c - what several commands need: errors, warnings, names of files, numbers. */
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,46 +16,6 @@ fst_status fail(fst_error *error, fst_status code, const char *where, const char
     fst_text_tame(error->where);
     error->code = code;
     return code;
-}
-
-/* Apply KEY=VALUE; blanks about the key are removed. */
-static fst_status apply_set(const char *text, fst_params *params, fst_error *error)
-{
-    char key[96];
-    size_t length = strcspn(text, "=");
-    if (text[length] != '=')
-        return fail(error, FST_BAD_INPUT, "--set", "\"%.60s\" must be KEY=VALUE, as in drive.frequency=10.7Hz",
-                    text);
-    size_t start = strspn(text, " \t");
-    while (length > start && (text[length - 1] == ' ' || text[length - 1] == '\t'))
-        --length;
-    (void)snprintf(key, sizeof key, "%.*s", start < length ? (int)(length - start) : 0, text + start);
-    fst_status status = fst_params_set(params, key, strchr(text, '=') + 1, error);
-    if (status != FST_OK)
-        (void)snprintf(error->where, sizeof error->where, "--set");
-    return status;
-}
-
-fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error)
-{
-    *params = fst_default_params();
-    if (path) {
-        fst_status status = fst_scene_read(path, params, error);
-        if (status != FST_OK)
-            return status;
-    }
-    for (int i = 0; i < given->option_count; ++i) {
-        if (strcmp(given->options[i].row->name, "set") != 0)
-            continue;
-        fst_status status = apply_set(given->options[i].value, params, error);
-        if (status != FST_OK)
-            return status;
-    }
-    params->run_discard = fst_run_discard(params); /* what is printed is what is done */
-    const fst_status status = fst_params_check_effects(params, error);
-    if (status != FST_OK)
-        (void)snprintf(error->where, sizeof error->where, "%s", path ? path : "");
-    return status;
 }
 
 void warn_of_material(const fst_params *params)
@@ -85,6 +45,11 @@ void tell_written(const char *path, const char *remark)
 {
     char text[SHOWN_SIZE];
     (void)fprintf(stderr, "wrote %s%s\n", shown(path, text), remark);
+}
+
+double unsigned_zero(double value, int decimals)
+{
+    return fabs(value) <= 0.5 * pow(10.0, -decimals) ? 0.0 : value;
 }
 
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count, fst_error *error)

@@ -5,9 +5,28 @@ static const option options[] = {
     {"csv", '\0', NULL, "comma-separated values with a line of names"},
     {"json", '\0', NULL, "a list of objects with the keys of festoon run"},
     {"hdf5", '\0', NULL, "one data set a column, into the file of -o"},
+    {"key", '\0', "KEY,...",
+     "of CSV: only the varied parameters and these keys of festoon run, each with its unit "
+     "(mean_r,std_r,regime)"},
+    UNITS_OPTION,
     {"output", 'o', "FILE", "write to FILE instead of standard output"},
     {NULL, '\0', NULL, NULL},
 };
+
+/* A table of few columns, in units that people use. */
+static fst_status export_keys(const arguments *given, const char *to, FILE *out, fst_error *error)
+{
+    const char *text = option_value(given, "key"), *keys[KEY_LIMIT];
+    char words[KEYS_SIZE];
+    int count = 0;
+    fst_shown_units units;
+    fst_status status = read_units(given, &units, error);
+    if (status == FST_OK && text)
+        status = read_keys(text, words, keys, &count, error);
+    if (status == FST_OK)
+        status = fst_sweep_export_keys(operand(given), keys, count, units, to, out, error);
+    return status;
+}
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
@@ -23,7 +42,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     if (count != 1)
         return fail(error, FST_BAD_INPUT, "", "say which: --csv, --json or --hdf5");
     const char *to = option_value(given, "output");
-    fst_status status = fst_sweep_export(operand(given), (fst_export_format)chosen, to, out, error);
+    const int columns = option_value(given, "key") || option_value(given, "units");
+    if (columns && !option_value(given, "csv"))
+        return fail(error, FST_BAD_INPUT, "", "--key and --units belong to --csv");
+    fst_status status = columns ? export_keys(given, to, out, error)
+                                : fst_sweep_export(operand(given), (fst_export_format)chosen, to, out, error);
     if (status == FST_OK && to)
         tell_written(to, "");
     return status;
@@ -31,9 +54,12 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command export_command = {
     .name = "export",
-    .synopsis = "FILE.db --csv|--json|--hdf5 [-o FILE]",
+    .synopsis = "FILE.db --csv|--json|--hdf5 [--key KEY,...] [--units UNITS] [-o FILE]",
     .summary = "Print the rows of a sweep in the order of its points",
     .details =
+        "With --key or --units the CSV has the varied parameters and the keys (regime, mean_r, std_r and\n"
+        "mean_alpha_dot unless told) with their units, as in \"mean_r [mm]\"; without, every column as it is "
+        "kept.\n"
         "Each row is compared with its checksum.  Where some are damaged the status is 2, the points that are "
         "lost "
         "are named,\n"

@@ -1,45 +1,86 @@
 /* field.c - festoon field: the magnet's field at a point, or drawn as a map. */
+#include <string.h>
+
 #include "cli/command.h"
 
 static const option options[] = {
     SCENE_OPTIONS,
     JSON_OPTION,
-    {"at", '\0', "X,Y", "the field and its gradient at this point of the bead's centre, in l"},
+    {"at", '\0', "X,Y",
+     "the field and its gradient where the bead's centre is: in l, or with units as in 10mm,5mm"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
     {NULL, '\0', NULL, NULL},
 };
+
+/* What is smaller than the rounding errors of the sum over the lines is shown as the zero that it is. */
+static double above_rounding(double value, double greatest)
+{
+    return fabs(value) <= 1e-15 * greatest ? 0.0 : value;
+}
 
 static void print_text(FILE *out, const fst_model *model, double x, double y)
 {
     double b[3], grad[3][3];
     static const char *const axes[] = {"X", "Y", "Z"};
+    const fst_groups groups = fst_model_groups(model);
+    const double mm = 1e3 * groups.length_unit;
     fst_field(model, x, y, b, grad);
-    (void)fprintf(out, "at X = %g, Y = %g (l), magnet's frame, the bead's centre on the plate\n", x, y);
+    double most = 0.0, steepest = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        most = fmax(most, fabs(b[i]));
+        for (int k = 0; k < 3; ++k)
+            steepest = fmax(steepest, fabs(grad[i][k]));
+    }
+    (void)fprintf(
+        out,
+        "at X = %g, Y = %g l (%g mm, %g mm), magnet's frame, at the height of a bead's centre on the plate\n",
+        x, y, mm * x, mm * y);
     (void)fprintf(out, "   %16s   %s\n", "B (B0)", "dB/dX, dB/dY, dB/dZ (B0/l)");
     for (int i = 0; i < 3; ++i)
-        (void)fprintf(out, "%s  %16.9g   %16.9g %16.9g %16.9g\n", axes[i], b[i], grad[i][0], grad[i][1],
-                      grad[i][2]);
+        (void)fprintf(out, "%s  %16.9g   %16.9g %16.9g %16.9g\n", axes[i], above_rounding(b[i], most),
+                      above_rounding(grad[i][0], steepest), above_rounding(grad[i][1], steepest),
+                      above_rounding(grad[i][2], steepest));
     (void)fprintf(out, "|B| = %.9g B0\n", sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
-    const fst_groups groups = fst_model_groups(model);
     if (!isnan(groups.field_unit))
         (void)fprintf(out, "B0 = %.6g mT\n", 1e3 * groups.field_unit);
 }
 
+/* Read X,Y: each a number in l, or a length with its unit. */
+static fst_status read_place(const char *text, double length_unit, double at[2], fst_error *error)
+{
+    const char *comma = strchr(text, ',');
+    for (int i = 0; i < 2 && comma; ++i) {
+        char word[64];
+        const char *from = i ? comma + 1 : text;
+        const size_t length = i ? strlen(from) : (size_t)(comma - text);
+        fst_error ignored;
+        (void)snprintf(word, sizeof word, "%.*s", (int)(length < 63 ? length : 63), from);
+        if (fst_parse_value(word, FST_UNIT_NUMBER, &at[i], &ignored) == FST_OK)
+            continue;
+        if (fst_parse_value(word, FST_UNIT_LENGTH, &at[i], &ignored) != FST_OK)
+            comma = NULL;
+        at[i] /= length_unit;
+    }
+    return comma ? FST_OK
+                 : fail(error, FST_BAD_INPUT, "--at",
+                        "\"%.60s\" must be X,Y: two numbers in l or two lengths with units, as in 0.5,-0.2 or "
+                        "10mm,5mm",
+                        text);
+}
+
 static fst_status print_point(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
 {
-    double at[2];
+    double at[2] = {0.0, 0.0};
     fst_model *model = NULL;
-    fst_status status = read_numbers("--at", option_value(given, "at"), at, 2, error);
+    fst_status status = fst_model_new(params, &model, error);
+    if (status == FST_OK)
+        status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
     static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
-    if (status == FST_OK)
-        status = fst_model_new(params, &model, error);
-    if (status != FST_OK)
-        return status;
-    if (option_value(given, "json"))
+    if (status == FST_OK && option_value(given, "json"))
         status = print_and_free(fst_field_json(model, at[0], at[1]), out, error);
-    else
+    else if (status == FST_OK)
         print_text(out, model, at[0], at[1]);
     fst_model_free(model);
     return status;
@@ -67,9 +108,9 @@ const command field_command = {
     .name = "field",
     .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... --at X,Y [--json] | -o FIG.(svg|pdf|png)",
     .summary = "The magnet's field and its gradient at a point, or drawn as a map",
-    .details =
-        "Positions are in l (half length of the magnet's lines), in the magnet's frame, at the height of the\n"
-        "bead's centre; fields in B0.\n",
+    .details = "Positions without a unit are in l (half length of the magnet's lines); they are in the "
+               "magnet's frame, at the height of the\n"
+               "bead's centre; fields in B0.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -44,6 +44,9 @@ static const struct {
     {"fst_film_track_options.scale", "--scale"},
     {"fst_film_track_options.distance", "--distance"},
     {"fst_paper_options.only", "--only"},
+    {"fst_fit_options.free", "--free"},
+    {"fst_fit_options.given", "--given"},
+    {"fst_fit", ""},
     {"fst_festoons_find.festoons", "--festoons"},
     {"fst_branch_options.key", "--over"},
     {"fst_branch_options.from", "--over"},
@@ -52,6 +55,11 @@ static const struct {
     {"fst_branch_options.second_key", "--with"},
     {"fst_branch_options.second_from", "--with"},
     {"fst_branch_options.special", "--follow"},
+    {"fst_track_options.format", "--format"},
+    {"fst_track_options.scale", "--scale"},
+    {"fst_track_options.fps", "--fps"},
+    {"fst_measure_options.drive", "--drive"},
+    {"fst_measure_options.exposure", "--exposure"},
 };
 
 const char *option_of_field(const char *field)

@@ -8,6 +8,15 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
+/* Phi in degrees; a bead on the axis has none. */
+static const char *angle_text(double degrees, char text[32])
+{
+    if (!isfinite(degrees))
+        return "any";
+    (void)snprintf(text, 32, "%.4f", degrees < -179.99995 ? 180.0 : unsigned_zero(degrees, 4));
+    return text;
+}
+
 static void print_list(FILE *out, double omega, int dry, const fst_locked_list *list)
 {
     (void)fprintf(out, "omega = %.10g: %zu locked states from %d starts, sum of indices %d\n\n", omega,
@@ -22,17 +31,25 @@ static void print_list(FILE *out, double omega, int dry, const fst_locked_list *
             out,
             "The sum of indices is 2 where all states are found and none is a member of a continuum: this list "
             "may lack some.\n\n");
-    (void)fprintf(out, "%14s %10s  %26s  %28s %12s %12s\n", "r (l)", "Phi (deg)", "n", "W (gamma)",
+    (void)fprintf(out, "%14s %10s  %26s  %28s %14s %12s\n", "r (l)", "Phi (deg)", "n", "W (gamma)",
                   "slip (l gamma)", "max Re");
+    int stable = 0;
     for (size_t i = 0; i < list->count; ++i) {
         const fst_locked *l = &list->states[i];
         double greatest = l->eigenvalue_re[0];
         for (int k = 1; k < FST_EIGENVALUE_COUNT; ++k)
             greatest = fmax(greatest, l->eigenvalue_re[k]);
-        (void)fprintf(out, "%14.10f %10.4f  %8.5f %8.5f %8.5f  %9.5f %9.5f %9.5f %12.6g %12.5g  %s\n", l->r,
-                      l->bead_angle_deg, l->state[FST_NX], l->state[FST_NY], l->state[FST_NZ], l->state[FST_WX],
-                      l->state[FST_WY], l->state[FST_WZ], l->slip, greatest, l->stable ? "stable" : "");
+        char phi[32];
+        (void)fprintf(out, "%14.10f %10s ", unsigned_zero(l->r, 10), angle_text(l->bead_angle_deg, phi));
+        for (int k = FST_NX; k <= FST_WZ; ++k)
+            (void)fprintf(out, "%s%*.5f", k == FST_WX ? " " : "", k < FST_WX ? 9 : 10,
+                          unsigned_zero(l->state[k], 5));
+        (void)fprintf(out, " %14.6g %12.5g  %s\n", unsigned_zero(l->slip, 12), greatest,
+                      l->stable ? "stable" : "unstable");
+        stable += l->stable != 0;
     }
+    if (list->count > 0 && stable == 0)
+        (void)fprintf(out, "\nNone is stable: a bead that is disturbed leaves each of them.\n");
 }
 
 static void print_families(FILE *out, const fst_locked_list *list)
@@ -46,9 +63,12 @@ static void print_families(FILE *out, const fst_locked_list *list)
     for (size_t i = 0; i < 2 * list->family_count; ++i) {
         const fst_rolling_family *family = &list->families[i / 2];
         const fst_rolling_lock *l = i % 2 ? &family->to : &family->from;
-        (void)fprintf(out, "%14.10f %10.4f  %8.5f %8.5f  %9.5f %9.5f %10.6f  %s%s\n", l->r, l->bead_angle_deg,
-                      l->state[FST_NX], l->state[FST_NZ], l->state[FST_WX], l->state[FST_WZ], l->use,
-                      fst_rolling_end_name(l->end), i % 2 ? "\n" : "");
+        char phi[32];
+        (void)fprintf(out, "%14.10f %10s  %8.5f %8.5f  %9.5f %9.5f %10.6f  %s%s\n", unsigned_zero(l->r, 10),
+                      angle_text(l->bead_angle_deg, phi), unsigned_zero(l->state[FST_NX], 5),
+                      unsigned_zero(l->state[FST_NZ], 5), unsigned_zero(l->state[FST_WX], 5),
+                      unsigned_zero(l->state[FST_WZ], 5), l->use, fst_rolling_end_name(l->end),
+                      i % 2 ? "\n" : "");
     }
 }
 

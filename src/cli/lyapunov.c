@@ -15,10 +15,11 @@ static void print_spectrum(FILE *out, const fst_lyapunov *l)
     double sum = 0.0;
     for (int i = 0; i < FST_EIGENVALUE_COUNT; ++i) {
         sum += l->exponents[i];
-        (void)fprintf(out, "  %14.9f +- %.2g%s\n", l->exponents[i], l->errors[i],
+        (void)fprintf(out, "  %14.9f +- %.2g%s\n", unsigned_zero(l->exponents[i], 9), l->errors[i],
                       i == l->flow_direction ? "   (the flow direction: zero)" : "");
     }
-    (void)fprintf(out, "  sum %.9f, mean divergence of the flow %.9f\n", sum, l->divergence);
+    (void)fprintf(out, "  sum %.9f, mean divergence of the flow %.9f\n", unsigned_zero(sum, 9),
+                  unsigned_zero(l->divergence, 9));
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)

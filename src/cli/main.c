@@ -4,79 +4,10 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/completion.h"
 #include "cli/fields.h"
+#include "cli/help.h"
 #include "cli/terminal.h"
-
-static const command *const commands[] = {
-    &run_command,    &sweep_command,  &export_command,   &field_command,  &orbit_command,
-    &locked_command, &branch_command, &lyapunov_command, &plot_command,   &movie_command,
-    &paper_command,  &init_command,   &check_command,    &schema_command, &track_command,
-};
-enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
-
-static const command *find_command(const char *name)
-{
-    for (int i = 0; i < COMMAND_COUNT; ++i)
-        if (strcmp(commands[i]->name, name) == 0)
-            return commands[i];
-    return NULL;
-}
-
-/* ---------------------------------------------------------------- help */
-
-static void print_help(FILE *out)
-{
-    (void)fprintf(out,
-                  "festoon %s - a magnetic bead on a magnetic stirrer\n\n"
-                  "usage: festoon COMMAND [SCENE.yaml] [--set KEY=VALUE]... [options]\n\n",
-                  fst_version());
-    for (int i = 0; i < COMMAND_COUNT; ++i)
-        (void)fprintf(out, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
-    (void)fprintf(
-        out, "\nWithout a scene: the bead of Farago et al. (2020) at 10.7 Hz.  festoon COMMAND --help tells\n"
-             "more; festoon --version lists the optional parts of this build.\n\n"
-             "Status: 0 done; 1 the computation failed; 2 bad usage, scene or input file; 130 interrupted.\n");
-}
-
-static void print_command_help(FILE *out, const command *shown)
-{
-    (void)fprintf(out, "usage: festoon %s %s\n\n%s.\n", shown->name, shown->synopsis, shown->summary);
-    if (shown->details[0])
-        (void)fprintf(out, "\n%s", shown->details);
-    (void)fprintf(out, "\noptions:\n");
-    for (const option *row = shown->options; row->name; ++row) {
-        char words[64];
-        (void)snprintf(words, sizeof words, "%s%c%s--%s %s", row->letter ? "-" : "",
-                       row->letter ? row->letter : ' ', row->letter ? ", " : "", row->name,
-                       row->value ? row->value : "");
-        (void)fprintf(out, "  %-28s %s\n", words, row->help);
-    }
-    (void)fprintf(out, "  %-28s %s\n", " --help", "this text");
-}
-
-static fst_status unknown_command(const char *name, fst_error *error)
-{
-    char names[256] = "help|--help|--version", nearest[32];
-    for (int i = 0; i < COMMAND_COUNT; ++i) {
-        size_t used = strlen(names);
-        (void)snprintf(names + used, sizeof names - used, "|%s", commands[i]->name);
-    }
-    fst_nearest_name(name, names, nearest, sizeof nearest);
-    return fail(error, FST_BAD_INPUT, "", "unknown command \"%.60s\"; the nearest is %s", name, nearest);
-}
-
-static fst_status help(int count, char **words, FILE *out, fst_error *error)
-{
-    if (count == 0) {
-        print_help(out);
-        return FST_OK;
-    }
-    const command *shown = find_command(words[0]);
-    if (!shown)
-        return unknown_command(words[0], error);
-    print_command_help(out, shown);
-    return FST_OK;
-}
 
 /* ---------------------------------------------------------------- doing it */
 
@@ -91,8 +22,10 @@ static int asks_for_help(int count, char **words)
 /* words[0] is the first word after the program's name. */
 static fst_status perform(int count, char **words, FILE *out, fst_error *error)
 {
-    if (count == 0)
-        return fail(error, FST_BAD_INPUT, "", "a command is missing; festoon --help lists them");
+    if (count == 0) {
+        print_greeting(out);
+        return FST_OK;
+    }
     if (strcmp(words[0], "--version") == 0) {
         (void)fprintf(out, "festoon %s\n%s\n", fst_version(), fst_tools_components());
         return FST_OK;
@@ -101,6 +34,8 @@ static fst_status perform(int count, char **words, FILE *out, fst_error *error)
         return help(0, words, out, error);
     if (strcmp(words[0], "help") == 0)
         return help(count - 1, words + 1, out, error);
+    if (strcmp(words[0], "completion") == 0)
+        return print_completion(count - 1, words + 1, out, error);
     const command *wanted = find_command(words[0]);
     if (!wanted)
         return unknown_command(words[0], error);

@@ -13,7 +13,7 @@ typedef struct option {
 } option;
 
 #define OPTION_LIMIT 256 /* the most options that are accepted */
-#define OPERAND_LIMIT 2
+#define OPERAND_LIMIT 256
 
 typedef struct given_option {
     const option *row;
@@ -27,7 +27,8 @@ typedef struct arguments {
     int operand_count;
 } arguments;
 
-/* Read words[0..count) by `table`.  A value may begin with a minus.  Only --set and --over may be repeated.
+/* Read words[0..count) by `table`.  A value may begin with a minus.  Only --set, --over and --given may be
+ * repeated.
  * FST_BAD_INPUT: unknown option (the sentence names the nearest), missing or superfluous value, too many
  * operands. */
 fst_status read_arguments(const option *table, int most_operands, int count, char **words, arguments *given,

@@ -34,15 +34,16 @@ static void print_orbit(FILE *out, const fst_orbit *o)
                   "  <n_z>                     %.12g\n"
                   "  greatest angle(n, B)      %.10g degrees\n"
                   "  tilt of the plane of n    %.10g degrees\n",
-                  m->period, m->mean_r, m->std_r, m->min_r, m->max_r, m->mean_alpha_dot, m->mean_nz,
+                  m->period, m->mean_r, m->std_r, m->min_r, m->max_r,
+                  unsigned_zero(m->mean_alpha_dot, ALL_DIGITS), unsigned_zero(m->mean_nz, ALL_DIGITS),
                   m->max_angle_deg, m->tilt_deg);
     if (m->min_load_weights <= 0)
         (void)fprintf(out, "  the normal load vanishes on it (least %.4g weights): the bead would lift off\n",
                       m->min_load_weights);
     (void)fprintf(out, "  multipliers of the %s map:", o->symmetry == FST_SYMMETRY_S2 ? "half" : "full");
     for (int i = 0; i < FST_MULTIPLIER_COUNT; ++i)
-        (void)fprintf(out, " %.4g%s%.4gi", o->multiplier_re[i], o->multiplier_im[i] < 0 ? "-" : "+",
-                      fabs(o->multiplier_im[i]));
+        (void)fprintf(out, " %.4g%s%.4gi", unsigned_zero(o->multiplier_re[i], ALL_DIGITS),
+                      o->multiplier_im[i] < 0 ? "-" : "+", fabs(o->multiplier_im[i]));
     if (isfinite(o->relaxation_time))
         (void)fprintf(out, "\n  relaxation time           %.10g 1/gamma", o->relaxation_time);
     if (isfinite(o->swing_ratio))

@@ -16,7 +16,7 @@ static const struct {
 
 static const option options[] = {
     {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
-    {"kind", '\0', "KIND",
+    {"kind", '\0', KIND_NAMES,
      "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame) or "
      "radius-field (r and |B| against Phi)"},
     {"key", '\0', "KEY,...", "of a sweep: the keys of festoon run to draw (regime: a map of regimes)"},
@@ -35,6 +35,8 @@ static const option options[] = {
      "curves\n"
      "over two parameters: second"},
     {"runs", '\0', "FILE", "of a branch: draw dots over it, from documents of festoon run --json"},
+    {"points", '\0', "DATA.csv",
+     "of a sweep or a branch over the drive: lay measured points with errors over it, and tell chi^2"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -127,34 +129,44 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
 /* Draw a sweep: curves over one axis, a map over two. */
 static fst_status plot_sweep(const arguments *given, const char *path, const char *to, fst_error *error)
 {
-    enum { MOST_KEYS = 16 };
-    const char *text = option_value(given, "key"), *keys[MOST_KEYS], *unit_word = option_value(given, "units");
-    char words[512] = "";
+    const char *text = option_value(given, "key"), *keys[KEY_LIMIT];
+    char words[KEYS_SIZE];
     int count = 0;
-    fst_shown_units units = FST_SHOWN_AS_GIVEN;
+    fst_shown_units units;
     for (int i = 0; i < given->option_count; ++i) {
         const char *name = given->options[i].row->name;
         if (strcmp(name, "key") != 0 && strcmp(name, "units") != 0 && strcmp(name, "output") != 0)
             return fail(error, FST_BAD_INPUT, "", "--%s belongs to trajectories; this is a sweep", name);
     }
-    if (unit_word) {
-        if (strcmp(unit_word, "lab") != 0 && strcmp(unit_word, "scaled") != 0)
-            return fail(error, FST_BAD_INPUT, "--units", "\"%.40s\" must be lab or scaled", unit_word);
-        units = strcmp(unit_word, "lab") == 0 ? FST_SHOWN_LAB : FST_SHOWN_SCALED;
-    }
-    (void)snprintf(words, sizeof words, "%s", text ? text : "");
-    for (char *word = words; *word && count < MOST_KEYS;) {
-        size_t length = strcspn(word, ",");
-        keys[count++] = word;
-        if (!word[length])
-            break;
-        word[length] = '\0';
-        word += length + 1;
-    }
-    fst_status status = fst_figure_sweep(path, keys, count, units, to, error);
+    fst_status status = read_units(given, &units, error);
+    if (status == FST_OK && text)
+        status = read_keys(text, words, keys, &count, error);
+    if (status == FST_OK)
+        status = fst_figure_sweep(path, keys, count, units, to, error);
     if (status == FST_OK)
         tell_written(to, "");
     return status;
+}
+
+static fst_status plot_points(const arguments *given, const char *path, const char *to, fst_error *error)
+{
+    fst_points_fit fit;
+    char remark[96];
+    for (int i = 0; i < given->option_count; ++i) {
+        const char *name = given->options[i].row->name;
+        if (strcmp(name, "points") != 0 && strcmp(name, "output") != 0)
+            return fail(error, FST_BAD_INPUT, "", "--%s does not go with --points", name);
+    }
+    if (!ends_in(path, ".json") && !fst_is_sweep(path) && !ends_in(path, ".db"))
+        return fail(error, FST_BAD_INPUT, path,
+                    "--points belongs to sweeps and branches; this file is neither");
+    const fst_status status = fst_figure_points(path, option_value(given, "points"), to, &fit, error);
+    if (status != FST_OK)
+        return status;
+    (void)snprintf(remark, sizeof remark, ": chi^2 = %.6g of %d measured numbers (%d in the table)", fit.chi2,
+                   fit.counted, fit.all);
+    tell_written(to, remark);
+    return FST_OK;
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
@@ -167,6 +179,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "say where the figure goes: -o FIG.svg");
+    if (option_value(given, "points"))
+        return plot_points(given, path, to, error);
     if (ends_in(path, ".json")) /* a branch */
         return plot_branch(given, path, to, error);
     if (fst_is_sweep(path) || ends_in(path, ".db"))

@@ -1,6 +1,7 @@
 /* run_report.c - the result of a run in words: a sentence, then the numbers. */
 #include "cli/run_report.h"
 
+#include "cli/command.h"
 #include "cli/groups.h"
 
 /* ---------------------------------------------------------------- the sentence */
@@ -13,7 +14,7 @@ static double millimetres(const fst_groups *groups, double length)
 /* The angle between bead and magnet at the end, in degrees. */
 static double final_phi_degrees(const fst_run_result *result)
 {
-    return atan2(result->final_state[FST_Y], result->final_state[FST_X]) * 360.0 / TWO_PI;
+    return unsigned_zero(atan2(result->final_state[FST_Y], result->final_state[FST_X]) * 360.0 / TWO_PI, 4);
 }
 
 static double final_r(const fst_run_result *result)
@@ -86,6 +87,7 @@ static void print_line(FILE *out, const char *name, double value, double bar, co
     char scaled[96];
     if (!isfinite(value))
         return;
+    value = unsigned_zero(value, ALL_DIGITS);
     if (isfinite(bar))
         (void)snprintf(scaled, sizeof scaled, "%.8g +- %.1g %s", value, bar, scaled_unit);
     else
@@ -196,6 +198,7 @@ void print_ramp(FILE *out, const fst_groups *groups, const fst_run_result *resul
     for (size_t i = 0; i < count; ++i)
         (void)fprintf(out, "  %10.5g %10.6g %10.5g %12.4g %14.6g %14.6g %10.3g%s\n", points[i].frequency_hz,
                       points[i].omega, mm * points[i].mean_r, mm * points[i].std_r,
-                      hertz * points[i].mean_alpha_dot, hertz * points[i].mean_phi_dot, points[i].mean_nz,
-                      points[i].settled ? "" : " *");
+                      unsigned_zero(hertz * points[i].mean_alpha_dot, ALL_DIGITS),
+                      unsigned_zero(hertz * points[i].mean_phi_dot, ALL_DIGITS),
+                      unsigned_zero(points[i].mean_nz, ALL_DIGITS), points[i].settled ? "" : " *");
 }

@@ -16,7 +16,7 @@ static const option options[] = {
     {"seed", '\0', "N", "seed of the random values (1)"},
     {"portable", '\0', NULL,
      "as --arithmetic portable: the bits of festoon run, the same on every machine; slower"},
-    {"arithmetic", '\0', "NAME", "portable, avx2 or avx512 (the fastest that this processor has)"},
+    {"arithmetic", '\0', "portable|avx2|avx512", "kind of arithmetic (the fastest that this processor has)"},
     {"lanes", '\0', "N",
      "runs side by side on a thread: 1, 4 or 8 (what suits the processor); no row depends on it"},
     {"checkpoint", '\0', "SECONDS",

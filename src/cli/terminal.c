@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
@@ -130,6 +131,24 @@ void progress_end(progress_line *line)
 {
     if (line->visible && line->shown > line->started)
         (void)fputs("\r\033[K", stderr);
+}
+
+int read_standard_input(char *text, size_t most, size_t *size)
+{
+    enum { LOOK = 100 }; /* ms: a signal that comes just before read() would not end it */
+    *size = 0;
+    while (*size < most && !interrupted()) {
+        struct pollfd input = {.fd = STDIN_FILENO, .events = POLLIN};
+        if (poll(&input, 1, LOOK) <= 0)
+            continue;
+        const ssize_t got = read(STDIN_FILENO, text + *size, most - *size);
+        if (got == 0)
+            return 0;
+        if (got < 0 && errno != EINTR)
+            return errno;
+        *size += got > 0 ? (size_t)got : 0;
+    }
+    return 0;
 }
 
 /* Write everything: 0, or errno. -1: the reader, such as head(1), took a part and wants no more, which is no

@@ -34,6 +34,9 @@ fst_status progress_tell(void *line, double fraction, const char *what, fst_erro
 /* Wipe the line. */
 void progress_end(progress_line *line);
 
+/* Read standard input to its end, or `most` bytes of it.  Returns 0, or an errno; a signal ends it too. */
+int read_standard_input(char *text, size_t most, size_t *size);
+
 /* Write all of `text` to standard output.  Returns 0, or an errno. */
 int write_standard_output(const char *text, size_t size);
 

@@ -7,6 +7,11 @@ enum { USUAL_WIDTH = 720, PANEL_HEIGHT = 260, HEAD_HEIGHT = 112, FOOT_HEIGHT = 6
 
 /* ------------------------------------------------------------------ data */
 
+static int is_shown(const fst_chart_curve *curve, size_t i)
+{
+    return isfinite(curve->x[i]) && isfinite(curve->y[i]) && (!curve->spread || isfinite(curve->spread[i]));
+}
+
 /* Write the curves as data blocks "NAMEi-curvej". */
 static void write_blocks(fst_figure_file *figure, const char *name, int number, const fst_chart_curve *curves,
                          int count)
@@ -18,13 +23,18 @@ static void write_blocks(fst_figure_file *figure, const char *name, int number, 
         fst_figure_block(figure, block, curve->title ? curve->title : "x y");
         for (size_t i = 0; i < curve->count; ++i) {
             /* gnuplot breaks a line at an empty line, but steps over a missing value. */
-            if (isfinite(curve->x[i]) && isfinite(curve->y[i]))
-                (void)fprintf(figure->data, "%.9g %.9g\n", curve->x[i], curve->y[i]);
-            else if (i > 0 && isfinite(curve->x[i - 1]) && isfinite(curve->y[i - 1]))
+            if (is_shown(curve, i)) {
+                (void)fprintf(figure->data, "%.9g %.9g", curve->x[i], curve->y[i]);
+                if (curve->spread)
+                    (void)fprintf(figure->data, " %.9g %.9g", curve->y[i] - curve->spread[i],
+                                  curve->y[i] + curve->spread[i]);
                 (void)fputc('\n', figure->data);
+            } else if (i > 0 && is_shown(curve, i - 1)) {
+                (void)fputc('\n', figure->data);
+            }
         }
-        if (curve->count == 0 || !isfinite(curve->y[0]))
-            (void)fputs("nan nan\n", figure->data);
+        if (curve->count == 0 || !is_shown(curve, 0))
+            (void)fputs(curve->spread ? "nan nan nan nan\n" : "nan nan\n", figure->data);
     }
 }
 
@@ -124,12 +134,19 @@ static void write_curves(fst_figure_file *figure, const char *name, int number, 
                                          [FST_CURVE_POINTS] = "points pt 7 ps 0.6",
                                          [FST_CURVE_OPEN_POINTS] = "points pt 6 ps 0.7 lw 1.2",
                                          [FST_CURVE_LINE_POINTS] = "linespoints pt 7 ps 0.6 lw 2",
-                                         [FST_CURVE_DASHED_POINTS] = "linespoints dt (6,5) pt 6 ps 0.7 lw 2"};
+                                         [FST_CURVE_DASHED_POINTS] = "linespoints dt (6,5) pt 6 ps 0.7 lw 2",
+                                         [FST_CURVE_ERRORS] = "yerrorbars pt 7 ps 0.6 lw 1.4",
+                                         [FST_CURVE_OPEN_ERRORS] = "yerrorbars pt 6 ps 0.8 lw 1.4",
+                                         [FST_CURVE_BAND] = "filledcurves fs transparent solid 0.22 noborder"};
+    static const char *const columns[] = {"1:2", "1:2:3:4", "1:3:4"};
     for (int c = 0; c < count; ++c) {
         const fst_chart_curve *curve = &curves[c];
-        (void)fprintf(figure->script, "%sdata index '%s%d-curve%d' using 1:2 axes %s with %s lc rgb '%s' ",
-                      c ? ", \\\n     " : "plot ", name, number, c + 1, curve->right ? "x1y2" : "x1y1",
-                      styles[curve->style], fst_colour_code(curve->colour));
+        (void)fprintf(figure->script, "%sdata index '%s%d-curve%d' using %s axes %s with %s lc rgb '%s' ",
+                      c ? ", \\\n     " : "plot ", name, number, c + 1,
+                      columns[!curve->spread                   ? 0
+                              : curve->style == FST_CURVE_BAND ? 2
+                                                               : 1],
+                      curve->right ? "x1y2" : "x1y1", styles[curve->style], fst_colour_code(curve->colour));
         if (curve->title) {
             (void)fputs("title ", figure->script);
             fst_figure_quote(figure, curve->title);

@@ -11,7 +11,10 @@ typedef enum {
     FST_CURVE_POINTS,
     FST_CURVE_OPEN_POINTS,
     FST_CURVE_LINE_POINTS, /* few points; the line only guides the eye between them */
-    FST_CURVE_DASHED_POINTS
+    FST_CURVE_DASHED_POINTS,
+    FST_CURVE_ERRORS,      /* points with error bars, y - spread to y + spread */
+    FST_CURVE_OPEN_ERRORS, /* the same with open points */
+    FST_CURVE_BAND         /* a pale area from y - spread to y + spread */
 } fst_curve_style;
 
 typedef struct fst_chart_curve {
@@ -20,7 +23,8 @@ typedef struct fst_chart_curve {
     size_t count;
     fst_colour colour;
     fst_curve_style style;
-    int right; /* belongs to the right-hand ordinate */
+    int right;            /* belongs to the right-hand ordinate */
+    const double *spread; /* of the styles with errors and of the band; else NULL */
 } fst_chart_curve;
 
 /* A word at a place of an inset. */

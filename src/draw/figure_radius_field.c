@@ -37,8 +37,8 @@ static void fold(const fst_view *view, const double *bead_angle, const double *r
 static fst_status draw(const fst_view *view, const char *out, const folded *curve, fst_error *error)
 {
     fst_chart_curve curves[] = {
-        {NULL, curve->bead_angle, curve->r, curve->count, FST_COLOUR_BLUE, FST_CURVE_LINE, 0},
-        {NULL, curve->bead_angle, curve->b, curve->count, FST_COLOUR_VERMILION, FST_CURVE_LINE, 1},
+        {NULL, curve->bead_angle, curve->r, curve->count, FST_COLOUR_BLUE, FST_CURVE_LINE, 0, NULL},
+        {NULL, curve->bead_angle, curve->b, curve->count, FST_COLOUR_VERMILION, FST_CURVE_LINE, 1, NULL},
     };
     fst_chart_panel panel = {.left_label = "r (ℓ), blue",
                              .right_label = "|B| (B_0), orange",

@@ -27,7 +27,7 @@ static int program_present(const char *name)
 
 const char *fst_tools_components(void)
 {
-    static const char *const texts[2][2][2][2][2][2] = {
+    static const char *const texts[2][2][2][2][2][2][2] = {
 #define GNUPLOT(yes_or_no)                                                                                     \
     {HDF5(yes_or_no ", hdf5 no (install libhdf5-dev and build again)"), HDF5(yes_or_no ", hdf5 yes")}
 #define HDF5(before)                                                                                           \
@@ -44,6 +44,11 @@ const char *fst_tools_components(void)
     }
 #define LAPACK(before)                                                                                         \
     {                                                                                                          \
+        CMINPACK(before ", cminpack no (install libcminpack-dev and build again)"),                            \
+            CMINPACK(before ", cminpack yes")                                                                  \
+    }
+#define CMINPACK(before)                                                                                       \
+    {                                                                                                          \
         before ", ffmpeg no (install ffmpeg)", before ", ffmpeg yes"                                           \
     }
         GNUPLOT("gnuplot no (install gnuplot-nox)"), GNUPLOT("gnuplot yes")
@@ -52,9 +57,11 @@ const char *fst_tools_components(void)
 #undef CAIRO
 #undef MPI
 #undef LAPACK
+#undef CMINPACK
     };
     const int gnuplot = program_present("gnuplot"), ffmpeg = program_present("ffmpeg");
     const int hdf5 = fst_module_present(FST_HDF5_MODULE), cairo = fst_module_present(FST_CAIRO_MODULE);
     const int mpi = fst_module_present(FST_MPI_MODULE);
-    return texts[gnuplot][hdf5][cairo][mpi][fst_lapack_present()][ffmpeg];
+    const int cminpack = fst_module_present(FST_MINPACK_MODULE);
+    return texts[gnuplot][hdf5][cairo][mpi][fst_lapack_present()][cminpack][ffmpeg];
 }

@@ -8,6 +8,7 @@
 #define FST_CAIRO_MODULE "festoon-cairo.so"
 #define FST_HDF5_MODULE "festoon-hdf5.so"
 #define FST_MPI_MODULE "festoon-mpi.so"
+#define FST_MINPACK_MODULE "festoon-minpack.so"
 
 /* The table called `symbol` of the module `file`, which is found along the RUNPATH of this library and stays
  * loaded.  NULL: the module cannot be loaded (*found is 0) or has no such table (*found is 1). */

@@ -12,20 +12,41 @@ static int processor_has(int width)
 }
 #endif
 
+#ifdef FST_HAVE_LANES
+typedef struct engines {
+    const fst_lane_engine *usual, *dry;
+    fst_arithmetic arithmetic;
+} engines;
+
+static const engines ALL[] = {{&fst_lanes_avx512, &fst_dry_lanes_avx512, FST_ARITHMETIC_AVX512},
+                              {&fst_lanes_avx2, &fst_dry_lanes_avx2, FST_ARITHMETIC_AVX2},
+                              {&fst_lanes_portable8, &fst_dry_lanes_portable8, FST_ARITHMETIC_PORTABLE},
+                              {&fst_lanes_portable4, &fst_dry_lanes_portable4, FST_ARITHMETIC_PORTABLE}};
+#endif
+
 const fst_lane_engine *fst_lane_engine_of(fst_arithmetic arithmetic, int lanes)
 {
 #ifdef FST_HAVE_LANES
-    static const fst_lane_engine *const engines[] = {&fst_lanes_avx512, &fst_lanes_avx2, &fst_lanes_portable8,
-                                                     &fst_lanes_portable4};
-    static const fst_arithmetic forms[] = {FST_ARITHMETIC_AVX512, FST_ARITHMETIC_AVX2, FST_ARITHMETIC_PORTABLE,
-                                           FST_ARITHMETIC_PORTABLE};
-    for (int i = 0; i < 4; ++i)
-        if (forms[i] == arithmetic && (lanes == 0 || lanes == engines[i]->width) &&
-            processor_has(engines[i]->width))
-            return engines[i];
+    for (size_t i = 0; i < sizeof ALL / sizeof *ALL; ++i) {
+        const int width = ALL[i].usual->width;
+        if (ALL[i].arithmetic == arithmetic && (lanes == 0 || lanes == width) && processor_has(width))
+            return ALL[i].usual;
+    }
 #else
     (void)arithmetic;
     (void)lanes;
+#endif
+    return NULL;
+}
+
+const fst_lane_engine *fst_dry_lane_engine_of(const fst_lane_engine *engine)
+{
+#ifdef FST_HAVE_LANES
+    for (size_t i = 0; i < sizeof ALL / sizeof *ALL; ++i)
+        if (ALL[i].usual == engine)
+            return ALL[i].dry;
+#else
+    (void)engine;
 #endif
     return NULL;
 }

@@ -42,6 +42,9 @@ typedef struct fst_lane_tries {
     unsigned accepted; /* the step's error is within the tolerance: time has gone on */
     unsigned landed;   /* of these, those at their limit of time */
     unsigned failed;   /* the step was given up */
+    /* Dry contacts: */
+    unsigned contact; /* the step is good, but not accepted yet: its mode or the way may end in it */
+    unsigned anew;    /* of those accepted, the steps that were made anew */
 } fst_lane_tries;
 
 typedef struct fst_lane_engine {
@@ -54,6 +57,13 @@ typedef struct fst_lane_engine {
     /* Put a trajectory that has its first stage into a lane, to go on to t_limit; and take it out. */
     void (*load)(void *batch, int lane, const fst_flow *flow, double t_limit);
     void (*release)(void *batch, int lane);
+
+    /* Dry contacts: accept the last step of the lanes `contact` after all; make the one of a lane anew as its
+     * next try, with another size and whatever its error; let a lane go on with the trajectory of its flow in
+     * another mode, where everything else that it knows stays. */
+    void (*pass)(void *batch, unsigned lanes);
+    void (*make_anew)(void *batch, int lane, double size);
+    void (*reload)(void *batch, int lane, const fst_flow *flow, double t_limit);
 
     /* All that a lane knows between two steps, as `numbers` doubles.  restore() follows load() of the same
      * trajectory, which then goes on with the same bits as if it had never left. */
@@ -94,12 +104,16 @@ typedef struct fst_lane_engine {
     /* The time, size and counts of a lane, as its flow has them; the drive does not change in lanes. */
     void (*extract_clock)(const void *batch, int lane, fst_flow *flow);
 
-    fst_tangent_engine tangents;    /* of the same width and form */
-    fst_splitting_engine splitting; /* so too */
+    /* Of the same width and form; the engines of dry contacts have none. */
+    fst_tangent_engine tangents;
+    fst_splitting_engine splitting;
 } fst_lane_engine;
 
 /* The engine of a form of arithmetic and a width (0: the widest of that form), or NULL where this processor or
  * this build has none. */
 const fst_lane_engine *fst_lane_engine_of(fst_arithmetic arithmetic, int lanes);
+
+/* The one for dry contacts, of the width and form of another. */
+const fst_lane_engine *fst_dry_lane_engine_of(const fst_lane_engine *engine);
 
 #endif

@@ -33,9 +33,20 @@
  *     advance()     the end of the step is the start of the next
  *
  * watch() and observe() err towards yes: every test has a margin.  For a close look extract() takes the step
- * out of its lane as a scalar step, and the code of single runs looks at it.  A mode of contact (ode/flow.inl)
- * would change in the same place: its event makes the step worth a close look, the scalar flow is cut there,
- * and is loaded into its lane again.
+ * out of its lane as a scalar step, and the code of single runs looks at it.
+ *
+ * Dry contacts.  An engine of its own (FST_DRY_LANES) knows the laws of dry friction at a point.  Each lane has
+ * its mode (model/contact/coulomb.inl), and masks select what belongs to it: the force, the pace in which its
+ * step is measured, and what could end the mode.  A step that may hold such an end, or the end of the way, is
+ * not accepted but reported (`contact`), and the code of single runs looks for the event:
+ *
+ *     lane          0         1         2         3
+ *     mode         slip      stick     slip      onset
+ *     |V|          0.03        0       2e-9      7e-5
+ *                 accept    accept    contact   contact: the event lies at the fraction 0.37, so that the lane
+ *                                                        makes the step anew, 0.37 times as long
+ *
+ * Once such a step has passed, the flow enters the next mode, and the lane goes on from there (reload()).
  *
  * The including file brings base/wide.h and defines ENGINE (the table's symbol), ENGINE_NAME and ENGINE_FUSED.
  */
@@ -46,12 +57,18 @@
 #include "model/bodies.inl"
 #include "ode/bead_step.inl"
 #include "ode/path.inl"
-#include "ode/splitting.inl"
 #include "ode/step_control.inl"
+#if KNOWS_DRY
+#include "ode/paced.inl"
+#else
+#include "ode/splitting.inl"
 #include "ode/tangent_step.inl"
+#endif
 #include "observe/integrals.inl"
 #include "observe/peaks.inl"
+#if !KNOWS_DRY
 #include "observe/weighted.inl"
+#endif
 
 typedef struct batch {
     FN(bead_step) step;
@@ -62,6 +79,7 @@ typedef struct batch {
     REAL t_limit;
     REAL norm_drift, accepted, rejected;
     REAL drift, speed; /* at the end of the last try: | |n| - 1 |, greatest component of |d(state)/dt| */
+    REAL passes;       /* the time that the last try takes */
     /* what is watched */
     REAL plate_radius, next_mark, activity;
     REAL turns[2], turns_before[2], bead_angle_least[2], bead_angle_most[2];
@@ -71,6 +89,7 @@ typedef struct batch {
     /* No REAL below this line: save() and restore() take all that are above it. */
     unsigned in_use;
     unsigned observed; /* lanes whose last step was observed */
+    unsigned anew;     /* lanes whose next try makes the last step anew */
     unsigned known;    /* lanes in which the integrands at the start of the present step are known */
 } batch;
 
@@ -164,9 +183,8 @@ static void load_clock(batch *b, int lane, const fst_flow *flow, double t_limit)
 
 static void plan(batch *b, fst_wide_mask mask);
 
-static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
+static void load_motion(batch *b, int lane, const fst_flow *flow, double t_limit)
 {
-    batch *b = memory;
     const fst_bead_step_double *from = &flow->step;
     load_coefficients(&b->step.context.coefficients, lane, &from->context.coefficients);
     load_pull(FST_PATH_PULL(&b->step, FST_PATH_START), lane, flow);
@@ -176,7 +194,17 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
         b->step.y[i][lane] = FST_PATH_STATE(&b->step, FST_PATH_START)[i][lane] = from->y[i];
         FST_PATH_SLOPE(&b->step, FST_PATH_START)[i][lane] = FST_PATH_SLOPE(from, FST_PATH_START)[i];
     }
+#if KNOWS_DRY
+    FST_PATH_PACE(&b->step, FST_PATH_START)[lane] = FST_PATH_PACE(from, FST_PATH_START);
+#endif
     load_clock(b, lane, flow, t_limit);
+    b->known &= ~(1u << lane);
+    plan(b, fst_wide_mask_of(1u << lane));
+}
+
+static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
+{
+    batch *b = memory;
     b->plate_radius[lane] = flow->groups.plate_radius;
     b->next_mark[lane] = INFINITY;
     b->activity[lane] = 0.0;
@@ -190,19 +218,33 @@ static void load(void *memory, int lane, const fst_flow *flow, double t_limit)
     for (int i = 0; i < FST_RECORD_COUNT; ++i)
         b->records[i][lane] = -1e300;
     b->in_use |= 1u << lane;
-    b->known &= ~(1u << lane);
-    plan(b, fst_wide_mask_of(1u << lane));
+    load_motion(b, lane, flow, t_limit);
 }
+
+#if KNOWS_DRY
+static void reload(void *memory, int lane, const fst_flow *flow, double t_limit)
+{
+    load_motion(memory, lane, flow, t_limit);
+}
+
+static void make_anew(void *memory, int lane, double size)
+{
+    batch *b = memory;
+    b->control.size[lane] = size;
+    b->anew |= 1u << lane;
+}
+#endif
 
 /* An idle lane goes on with steps of size 0. */
 static void release(void *memory, int lane)
 {
     batch *b = memory;
     b->in_use &= ~(1u << lane);
+    b->anew &= ~(1u << lane);
     b->control.size[lane] = 0.0;
 }
 
-/* A lane as numbers: its share of every REAL of the batch, and whether its integrands are known.  Where the
+/* A lane as numbers: its share of every REAL of the batch, and its bits of the words.  Where the
  * integers of the coefficients lie there are no REALs; restore() leaves them as load() set them. */
 enum {
     LANE_REALS = offsetof(batch, in_use) / sizeof(REAL),
@@ -216,7 +258,8 @@ static void save(const void *memory, int lane, double *numbers)
     const REAL *reals = memory;
     for (int i = 0; i < LANE_REALS; ++i)
         numbers[i] = i < FIRST_INTEGERS || i >= AFTER_INTEGERS ? reals[i][lane] : 0.0;
-    numbers[LANE_REALS] = b->known >> lane & 1u ? 1.0 : 0.0;
+    numbers[LANE_REALS] = b->known >> lane & 1u;
+    numbers[LANE_REALS + 1] = b->anew >> lane & 1u;
 }
 
 static void restore(void *memory, int lane, const double *numbers)
@@ -227,6 +270,7 @@ static void restore(void *memory, int lane, const double *numbers)
         if (i < FIRST_INTEGERS || i >= AFTER_INTEGERS)
             reals[i][lane] = numbers[i];
     b->known = (b->known & ~(1u << lane)) | (numbers[LANE_REALS] != 0.0 ? 1u << lane : 0u);
+    b->anew = (b->anew & ~(1u << lane)) | (numbers[LANE_REALS + 1] != 0.0 ? 1u << lane : 0u);
 }
 
 static void extract_clock(const void *memory, int lane, fst_flow *flow)
@@ -246,7 +290,7 @@ static void extract_clock(const void *memory, int lane, fst_flow *flow)
     flow->accepted = accepted;
     flow->rejected = rejected;
     flow->has_step = accepted > 0;
-    flow->has_dense = 0;
+    flow->has_dense = flow->contact.has_clock = 0;
 }
 
 static void extract(const void *memory, int lane, fst_bead_step_double *to)
@@ -259,6 +303,10 @@ static void extract(const void *memory, int lane, fst_bead_step_double *to)
     for (int n = 0; n < FST_PATH_PLACES; ++n)
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             FST_PATH_SLOPE(to, n)[i] = FST_PATH_SLOPE(from, n)[i][lane];
+#if KNOWS_DRY
+    for (int n = 0; n < FST_PATH_PLACES; ++n)
+        FST_PATH_PACE(to, n) = FST_PATH_PACE(from, n)[lane];
+#endif
 }
 
 static void extract_path(const void *memory, int lane, fst_bead_step_double *to)
@@ -281,21 +329,34 @@ static void extract_integrals(const void *memory, int lane, fst_integrals_double
 
 /* ------------------------------------------------------------------ steps */
 
+/* Whether steps measure their own time, so that no size can be chosen to land: the end of the way is found in
+ * the step that would pass it. */
+static int is_paced(const batch *b)
+{
+    (void)b; /* of lanes for other contacts none is */
+    return HAS(b->step.context.coefficients.kinds, paced);
+}
+
 static void plan(batch *b, fst_wide_mask mask)
 {
     const FN(twofold) limit = {b->t_limit, R(0.0)};
-    FN(plan_step)(&b->control, mask, FN(twofold_difference)(limit, b->t));
+    const REAL rest = is_paced(b) ? R(INFINITY) : FN(twofold_difference)(limit, b->t);
+    FN(plan_step)(&b->control, mask, rest);
 }
 
-static void accept(batch *b, fst_wide_mask mask, REAL factor)
+static void pass_time(batch *b, fst_wide_mask mask)
 {
-    const FN(twofold) end = FN(step_end)(&b->control, b->t, b->t_limit);
-    b->norm_drift = fst_wide_add_where(mask, b->norm_drift, b->drift);
+    const FN(twofold) end =
+        is_paced(b) ? FN(twofold_add)(b->t, b->passes) : FN(step_end)(&b->control, b->t, b->t_limit);
     b->accepted = fst_wide_add_where(mask, b->accepted, R(1.0));
     b->t_start.high = fst_wide_select(mask, b->t.high, b->t_start.high);
     b->t_start.low = fst_wide_select(mask, b->t.low, b->t_start.low);
     b->t.high = fst_wide_select(mask, end.high, b->t.high);
     b->t.low = fst_wide_select(mask, end.low, b->t.low);
+}
+
+static void accept(batch *b, fst_wide_mask mask, REAL factor)
+{
     FN(accept_step)(&b->control, mask, factor, FST_HOLD_AFTER_REJECTION);
 }
 
@@ -307,25 +368,71 @@ static unsigned reject(batch *b, fst_wide_mask mask, REAL error, REAL factor)
     return fst_wide_lanes_of(WIDE_LESS(R(0.0), given_up));
 }
 
+#if KNOWS_DRY
+static void pass(void *memory, unsigned lanes)
+{
+    pass_time(memory, fst_wide_mask_of(lanes));
+}
+
+/* The lanes whose steps may hold the end of their mode or way.  An onset is short, so that each of its steps
+ * may. */
+static unsigned may_end_mode(const batch *b)
+{
+    const FN(bead_step) *s = &b->step;
+    const FN(coefficients) *c = &s->context.coefficients;
+    const FN(coulomb) *law = &c->law.coulomb;
+    const FN(twofold) limit = {b->t_limit, R(0.0)};
+    const REAL rest = FN(twofold_difference)(limit, b->t);
+    const unsigned sticking = fst_wide_lanes_of(FN(coulomb_sticks)(law)) & b->in_use;
+    unsigned may = fst_wide_lanes_of(FN(coulomb_begins)(law)) |
+                   fst_wide_lanes_of(WIDE_LESS_EQUAL(rest, b->passes * R(1.0 + 1e-12)));
+    may |= fst_wide_lanes_of(FN(coulomb_slips)(law)) & fst_wide_lanes_of(FN(slip_is_over)(s, b->tolerance));
+    if (sticking) { /* as fst_flow_first_negative() has it */
+        REAL least = R(INFINITY), greatest = R(-INFINITY);
+        for (int n = 0; n < FST_PATH_PLACES; ++n) {
+            const REAL left = FN(grip_left)(c, FST_PATH_STATE(s, n), FST_PATH_PULL(s, n));
+            least = -REAL_MAX(-left, -least);
+            greatest = REAL_MAX(left, greatest);
+        }
+        may |= sticking & fst_wide_lanes_of(WIDE_LESS_EQUAL(least - R(0.5) * (greatest - least), R(0.0)));
+    }
+    return may;
+}
+#endif
+
 static fst_lane_tries try_steps(void *memory)
 {
     batch *b = memory;
     FN(bead_step) *s = &b->step;
     s->h = b->control.size;
     FN(bead_try_step)(s);
-    const REAL error = FN(bead_step_error)(s, b->tolerance, b->absolute_tolerance);
+    REAL error = FN(bead_step_error)(s, b->tolerance, b->absolute_tolerance);
+#if KNOWS_DRY
+    if (is_paced(b))
+        error = FN(paced_error)(s, error);
+#endif
     const REAL factor = FN(step_factor)(error);
     b->drift = FN(finish_step)(s);
-    fst_lane_tries tries;
-    tries.accepted = fst_wide_lanes_of(WIDE_LESS_EQUAL(error, R(1.0))) & b->in_use;
-    const unsigned rejected = b->in_use & ~tries.accepted;
-    tries.failed = 0;
-#ifdef FST_FUSED
+    fst_lane_tries tries = {
+        .accepted = fst_wide_lanes_of(WIDE_LESS_EQUAL(error, R(1.0))) & b->in_use & ~b->anew, .anew = b->anew};
+    const unsigned rejected = b->in_use & ~(tries.accepted | tries.anew);
     const fst_wide_mask accepted = fst_wide_mask_of(tries.accepted);
+#ifdef FST_FUSED
     accept(b, accepted, FN(damped_factor)(&b->control, accepted, factor));
 #else
-    accept(b, fst_wide_mask_of(tries.accepted), factor);
+    accept(b, accepted, factor);
 #endif
+    tries.accepted |= tries.anew;
+    b->norm_drift = fst_wide_add_where(fst_wide_mask_of(tries.accepted), b->norm_drift, b->drift);
+    b->anew = 0;
+#if KNOWS_DRY
+    if (is_paced(b)) {
+        b->passes = FN(paced_time)(s);
+        tries.contact = tries.accepted & ~tries.anew & may_end_mode(b);
+        tries.accepted &= ~tries.contact;
+    }
+#endif
+    pass_time(b, fst_wide_mask_of(tries.accepted));
     if (rejected)
         tries.failed = reject(b, fst_wide_mask_of(rejected), error, factor);
     tries.landed = tries.accepted & fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t.high));
@@ -338,7 +445,7 @@ static void keep_integrands(batch *b, unsigned accepted)
     const unsigned kept = accepted & b->observed;
     const fst_wide_mask mask = fst_wide_mask_of(kept);
     FN(integrals) *q = &b->sums;
-    for (int i = 0; kept && i < FST_Q_LANES; ++i)
+    for (int i = 0; kept && i < SUMMED; ++i)
         q->integrands[0][i] = fst_wide_select(mask, q->integrands[FST_PATH_END][i], q->integrands[0][i]);
     for (int i = 0; kept && i < FST_TRACK_COUNT; ++i)
         q->tracked[0][i] = fst_wide_select(mask, q->tracked[FST_PATH_END][i], q->tracked[0][i]);
@@ -402,15 +509,11 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
 {
     batch *b = memory;
     const REAL *y = b->step.y, *end = b->step.end, zero = R(0.0);
-    const REAL *slope = FST_PATH_SLOPE(&b->step, FST_PATH_END);
-    REAL speed = REAL_ABS(slope[0]);
-    for (int i = 1; i < FST_STATE_SIZE; ++i)
-        speed = REAL_MAX(REAL_ABS(slope[i]), speed);
-    b->speed = speed;
+    const REAL speed = b->speed = FN(step_speed)(&b->step);
     const unsigned ending = may_end(b), landed = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->t_limit, b->t.high));
     const unsigned at_mark = fst_wide_lanes_of(WIDE_LESS_EQUAL(b->next_mark, b->t.high + R(1e-9) * b->step.h));
     const unsigned crossing = fst_wide_lanes_of(WIDE_LESS_EQUAL(y[FST_X] * end[FST_X], zero)) & in_window;
-    unsigned close = ending | landed | crossing;
+    unsigned close = ending | landed | crossing | (is_paced(b) ? at_mark : 0);
     b->turns[0] = b->turns_before[0];
     b->turns[1] = b->turns_before[1];
     close |= wind(&b->turns[0], y[FST_X], y[FST_Y], end[FST_X], end[FST_Y]);
@@ -437,11 +540,13 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
 #include "lanes/lane_extremes.inl"
 #endif
 
+#if !KNOWS_DRY
 #define TANGENT_WIDTH FST_LANES
 #include "lanes/tangents.inl"
 
 #define SPLITTING_WIDTH FST_LANES
 #include "lanes/splitting_lanes.inl"
+#endif
 
 const fst_lane_engine ENGINE = {
     .name = ENGINE_NAME,
@@ -451,7 +556,7 @@ const fst_lane_engine ENGINE = {
     .view = view,
     .load = load,
     .release = release,
-    .numbers = LANE_REALS + 1,
+    .numbers = LANE_REALS + 2,
     .save = save,
     .restore = restore,
     .try_steps = try_steps,
@@ -462,8 +567,14 @@ const fst_lane_engine ENGINE = {
     .extract_path = extract_path,
     .extract_clock = extract_clock,
     .extract_integrals = extract_integrals,
+#if KNOWS_DRY
+    .pass = pass,
+    .make_anew = make_anew,
+    .reload = reload,
+#else
     .tangents = TANGENT_ENGINE,
     .splitting = SPLITTING_ENGINE,
+#endif
 #ifdef FST_FUSED
     .waiting_bytes = sizeof(waiting),
     .set_aside = set_aside,

@@ -26,8 +26,10 @@ static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, c
     c.kinds.contact = fst_law_in_effect(params, g->friction);
     c.kinds.dry = c.kinds.contact == FST_FRICTION_COULOMB || c.kinds.contact == FST_FRICTION_ROLLING;
     c.kinds.paced = c.kinds.contact == FST_FRICTION_COULOMB;
-    c.kinds.flies = c.kinds.paced && !isnan(params->impact_restitution);
-    c.kinds.patch = c.kinds.paced ? params->contact_patch : FST_PATCH_POINT;
+    c.kinds.resists = c.kinds.paced && params->friction_rolling_resistance > 0;
+    c.kinds.flies = g->friction == FST_FRICTION_COULOMB && c.kinds.paced && !isnan(params->impact_restitution);
+    c.kinds.patch =
+        g->friction == FST_FRICTION_COULOMB && c.kinds.paced ? params->contact_patch : FST_PATCH_POINT;
     c.kinds.magnetisable = g->material != FST_MATERIAL_HARD;
     c.kinds.gyroscopic_term_lost = g->dynamics == FST_DYNAMICS_FARAGO2020;
     c.eps = REAL_OF(g->eps);

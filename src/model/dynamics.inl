@@ -161,6 +161,22 @@ static inline REAL_MASK FN(in_flight)(const FN(coefficients) * c)
     return REAL_LESS(REAL_OF(FST_MODE_FLIGHT) - R(0.5), c->law.coulomb.mode);
 }
 
+/* The torque of a plate that resists rolling, from the magnet's `turning`.  A bead that does not roll has v =
+ * V, so the push that its slip feels is (7/2) F_h, in the sense that f = (2/7) A keeps it in its place. */
+static inline void FN(resist_rolling)(const FN(coefficients) * c, const REAL w[3], const REAL force[3],
+                                      const REAL turning[3], const REAL lost[3], FN(contact) * at)
+{
+    REAL f[2];
+    if (FN(resist_asks_balance)(&c->resistance)) {
+        for (int i = 0; i < 2; ++i)
+            at->push[i] = R(3.5) * force[i];
+        FN(friction)(&c->law, &c->kinds, at, f);
+        at->balance[0] = turning[0] + lost[0] / c->torque - c->eps * f[1];
+        at->balance[1] = turning[1] + lost[1] / c->torque + c->eps * f[0];
+    }
+    FN(resist)(&c->resistance, w, at->load, at->balance, at->torque);
+}
+
 static inline __attribute__((always_inline)) FN(contact)
     FN(contact_of)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p)
 {
@@ -171,17 +187,24 @@ static inline __attribute__((always_inline)) FN(contact)
     if (HAS(c->kinds, flies))
         at.load = REAL_SELECT(FN(in_flight)(c), R(0.0), at.load);
     at.push[0] = at.push[1] = at.torque[0] = at.torque[1] = at.torque[2] = R(0.0);
+    at.balance[0] = at.balance[1] = R(0.0);
     at.patch = HAS(c->kinds, patch);
     at.pivot = w[2];
     if (HAS(c->kinds, dry)) {
         REAL turning[3], lost[3] = {R(0.0), R(0.0), R(0.0)};
-        FN(resist)(&c->resistance, w, at.load, at.torque);
         FN(cross)(n, p->b, turning);
         for (int i = 0; i < 3; ++i)
-            turning[i] = REAL_MULADD(p->strength, turning[i], at.torque[i]);
+            turning[i] = p->strength * turning[i];
         if (c->kinds.gyroscopic_term_lost)
             FN(lost_term)(n, w, lost);
+        if (HAS(c->kinds, resists))
+            FN(resist_rolling)(c, w, p->force, turning, lost, &at);
+        const REAL kept[2] = {at.push[0], at.push[1]};
+        for (int i = 0; i < 3; ++i)
+            turning[i] = turning[i] + at.torque[i];
         FN(push)(c, p->force, turning, c->kinds.gyroscopic_term_lost ? lost : NULL, at.push);
+        for (int i = 0; HAS(c->kinds, resists) && i < 2; ++i)
+            at.push[i] = REAL_SELECT(FN(rests)(&c->resistance), kept[i], at.push[i]);
         if (HAS(c->kinds, patch))
             at.torque[2] = FN(coulomb_pivoting)(&c->law.coulomb, &at, turning[2] + lost[2] / c->torque);
     }
@@ -214,6 +237,29 @@ static inline void FN(accelerations)(const FN(coefficients) * c, REAL omega, con
     dy[FST_WZ] = torque * twist[2];
 }
 
+/* 1 where the contact rolls without slipping, by its law, else 0. */
+static inline REAL FN(sticks)(const FN(coefficients) * c)
+{
+    if (HAS(c->kinds, dry) && c->kinds.contact == FST_FRICTION_ROLLING)
+        return R(1.0);
+    if (!HAS(c->kinds, paced))
+        return R(0.0);
+    const REAL distance = REAL_ABS(c->law.coulomb.mode - REAL_OF(FST_MODE_STICK));
+    return REAL_SELECT(REAL_LESS(distance, R(0.5)), R(1.0), R(0.0));
+}
+
+/* Take from the change of v and W what rounding leaves where the bead does not roll, and where it is at rest.
+ */
+static inline void FN(keep_at_rest)(const FN(coefficients) * c, REAL *dy)
+{
+    const REAL_MASK rests = FN(rests)(&c->resistance);
+    const REAL stays = FN(sticks)(c);
+    for (int i = 0; i < 2; ++i) {
+        dy[FST_WX + i] = REAL_SELECT(rests, R(0.0), dy[FST_WX + i]);
+        dy[FST_VX + i] = REAL_SELECT(rests, (R(1.0) - stays) * dy[FST_VX + i], dy[FST_VX + i]);
+    }
+}
+
 /* The derivatives of the velocities v and W, by the magnet's pull at the state. */
 static inline __attribute__((always_inline)) void FN(dynamics)(const FN(coefficients) * c, REAL omega,
                                                                const REAL *y, const FN(pull) * p, REAL *dy)
@@ -232,17 +278,8 @@ static inline __attribute__((always_inline)) void FN(dynamics)(const FN(coeffici
         for (int i = 0; i < 3; ++i)
             dy[FST_WX + i] = dy[FST_WX + i] + lost[i];
     }
-}
-
-/* 1 where the contact rolls without slipping, by its law, else 0. */
-static inline REAL FN(sticks)(const FN(coefficients) * c)
-{
-    if (HAS(c->kinds, dry) && c->kinds.contact == FST_FRICTION_ROLLING)
-        return R(1.0);
-    if (!HAS(c->kinds, paced))
-        return R(0.0);
-    const REAL distance = REAL_ABS(c->law.coulomb.mode - REAL_OF(FST_MODE_STICK));
-    return REAL_SELECT(REAL_LESS(distance, R(0.5)), R(1.0), R(0.0));
+    if (HAS(c->kinds, resists))
+        FN(keep_at_rest)(c, dy);
 }
 
 /* How much a contact moves, squared: of a point |V|^2, of a disc what patch.inl has. */
@@ -259,7 +296,10 @@ static inline REAL FN(pace)(const FN(coefficients) * c, const REAL *y)
     if (!HAS(c->kinds, paced))
         return R(1.0);
     FN(slip)(c, y, slip);
-    return FN(coulomb_pace)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]));
+    const REAL pace = FN(coulomb_pace)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]));
+    if (!HAS(c->kinds, resists))
+        return pace;
+    return REAL_SELECT(FN(in_flight)(c), pace, pace * FN(resistance_pace)(&c->resistance, y + FST_WX));
 }
 
 /* Its change along a tangent vector. */
@@ -274,8 +314,32 @@ static inline REAL FN(pace_change)(const FN(coefficients) * c, const REAL *y, co
     if (HAS(c->kinds, patch))
         by = by + R(2.0) * (c->law.coulomb.patch.radius * c->law.coulomb.patch.radius) *
                       (y[FST_WZ] * tangent[FST_WZ]);
-    return FN(coulomb_pace_change)(&c->law.coulomb, FN(contact_motion_2)(c, slip, y[FST_WZ]), by);
+    const REAL motion_2 = FN(contact_motion_2)(c, slip, y[FST_WZ]);
+    by = FN(coulomb_pace_change)(&c->law.coulomb, motion_2, by);
+    if (!HAS(c->kinds, resists))
+        return by;
+    const REAL of_roll = FN(resistance_pace_change)(&c->resistance, y + FST_WX, tangent + FST_WX);
+    const REAL both = REAL_MULADD(by, FN(resistance_pace)(&c->resistance, y + FST_WX),
+                                  FN(coulomb_pace)(&c->law.coulomb, motion_2) * of_roll);
+    return REAL_SELECT(FN(in_flight)(c), by, both);
 }
+
+#ifdef REAL_IS_SCALAR
+/* The mode of rolling of a bead in this state, whose contact has its mode: one that does not roll at all rests,
+ * or starts where the resistance does not hold it. */
+static inline void FN(find_rest)(FN(coefficients) * c, const REAL *state, const FN(pull) * p)
+{
+    c->resistance.mode = REAL_OF(FST_ROLL_ROLLS);
+    if (!c->kinds.resists || state[FST_WX] != R(0.0) || state[FST_WY] != R(0.0))
+        return;
+    c->resistance.mode = REAL_OF(FST_ROLL_RESTS);
+    const FN(contact) at = FN(contact_of)(c, state, p);
+    const REAL most = c->resistance.arm * REAL_MAX(at.load, R(0.0));
+    const REAL balance2 = SUM_2(at.balance[0], at.balance[0], at.balance[1], at.balance[1]);
+    if (!(balance2 <= most * most))
+        c->resistance.mode = REAL_OF(FST_ROLL_STARTS);
+}
+#endif
 
 /* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for a caller that observes the state. */
 RHS_KIND void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy, FN(pull) * p)

@@ -129,10 +129,16 @@ static fst_coefficients_double in_mode_of(const fst_model *model, const double *
         return c;
     fst_pull_double p;
     fst_magnetic_pull_double(&c, state, &p);
+    if (model->groups.friction == FST_FRICTION_ROLLING ||
+        hypot(state[FST_VX] - c.eps * state[FST_WY], state[FST_VY] + c.eps * state[FST_WX]) < no_slip)
+        c.law.coulomb.mode = FST_MODE_STICK;
+    fst_find_rest_double(&c, state, &p);
+    c.law.coulomb.mode = FST_MODE_SLIP;
     const fst_contact_double at = fst_contact_of_double(&c, state, &p);
     const double slip = sqrt(at.slip[0] * at.slip[0] + at.slip[1] * at.slip[1]);
     const double push = sqrt(at.push[0] * at.push[0] + at.push[1] * at.push[1]);
-    if (slip < no_slip && push <= 3.5 * c.holding * at.load)
+    if (model->groups.friction == FST_FRICTION_ROLLING ||
+        (slip < no_slip && push <= 3.5 * c.law.coulomb.holding * at.load))
         c.law.coulomb.mode = FST_MODE_STICK;
     return c;
 }

@@ -119,7 +119,7 @@ static inline void FN(integrands)(const FN(coefficients) * c, const REAL *y, con
     q[FST_Q_N_ALPHAALPHA] = o->n[1] * o->n[1];
     q[FST_Q_N_ALPHAZ] = o->n[1] * o->n[2];
     q[FST_Q_N_ZZ] = o->n[2] * o->n[2];
-#ifdef REAL_IS_SCALAR /* lanes know no dry contact */
+#if KNOWS_DRY
     q[FST_Q_STICKING] = o->sticking;
     q[FST_Q_ROLLING_POWER] = o->rolling_power;
     q[FST_Q_PIVOTING_POWER] = o->pivoting_power;

@@ -163,19 +163,28 @@ static void take_back_other_form(fst_params *params, const char *key)
 
 /* ---------------------------------------------------------------- reading a value from text */
 
+/* Which keys may have been meant by a wrong one, from sure to any. */
+enum { SAME_NAME, BEGINNING_OF_NAME, ANY_KEY };
+
+/* "radius" and "magnet.radius" have the name of bead.radius and plate.radius, "freq" the beginning of one. */
+static int may_mean(const char *wrong, const char *key, int how)
+{
+    const char *point = strchr(wrong, '.'), *name = point ? point + 1 : wrong, *own = strchr(key, '.') + 1;
+    if (how == SAME_NAME)
+        return strcmp(own, name) == 0;
+    return how == ANY_KEY || (!point && strlen(name) > 2 && strncmp(own, name, strlen(name)) == 0);
+}
+
 static fst_status unknown_key(const char *key, fst_error *error)
 {
-    char quoted[FST_QUOTE_SIZE], names[ROW_COUNT * 32] = "", nearest[48] = "";
-    /* A key without its group ("radius") is nearer to the key that ends in it than spelling tells. */
-    for (int i = 0; i < ROW_COUNT && !nearest[0]; i++)
-        if (strcmp(strchr(rows[i].key, '.') + 1, key) == 0)
-            (void)snprintf(nearest, sizeof nearest, "%s", rows[i].key);
-    for (int i = 0; i < ROW_COUNT; i++) {
-        size_t used = strlen(names);
-        (void)snprintf(names + used, sizeof names - used, "%s%s", i ? "|" : "", rows[i].key);
-    }
-    if (!nearest[0])
-        fst_nearest_name(key, names, nearest, sizeof nearest);
+    char quoted[FST_QUOTE_SIZE], names[ROW_COUNT * 32] = "", nearest[48];
+    for (int how = SAME_NAME; how <= ANY_KEY && !names[0]; how++)
+        for (int i = 0; i < ROW_COUNT; i++) {
+            size_t used = strlen(names);
+            if (may_mean(key, rows[i].key, how))
+                (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "", rows[i].key);
+        }
+    fst_nearest_name(key, names, nearest, sizeof nearest);
     return fst_fail(error, FST_BAD_INPUT, key,
                     "unknown key %s; the nearest is %s (fst_param_at() lists them all)", fst_quote(key, quoted),
                     nearest);
@@ -205,7 +214,7 @@ static fst_status set_number(fst_params *params, const fst_param_info *row, cons
     const fst_value_fault fault = fst_value_read(text, row->unit, &value, &why);
     if (fault != FST_VALUE_READ) {
         const char *accepted = fst_unit_accepted(row->unit);
-        if (accepted[0] && fault != FST_VALUE_WRONG_UNIT)
+        if (accepted[0] && fault != FST_VALUE_WRONG_UNIT && fault != FST_VALUE_COMMA)
             return fst_fail(error, FST_BAD_INPUT, row->key, "%s: %s (units here: %s)", row->key, why.sentence,
                             accepted);
         return fst_fail(error, FST_BAD_INPUT, row->key, "%s: %s", row->key, why.sentence);

@@ -36,7 +36,7 @@ enum {
     FST_Q_PIVOTING_POWER,
     FST_Q_FLYING, /* 1 while the bead is in the air */
     FST_Q_COUNT,
-    FST_Q_LANES = FST_Q_STICKING /* lanes, which know no dry contacts, add up those before */
+    FST_Q_OTHERS = FST_Q_STICKING /* lanes of other contacts add up those before */
 };
 
 /* Quantities whose extremes a run locates. */

@@ -83,6 +83,24 @@ static inline void FN(add_lost_change)(const REAL *n, const REAL *w, const REAL 
         out[i] = REAL_MULADD(dspin, wxn[i], REAL_MULADD(spin, dwxn[i] + wxdn[i], out[i]));
 }
 
+/* The change of the torque of a plate that resists rolling, from that of the magnet's torque, `turning`. */
+static inline void FN(resist_rolling_change)(const FN(coefficients) * c, const FN(linear) * l, const REAL *y,
+                                             const REAL *tangent, const REAL force[3], const REAL turning[3],
+                                             const REAL lost[3], FN(contact) * by)
+{
+    REAL df[2];
+    if (FN(resist_asks_balance)(&c->resistance)) {
+        for (int i = 0; i < 2; ++i)
+            by->push[i] = R(3.5) * force[i];
+        FN(friction_change)(&c->law, &c->kinds, &l->contact, by, df);
+        by->balance[0] = turning[0] + lost[0] / c->torque - c->eps * df[1];
+        by->balance[1] = turning[1] + lost[1] / c->torque + c->eps * df[0];
+    }
+    FN(resist_change)
+    (&c->resistance, y + FST_WX, l->contact.load, l->contact.balance, tangent + FST_WX, by->load, by->balance,
+     by->torque);
+}
+
 /* The changes of the resistances' torque and of A, from those of the load, the force and the magnet's torque,
  * which is strength * twist + torque. */
 static inline void FN(dry_change)(const FN(coefficients) * c, const FN(linear) * l, const REAL *y,
@@ -91,14 +109,23 @@ static inline void FN(dry_change)(const FN(coefficients) * c, const FN(linear) *
 {
     const REAL *n = y + FST_NX, *w = y + FST_WX, *dn = tangent + FST_NX, *dw = tangent + FST_WX;
     REAL turning[3], lost[3] = {R(0.0), R(0.0), R(0.0)};
-    FN(resist_change)(&c->resistance, w, l->contact.load, dw, by->load, by->torque);
-    for (int i = 0; i < 3; ++i)
-        turning[i] = REAL_MULADD(l->strength, twist[i], torque[i]) + by->torque[i];
+    for (int i = 0; i < 3; ++i) {
+        turning[i] = REAL_MULADD(l->strength, twist[i], torque[i]);
+        by->torque[i] = R(0.0);
+    }
+    by->push[0] = by->push[1] = by->balance[0] = by->balance[1] = R(0.0);
     if (c->kinds.gyroscopic_term_lost)
         FN(add_lost_change)(n, w, dn, dw, lost);
-    FN(push)(c, force, turning, c->kinds.gyroscopic_term_lost ? lost : NULL, by->push);
     by->patch = HAS(c->kinds, patch);
     by->pivot = dw[2];
+    if (HAS(c->kinds, resists))
+        FN(resist_rolling_change)(c, l, y, tangent, force, turning, lost, by);
+    const REAL kept[2] = {by->push[0], by->push[1]};
+    for (int i = 0; i < 3; ++i)
+        turning[i] = turning[i] + by->torque[i];
+    FN(push)(c, force, turning, c->kinds.gyroscopic_term_lost ? lost : NULL, by->push);
+    for (int i = 0; HAS(c->kinds, resists) && i < 2; ++i)
+        by->push[i] = REAL_SELECT(FN(rests)(&c->resistance), kept[i], by->push[i]);
     if (HAS(c->kinds, patch))
         by->torque[2] =
             FN(coulomb_pivoting_change)(&c->law.coulomb, &l->contact, by, turning[2] + lost[2] / c->torque);
@@ -115,6 +142,7 @@ static inline void FN(change_along)(const FN(coefficients) * c, REAL omega, cons
     FN(slip)(c, tangent, by.slip);
     by.load = -force[2];
     by.push[0] = by.push[1] = by.torque[0] = by.torque[1] = by.torque[2] = by.pivot = R(0.0);
+    by.balance[0] = by.balance[1] = R(0.0);
     by.patch = FST_PATCH_POINT;
     FN(cross)(dn, l->at.b, twist);
     FN(cross)(n, turning, torque);
@@ -136,6 +164,8 @@ static inline void FN(change_along)(const FN(coefficients) * c, REAL omega, cons
         change[FST_NX + i] = change[FST_NX + i] + dwxn[i];
     if (c->kinds.gyroscopic_term_lost)
         FN(add_lost_change)(n, w, dn, dw, change + FST_WX);
+    if (HAS(c->kinds, resists))
+        FN(keep_at_rest)(c, change);
 }
 
 /* d(state)/dt at the drive `omega`, and its change along `tangent`. */

@@ -18,10 +18,10 @@
  */
 
 #undef SUMMED
-#ifdef REAL_IS_SCALAR
+#if KNOWS_DRY
 #define SUMMED FST_Q_COUNT
 #else
-#define SUMMED FST_Q_LANES
+#define SUMMED FST_Q_OTHERS
 #endif
 
 /* The integrals of one trajectory, or of one in each lane.  Members are REALs only: lanes are copied as
@@ -59,7 +59,7 @@ static inline void FN(look_at_place)(FN(integrals) * q, const FN(bead_step) * s,
         q->b_reference = REAL_SELECT(renew, seen.b_norm, q->b_reference);
     }
     FN(integrands)(c, state, pull, &seen, q->r_reference, q->b_reference, q->integrands[place]);
-#ifdef REAL_IS_SCALAR
+#if KNOWS_DRY
     FN(pace_integrands)(s, place, FST_Q_COUNT, q->integrands[place]);
 #endif
     q->tracked[place][FST_TRACK_R] = seen.r;

@@ -12,12 +12,25 @@
  * The step's own time.  Under a law with modes a step is measured not in time t but in theta, with dt = pace
  * dtheta, and the pace follows from the state (model/contact/coulomb.inl).  The derivatives at the stages are
  * then those by theta.  The pace is kept at every stage too: its integral over the step is the time that
- * passes.  Under other laws theta is t, and none of this is done.  Lanes have no such laws.
+ * passes.  Under other laws theta is t, and none of this is done.
  *
  * Flight.  A bead in the air (ode/flight.c) has a height and a climb besides.  They are no part of the state,
  * but are carried through the stages by the same weights, and the source is raised to each stage's height.
  */
 #include "ode/dop853_tableau.h"
+
+#if KNOWS_DRY
+/* The method's weights as a table; all lanes share it. */
+#ifdef REAL_IS_SCALAR
+static const REAL FN(stage_weights)[16][15] = DOP_WEIGHTS;
+#else
+#pragma push_macro("R")
+#undef R
+#define R(literal) literal
+static const double FN(stage_weights)[16][15] = DOP_WEIGHTS;
+#pragma pop_macro("R")
+#endif
+#endif
 
 #ifdef REAL_IS_SCALAR
 typedef struct FN(flight) {
@@ -31,26 +44,91 @@ typedef struct FN(flight) {
 typedef struct FN(bead) {
     FN(coefficients) coefficients;
     FN(pull) pull[16]; /* at the stages */
-#ifdef REAL_IS_SCALAR
+#if KNOWS_DRY
     REAL pace[16]; /* and dt/dtheta, under a law with modes */
+#endif
+#ifdef REAL_IS_SCALAR
     FN(flight) flight;
 #endif
 } FN(bead);
+
+/* ------------------------------------------------------------------ the step's own time */
+
+#if KNOWS_DRY
+/* The time since the start of a step of the size h (in theta) at one of its stages, by the method's own
+ * weights.
+ */
+static inline REAL FN(stage_time)(const FN(bead) * bead, REAL h, int stage)
+{
+    REAL sum = R(0.0);
+    for (int i = 0; i < 15 && i < stage; ++i)
+        sum += REAL_OF(FN(stage_weights)[stage][i]) * bead->pace[i];
+    return h * sum;
+}
+
+/* What the law needs to know about the time at a stage. */
+static inline void FN(lean_at_stage)(FN(bead) * bead, REAL h, int stage)
+{
+    FN(coefficients) *c = &bead->coefficients;
+    if (c->kinds.paced && REAL_ANY(FN(coulomb_begins)(&c->law.coulomb)))
+        FN(lag_at)(&c->law.coulomb.lag, FN(stage_time)(bead, h, stage));
+    if (HAS(c->kinds, resists) && REAL_ANY(FN(starts_to_roll)(&c->resistance)))
+        FN(lag_at)(&c->resistance.lag, FN(stage_time)(bead, h, stage));
+}
+#endif
 
 #define STEP_DIM FST_STATE_SIZE
 #define STEP_NAME(name) FN(bead_##name)
 #define STEP_CONTEXT FN(bead)
 #ifdef REAL_FORCES_AHEAD
 #define STEP_KNOWN(i) ((i) < FST_VX || ((i) >= FST_NX && (i) < FST_WX)) /* the place and n */
-#define STEP_KINEMATICS(s, drive, j) FN(kinematics)(drive, (s)->stage[(j)-1], (s)->k[(j)-1])
+#define STEP_SLOWED(bead, known, stage, k)                                                                     \
+    _Pragma("GCC unroll 32") for (int i = 0; i < FST_STATE_SIZE; ++i) if (STEP_KNOWN(i) == (known))(k)[i] =    \
+        (bead)->pace[stage] * (k)[i]
+
+/* The derivatives by theta that follow from the state at a stage alone, and the pace there. */
+static inline void FN(known_derivatives)(FN(bead) * bead, REAL h, REAL drive, const REAL *y, int stage, REAL *k)
+{
+    FN(kinematics)(drive, y, k);
+#if KNOWS_DRY
+    FN(lean_at_stage)(bead, h, stage);
+    if (bead->coefficients.kinds.paced) {
+        bead->pace[stage] = FN(pace)(&bead->coefficients, y);
+        STEP_SLOWED(bead, 1, stage, k);
+    }
+#else
+    (void)bead, (void)h, (void)stage;
+#endif
+}
+
+/* The others, of which the derivatives by the time are there. */
+static inline void FN(slow_others)(const FN(bead) * bead, int stage, REAL *k)
+{
+#if KNOWS_DRY
+    if (bead->coefficients.kinds.paced)
+        STEP_SLOWED(bead, 0, stage, k);
+#else
+    (void)bead, (void)stage, (void)k;
+#endif
+}
+
+#define STEP_KINEMATICS(s, drive, j)                                                                           \
+    FN(known_derivatives)(&(s)->context, (s)->h, drive, (s)->stage[(j)-1], (j)-1, (s)->k[(j)-1])
 #define STEP_FORCES(s, j)                                                                                      \
     FN(magnetic_pull)(&(s)->context.coefficients, (s)->stage[(j)-1], &(s)->context.pull[(j)-1])
 #define STEP_DYNAMICS(s, drive, j)                                                                             \
-    FN(dynamics)(&(s)->context.coefficients, drive, (s)->stage[(j)-1], &(s)->context.pull[(j)-1], (s)->k[(j)-1])
+    do {                                                                                                       \
+        FN(dynamics)                                                                                           \
+        (&(s)->context.coefficients, drive, (s)->stage[(j)-1], &(s)->context.pull[(j)-1], (s)->k[(j)-1]);      \
+        FN(slow_others)(&(s)->context, (j)-1, (s)->k[(j)-1]);                                                  \
+    } while (0)
 #define STEP_FORCES_AND_DYNAMICS(s, next, drive, j)                                                            \
-    FN(pull_and_dynamics)                                                                                      \
-    (&(s)->context.coefficients, (s)->stage[(next)-1], &(s)->context.pull[(next)-1], drive, (s)->stage[(j)-1], \
-     &(s)->context.pull[(j)-1], (s)->k[(j)-1])
+    do {                                                                                                       \
+        FN(pull_and_dynamics)                                                                                  \
+        (&(s)->context.coefficients, (s)->stage[(next)-1], &(s)->context.pull[(next)-1], drive,                \
+         (s)->stage[(j)-1], &(s)->context.pull[(j)-1], (s)->k[(j)-1]);                                         \
+        FN(slow_others)(&(s)->context, (j)-1, (s)->k[(j)-1]);                                                  \
+    } while (0)
 #elif defined REAL_IS_SCALAR
 /* Whether the bead is in the air, and the source as it is for a bead that is z over the plate. */
 static inline int FN(is_in_flight)(const FN(coefficients) * c)
@@ -69,28 +147,15 @@ static inline void FN(raise_source)(FN(bead) * bead, REAL z)
 /* Height and climb at a stage of a step of the size h. */
 static inline void FN(rise)(FN(bead) * bead, REAL h, int stage)
 {
-    static const REAL weights[16][15] = DOP_WEIGHTS;
     FN(flight) *flight = &bead->flight;
     REAL height = R(0.0), climb = R(0.0);
     for (int i = 0; i < 15 && i < stage; ++i) {
-        height += weights[stage][i] * flight->climb[i];
-        climb += weights[stage][i] * flight->lift[i];
+        height += FN(stage_weights)[stage][i] * flight->climb[i];
+        climb += FN(stage_weights)[stage][i] * flight->lift[i];
     }
     flight->height[stage] = flight->start[0] + h * height;
     flight->climb[stage] = flight->start[1] + h * climb;
     FN(raise_source)(bead, flight->height[stage]);
-}
-
-/* The time since the start of a step of the size h (in theta) at one of its stages, by the method's own
- * weights.
- */
-static inline REAL FN(stage_time)(const FN(bead) * bead, REAL h, int stage)
-{
-    static const REAL weights[16][15] = DOP_WEIGHTS;
-    REAL sum = R(0.0);
-    for (int i = 0; i < 15 && i < stage; ++i)
-        sum += weights[stage][i] * bead->pace[i];
-    return h * sum;
 }
 
 /* The derivative of the state `y` by theta at a stage of a step of the size h. */
@@ -99,8 +164,7 @@ static inline void FN(paced_rhs)(FN(bead) * bead, REAL h, REAL drive, const REAL
     FN(coefficients) *c = &bead->coefficients;
     if (FN(is_in_flight)(c))
         FN(rise)(bead, h, stage);
-    if (c->kinds.paced && c->law.coulomb.mode == FST_MODE_ONSET)
-        FN(coulomb_lean)(&c->law.coulomb, FN(stage_time)(bead, h, stage));
+    FN(lean_at_stage)(bead, h, stage);
     FN(rhs)(c, drive, y, k, &bead->pull[stage]);
     if (!c->kinds.paced)
         return;
@@ -123,7 +187,27 @@ static inline REAL FN(stage_drive)(const FN(bead) * bead, REAL h, REAL omega, RE
      (s)->stage[(j)-1], (j)-1, (s)->k[(j)-1])
 #else
 #define STEP_DERIVATIVES(s, drive, j)                                                                          \
-    FN(rhs)(&(s)->context.coefficients, drive, (s)->stage[(j)-1], (s)->k[(j)-1], &(s)->context.pull[(j)-1])
+    FN(paced_rhs)(&(s)->context, (s)->h, drive, (s)->stage[(j)-1], (j)-1, (s)->k[(j)-1])
+#endif
+
+#ifndef REAL_IS_SCALAR
+/* The derivative of the state `y` by theta at a stage of a step of the size h. */
+static inline void FN(paced_rhs)(FN(bead) * bead, REAL h, REAL drive, const REAL *y, int stage, REAL *k)
+{
+#if KNOWS_DRY
+    FN(lean_at_stage)(bead, h, stage);
+#else
+    (void)h;
+#endif
+    FN(rhs)(&bead->coefficients, drive, y, k, &bead->pull[stage]);
+#if KNOWS_DRY
+    if (!bead->coefficients.kinds.paced)
+        return;
+    const REAL pace = bead->pace[stage] = FN(pace)(&bead->coefficients, y);
+    for (int i = 0; i < FST_STATE_SIZE; ++i)
+        k[i] = pace * k[i];
+#endif
+}
 #endif
 
 #include "ode/dop853.inl"
@@ -145,14 +229,22 @@ static inline REAL FN(renormalise)(REAL *y)
     return REAL_ABS(norm - R(1.0));
 }
 
-/* Take the slip, which rounding brings in, out of a state that rolls. */
-static inline void FN(stop_slip)(const FN(coefficients) * c, REAL *y)
+/* Take the slip, which rounding brings in, out of a state that rolls: where `mask` holds. */
+static inline void FN(stop_slip)(const FN(coefficients) * c, REAL_MASK mask, REAL *y)
 {
-    y[FST_VX] = c->eps * y[FST_WY];
-    y[FST_VY] = -(c->eps * y[FST_WX]);
+    y[FST_VX] = REAL_SELECT(mask, c->eps * y[FST_WY], y[FST_VX]);
+    y[FST_VY] = REAL_SELECT(mask, -(c->eps * y[FST_WX]), y[FST_VY]);
 }
 
 #ifdef REAL_IS_SCALAR
+/* Take the rotation out of a state that does not roll, which keeps its slip. */
+static inline void FN(stop_rolling)(const FN(coefficients) * c, REAL *y)
+{
+    y[FST_VX] -= c->eps * y[FST_WY];
+    y[FST_VY] += c->eps * y[FST_WX];
+    y[FST_WX] = y[FST_WY] = R(0.0);
+}
+
 /* Change the slip by an impulse of the plate: the moment about the contact stays what it was. */
 static inline void FN(set_slip)(const FN(coefficients) * c, REAL *y, const REAL slip[2])
 {
@@ -164,16 +256,19 @@ static inline void FN(set_slip)(const FN(coefficients) * c, REAL *y, const REAL 
     y[FST_WX] += R(5.0) / (R(7.0) * c->eps) * change[1];
     y[FST_WY] -= R(5.0) / (R(7.0) * c->eps) * change[0];
     if (slip[0] == R(0.0) && slip[1] == R(0.0))
-        FN(stop_slip)(c, y);
+        FN(stop_slip)(c, REAL_EVERYWHERE, y);
 }
 #endif
 
-/* Take the slip out of a state that rolls, and of a bead that is held on a disc the pivoting. */
+/* Take the slip out of a state that rolls by its law, and of a bead that is held on a disc the pivoting. */
 static inline void FN(stop_contact)(const FN(coefficients) * c, REAL *y)
 {
-    FN(stop_slip)(c, y);
-    if (c->kinds.patch)
-        y[FST_WZ] = R(0.0);
+    const REAL_MASK sticks = REAL_LESS(R(0.5), FN(sticks)(c));
+    if (!REAL_ANY(sticks))
+        return;
+    FN(stop_slip)(c, sticks, y);
+    if (HAS(c->kinds, patch))
+        y[FST_WZ] = REAL_SELECT(sticks, R(0.0), y[FST_WZ]);
 }
 
 /* The end of an accepted step: n is renormalised, and stage 13, the first of the next step, is evaluated. */
@@ -181,17 +276,21 @@ static inline REAL FN(finish_step)(FN(bead_step) * s)
 {
     const REAL drift = FN(renormalise)(s->end);
 #ifdef REAL_IS_SCALAR
-    if (s->context.coefficients.kinds.dry && FN(sticks)(&s->context.coefficients) > R(0.5))
+    if (s->context.coefficients.kinds.resists && FN(rests)(&s->context.coefficients.resistance))
+        FN(stop_rolling)(&s->context.coefficients, s->end);
+#endif
+#if KNOWS_DRY
+    if (HAS(s->context.coefficients.kinds, dry))
         FN(stop_contact)(&s->context.coefficients, s->end);
 #endif
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         s->stage[12][i] = s->end[i];
 #ifdef REAL_IS_SCALAR
     const REAL drive = FN(stage_drive)(&s->context, s->h, s->omega, s->ramp, s->omega + s->h * s->ramp, 12);
-    FN(paced_rhs)(&s->context, s->h, drive, s->end, 12, s->k[12]);
 #else
-    FN(rhs)(&s->context.coefficients, s->omega + s->h * s->ramp, s->end, s->k[12], &s->context.pull[12]);
+    const REAL drive = s->omega + s->h * s->ramp;
 #endif
+    FN(paced_rhs)(&s->context, s->h, drive, s->end, 12, s->k[12]);
     return drift;
 }
 
@@ -207,8 +306,10 @@ static inline void FN(next_step_where)(FN(bead_step) * s, REAL_MASK mask)
     const REAL *from = (const REAL *)&s->context.pull[12];
     for (size_t i = 0; i < sizeof(FN(pull)) / sizeof(REAL); ++i)
         to[i] = REAL_SELECT(mask, from[i], to[i]);
-#ifdef REAL_IS_SCALAR
+#if KNOWS_DRY
     s->context.pace[0] = REAL_SELECT(mask, s->context.pace[12], s->context.pace[0]);
+#endif
+#ifdef REAL_IS_SCALAR
     if (FN(is_in_flight)(&s->context.coefficients)) {
         FN(flight) *flight = &s->context.flight;
         flight->start[0] = flight->height[0] = flight->height[12];
@@ -230,9 +331,5 @@ static inline void FN(begin_steps)(FN(bead_step) * s)
 {
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         s->stage[0][i] = s->y[i];
-#ifdef REAL_IS_SCALAR
     FN(paced_rhs)(&s->context, R(0.0), s->omega, s->y, 0, s->k[0]);
-#else
-    FN(rhs)(&s->context.coefficients, s->omega, s->y, s->k[0], &s->context.pull[0]);
-#endif
 }

@@ -36,30 +36,22 @@
  */
 #include "ode/disc.h"
 #include "ode/flight.h"
+#include "ode/rest.h"
 
 #include "base/error.h"
 
-static const double SLOWER = 1e-3;       /* captured, in tolerances */
-static const double LEAST_SPEED = 1e-14; /* that rounding leaves of a slip's digits */
-static const double LEAST_FALL = 1e-12;  /* below this slip, or the tolerance, rounding may end it: */
-static const double ROUNDING = 2e-15;    /* of a slip, over the speeds whose difference it is */
-static const double HAND_OVER = 0.12;    /* times tolerance^(5/16) */
+static const double HAND_OVER = 0.12;        /* times tolerance^(5/16) */
+static const double LEAST_HAND_OVER = 100.0; /* but at least so many captured */
 static const double USUAL_GROWTH = 0.1; /* of a slip, in l gamma^3: the time of the hand-over follows from it */
 static const double FEW = 0.01;         /* slip then, in those of the hand-over */
-static const double FALL_AT_ONCE = 1.01;   /* static friction over sliding */
-static const double RELEASE_SLACK = 1e-13; /* relative excess of |A| at a release */
-static const double FIRST_SIZE = 0.05;     /* of a step in a mode that was not met before */
+static const double FALL_AT_ONCE = 1.01; /* static friction over sliding */
+static const double FIRST_SIZE = 0.05;   /* of a step in a mode that was not met before */
 
 /* ------------------------------------------------------------------ the contact at a state */
 
 static fst_coulomb_double *law_of(fst_flow *flow)
 {
     return &flow->step.context.coefficients.law.coulomb;
-}
-
-static double norm(const double v[2])
-{
-    return sqrt(v[0] * v[0] + v[1] * v[1]);
 }
 
 static int is_disc(const fst_flow *flow)
@@ -83,7 +75,7 @@ static double brake(const fst_flow *flow, const fst_contact_double *at)
 
 static double captured(const fst_flow *flow)
 {
-    return fmax(SLOWER * flow->rtol, LEAST_SPEED);
+    return fst_captured_double(flow->rtol);
 }
 
 static double handed_over(const fst_flow *flow)
@@ -136,9 +128,9 @@ static int mode_at(const fst_flow *flow, const double *state)
     if (is_disc(flow))
         return fst_disc_rests(flow, state, &p) ? FST_MODE_STICK : FST_MODE_SLIP;
     const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, &p);
-    if (norm(at.slip) > captured(flow))
+    if (fst_norm_2_double(at.slip) > captured(flow))
         return FST_MODE_SLIP;
-    return norm(at.push) <= hold(flow, &at) ? FST_MODE_STICK : released_mode(flow);
+    return fst_norm_2_double(at.push) <= hold(flow, &at) ? FST_MODE_STICK : released_mode(flow);
 }
 
 /* A bead leaves the plate, or comes back to it: the mode that follows. */
@@ -150,16 +142,12 @@ static int leave_or_return(fst_flow *flow, double *state)
     return FST_MODE_FLIGHT;
 }
 
-/* The mode changes at `state`, which may be moved by less than anything else feels. */
-static void enter(fst_flow *flow, int mode, double *state)
+/* The mode of the contact changes at `state`, which may be moved by less than anything else feels. */
+static void enter_contact(fst_flow *flow, int mode, double *state)
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
-    fst_coulomb_double *law = law_of(flow);
     static const double nothing[2] = {0.0, 0.0};
     double slip[2];
-    flow->contact.proposal[fst_contact_mode(flow)] = flow->control.proposal;
-    if (mode == FST_MODE_FLIGHT)
-        mode = leave_or_return(flow, state);
     fst_slip_double(c, state, slip);
     if (mode == FST_MODE_FLIGHT) {
         ; /* the state is no matter of the plate */
@@ -168,16 +156,74 @@ static void enter(fst_flow *flow, int mode, double *state)
     } else if (mode == FST_MODE_STICK) {
         fst_set_slip_double(c, state, nothing);
     } else if (mode == FST_MODE_ONSET) {
-        fst_contact_begin_onset(flow, state);
+        const double part = fst_contact_begin_onset(flow, state);
+        flow->contact.slips_from = fmax(handed_over(flow) * part * part, LEAST_HAND_OVER * captured(flow));
         flow->contact.released = flow->t;
-    } else if (norm(slip) < captured(flow)) {
+    } else if (fst_norm_2_double(slip) < captured(flow)) {
         const fst_contact_double at = contact_at(flow, state);
-        const double part = captured(flow) / norm(at.push);
+        const double part = captured(flow) / fst_norm_2_double(at.push);
         fst_set_slip_double(c, state, (const double[2]){part * at.push[0], part * at.push[1]});
     }
-    law->mode = mode;
-    flow->control.proposal = flow->contact.proposal[mode] > 0 ? flow->contact.proposal[mode] : FIRST_SIZE;
-    flow->contact.next_mode = -1;
+    law_of(flow)->mode = mode;
+}
+
+/* The mode of a contact that sticks while the bead comes to rest: it may not be able to hold it there. */
+static int held_at_rest(fst_flow *flow, int mode, const double *state)
+{
+    if (mode != FST_MODE_STICK || is_disc(flow))
+        return mode;
+    const fst_contact_double at = contact_at(flow, state);
+    return fst_norm_2_double(at.push) <= hold(flow, &at) * (1.0 + PACED_SLACK) ? mode : released_mode(flow);
+}
+
+/* The same where the plate resists rolling.  A bead that does not roll is at rest where both friction and
+ * resistance hold it; a bead that is to begin to slip and to roll at once is set rolling at a tiny speed. */
+static void enter_resisted(fst_flow *flow, int mode, int roll, double *state)
+{
+    const int released = roll == FST_ROLL_STARTS;
+    const int still = mode != FST_MODE_FLIGHT && fst_rest_is_still(flow, state);
+    fst_rest_enter(flow, still ? FST_ROLL_RESTS : FST_ROLL_ROLLS, state);
+    if (still)
+        mode = held_at_rest(flow, mode, state);
+    enter_contact(flow, mode, state);
+    if (!still)
+        return;
+    fst_rest_enter(flow, FST_ROLL_RESTS, state); /* what the impulse of a capture left */
+    if (!released && fst_rest_holds(flow, state))
+        return;
+    fst_rest_enter(flow, mode == FST_MODE_ONSET ? FST_ROLL_ROLLS : FST_ROLL_STARTS, state);
+    const int then = held_at_rest(flow, mode, state);
+    if (then != mode) {
+        fst_rest_enter(flow, FST_ROLL_ROLLS, state);
+        enter_contact(flow, then, state);
+    }
+}
+
+/* The mode of a contact that goes on while rolling changes: in an onset with another push. */
+static int goes_on(const fst_flow *flow, const double *state)
+{
+    double slip[2];
+    fst_slip_double(&flow->step.context.coefficients, state, slip);
+    const int mode = fst_contact_mode(flow);
+    return mode == FST_MODE_ONSET && fst_norm_2_double(slip) > captured(flow) ? FST_MODE_SLIP : mode;
+}
+
+/* The modes change at `state`; -1: one goes on. */
+static void enter(fst_flow *flow, int mode, int roll, double *state)
+{
+    fst_contact_state *contact = &flow->contact;
+    const int resists = flow->step.context.coefficients.kinds.resists;
+    contact->proposal[fst_contact_mode(flow)][fst_contact_roll(flow)] = flow->control.proposal;
+    if (mode == FST_MODE_FLIGHT)
+        mode = leave_or_return(flow, state);
+    mode = mode >= 0 ? mode : goes_on(flow, state);
+    if (resists)
+        enter_resisted(flow, mode, roll, state);
+    else
+        enter_contact(flow, mode, state);
+    const double known = contact->proposal[fst_contact_mode(flow)][fst_contact_roll(flow)];
+    flow->control.proposal = known > 0 ? known : FIRST_SIZE;
+    contact->next_mode = contact->next_roll = -1;
 }
 
 void fst_contact_put_down(fst_flow *flow, double *state)
@@ -188,10 +234,10 @@ void fst_contact_put_down(fst_flow *flow, double *state)
         fst_disc_begin(flow);
     if (fst_flight_is_on(flow))
         fst_flight_go_on(flow);
-    else if (c->kinds.paced)
-        enter(flow, mode_at(flow, state), state);
-    else if (c->kinds.contact == FST_FRICTION_ROLLING)
+    else if (flow->groups.friction == FST_FRICTION_ROLLING)
         fst_set_slip_double(c, state, nothing);
+    if (c->kinds.paced && !fst_flight_is_on(flow))
+        enter(flow, mode_at(flow, state), -1, state);
 }
 
 /* ------------------------------------------------------------------ events that end a mode */
@@ -200,22 +246,20 @@ void fst_contact_put_down(fst_flow *flow, double *state)
 static double release_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
     if (is_disc(flow))
-        return fst_disc_hold(flow, state, p) + RELEASE_SLACK;
-    const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, p);
-    const double most = hold(flow, &at);
-    return most * (1.0 + RELEASE_SLACK) - norm(at.push);
+        return fst_disc_hold(flow, state, p) + PACED_SLACK;
+    return fst_grip_left_double(&flow->step.context.coefficients, state, p);
 }
 
 /* In onset: the speed along A, which began at 0. */
 static double onset_speed(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
     const fst_contact_double at = fst_contact_of_double(&flow->step.context.coefficients, state, p);
-    return (at.slip[0] * at.push[0] + at.slip[1] * at.push[1]) / norm(at.push);
+    return (at.slip[0] * at.push[0] + at.slip[1] * at.push[1]) / fst_norm_2_double(at.push);
 }
 
 static double until_handed_over(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
-    return handed_over(flow) - onset_speed(flow, state, p);
+    return flow->contact.slips_from - onset_speed(flow, state, p);
 }
 
 static double until_back_at_rest(const fst_flow *flow, const double *state, const fst_pull_double *p)
@@ -226,9 +270,10 @@ static double until_back_at_rest(const fst_flow *flow, const double *state, cons
 /* Where the slip hardly grows, its direction is no longer known after some time; *x: that place in the step. */
 static int onset_is_long(fst_flow *flow, double *x)
 {
-    const double time = sqrt(2.0 * handed_over(flow) / USUAL_GROWTH) - law_of(flow)->since;
-    *x = time > 0 && time < flow->step.h ? time / flow->step.h : 1.0;
-    return time <= flow->step.h && fst_flow_function_at(flow, *x, onset_speed) >= FEW * handed_over(flow);
+    const double time = sqrt(2.0 * flow->contact.slips_from / USUAL_GROWTH) - law_of(flow)->lag.since;
+    const double whole = fst_contact_elapsed(flow);
+    *x = time > 0 && time < whole ? fst_contact_fraction(flow, time) : 1.0;
+    return time <= whole && fst_flow_function_at(flow, *x, onset_speed) >= FEW * flow->contact.slips_from;
 }
 
 /* The fraction of the last step at which an event ends its mode, 2 where none does, and the mode that follows.
@@ -244,33 +289,22 @@ static double mode_ends(fst_flow *flow, int *next)
         *next = FST_MODE_FLIGHT;
         first = x;
     }
-    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_first_negative(flow, release_function, 0.0, &x) &&
+    if (fst_contact_mode(flow) == FST_MODE_STICK && fst_flow_becomes_negative(flow, release_function, &x) &&
         x < first) {
         *next = released_mode(flow);
         first = x;
     }
     if (fst_contact_mode(flow) != FST_MODE_ONSET)
         return first;
-    if ((fst_flow_first_negative(flow, until_handed_over, 0.0, &x) || onset_is_long(flow, &x)) && x < first) {
+    if ((fst_flow_becomes_negative(flow, until_handed_over, &x) || onset_is_long(flow, &x)) && x < first) {
         *next = FST_MODE_SLIP;
         first = x;
     }
-    if (fst_flow_first_negative(flow, until_back_at_rest, 0.0, &x) && x < first) {
+    if (fst_flow_becomes_negative(flow, until_back_at_rest, &x) && x < first) {
         *next = FST_MODE_STICK;
         first = x;
     }
     return first;
-}
-
-/* Whether a slip is so slow, and falls so slowly because the push is nearly as strong as friction, that
- * rounding of the velocities keeps it as it is. */
-static int falls_no_more(const fst_flow *flow, const double slip[2])
-{
-    const double *y = flow->step.y, eps = flow->step.context.coefficients.eps;
-    const double speeds = fabs(y[FST_VX]) + fabs(y[FST_VY]) + eps * (fabs(y[FST_WX]) + fabs(y[FST_WY]));
-    double before[2];
-    fst_slip_double(&flow->step.context.coefficients, y, before);
-    return norm(slip) < fmax(flow->rtol, LEAST_FALL) && fabs(norm(slip) - norm(before)) <= ROUNDING * speeds;
 }
 
 /* The mode that follows a slip that is nearly nothing, -1 where it goes on.  It ends where friction is stronger
@@ -283,12 +317,12 @@ static int after_slip(const fst_flow *flow)
         return -1;
     if (is_disc(flow))
         return fst_disc_rests(flow, s->end, FST_PATH_PULL(s, FST_PATH_END)) ? FST_MODE_STICK : -1;
+    if (!fst_slip_is_over_double(s, flow->rtol))
+        return -1;
     const fst_contact_double at =
         fst_contact_of_double(&s->context.coefficients, s->end, FST_PATH_PULL(s, FST_PATH_END));
-    if (norm(at.slip) > captured(flow) && !falls_no_more(flow, at.slip))
-        return -1;
     const int against = at.slip[0] * at.push[0] + at.slip[1] * at.push[1] < 0;
-    if (norm(at.push) < (against ? hold(flow, &at) : brake(flow, &at)))
+    if (fst_norm_2_double(at.push) < (against ? hold(flow, &at) : brake(flow, &at)))
         return FST_MODE_STICK;
     return against ? released_mode(flow) : -1;
 }
@@ -332,38 +366,95 @@ static void cut_at(fst_flow *flow, double x)
     }
 }
 
-fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
+/* The fraction of the last step at which a mode ends, of the contact or of rolling, 2 where none does; the one
+ * of both that ends there has a mode that follows. */
+static double first_end(fst_flow *flow, int *next, int *next_roll)
 {
-    const fst_twofold limit = {t_limit, 0.0};
-    const double rest = fst_twofold_difference(limit, flow->t);
-    if (rest < 0)
-        return fst_fail(error, FST_BAD_INPUT, "fst_flow",
-                        "time cannot run backwards under dry friction: what was at rest does not tell when it "
-                        "came to rest");
+    int contact = -1, roll = -1;
+    const double of_contact = mode_ends(flow, &contact);
+    const double of_roll = flow->step.context.coefficients.kinds.resists ? fst_rest_ends(flow, &roll) : 2.0;
+    *next = of_contact <= of_roll && of_contact <= 1.0 ? contact : -1;
+    *next_roll = of_roll <= of_contact && of_roll <= 1.0 ? roll : -1;
+    return fmin(of_contact, of_roll);
+}
+
+void fst_contact_begin_next(fst_flow *flow)
+{
     const int next_mode = flow->contact.next_mode;
-    if (next_mode >= 0) {
-        flow->contact.captures += fst_contact_mode(flow) == FST_MODE_SLIP && next_mode == FST_MODE_STICK;
-        enter(flow, next_mode, flow->step.end);
-        fst_bead_flow_restart(flow);
-    }
+    if (next_mode < 0 && flow->contact.next_roll < 0)
+        return;
+    flow->contact.captures += fst_contact_mode(flow) == FST_MODE_SLIP && next_mode == FST_MODE_STICK;
+    enter(flow, next_mode, flow->contact.next_roll, flow->step.end);
+    fst_bead_flow_restart(flow);
+}
+
+void fst_contact_begin_step(fst_flow *flow)
+{
+    fst_contact_begin_next(flow);
     fst_bead_flow_prepare(flow);
     if (fst_contact_mode(flow) == FST_MODE_ONSET)
-        law_of(flow)->since = fst_twofold_difference(flow->t, flow->contact.released);
+        law_of(flow)->lag.since = fst_twofold_difference(flow->t, flow->contact.released);
+    fst_rest_go_on(flow);
+}
+
+/* The modes that follow at the end of the last step, where no event has told. */
+static void look_at_end(fst_flow *flow)
+{
+    if (flow->contact.next_mode < 0)
+        flow->contact.next_mode = after_slip(flow);
+    if (flow->contact.next_roll < 0)
+        flow->contact.next_roll = fst_rest_after(flow);
+}
+
+int fst_contact_look_ahead(fst_flow *flow, double t_limit, double *end)
+{
+    const fst_twofold limit = {t_limit, 0.0};
     flow->contact.has_clock = flow->has_dense = 0;
-    if (!fst_bead_flow_try_until_good(flow, INFINITY))
-        return fst_flow_fail(flow, error);
     flow->t_start = flow->t; /* times within the step are asked for before it is over */
-    int next = -1;
-    const double event = mode_ends(flow, &next), end = fst_contact_fraction(flow, rest);
-    const int lands = end <= 1.0 && end <= event;
+    int next = -1, next_roll = -1;
+    const double event = first_end(flow, &next, &next_roll);
+    const double way = fst_contact_fraction(flow, fst_twofold_difference(limit, flow->t));
+    if (way <= 1.0 && way <= event) {
+        *end = way;
+        return 1;
+    }
+    *end = event <= 1.0 ? event : 1.0;
+    flow->contact.next_mode = next;
+    flow->contact.next_roll = next_roll;
+    if (event > 1.0)
+        look_at_end(flow);
+    return 0;
+}
+
+void fst_contact_end_step(fst_flow *flow, double t_limit)
+{
+    const fst_twofold limit = {t_limit, 0.0};
+    double end;
+    const int lands = fst_contact_look_ahead(flow, t_limit, &end);
     if (lands)
-        land(flow, rest);
-    else if (event <= 1.0)
-        cut_at(flow, event);
+        land(flow, fst_twofold_difference(limit, flow->t));
+    else
+        cut_at(flow, end);
     flow->rhs_calls += 1;
     flow->accepted += 1;
     flow->t = lands ? limit : fst_twofold_add(flow->t, fst_contact_elapsed(flow));
     flow->has_step = 1;
-    flow->contact.next_mode = !lands && event <= 1.0 ? next : after_slip(flow);
+    if (lands)
+        flow->contact.next_mode = flow->contact.next_roll = -1;
+    if (lands || end < 1.0)
+        look_at_end(flow);
+}
+
+fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error)
+{
+    const fst_twofold limit = {t_limit, 0.0};
+    if (fst_twofold_difference(limit, flow->t) < 0)
+        return fst_fail(error, FST_BAD_INPUT, "fst_flow",
+                        "time cannot run backwards under dry friction: what was at rest does not tell when it "
+                        "came to rest");
+    fst_contact_begin_step(flow);
+    if (!fst_bead_flow_try_until_good(flow, INFINITY))
+        return fst_flow_fail(flow, error);
+    fst_contact_end_step(flow, t_limit);
     return FST_OK;
 }

@@ -10,8 +10,13 @@
  *       |  o           o       spread or more.  In the others the function is sampled at 16 places, and the
  *     --|------o---o------x    neighbourhood of each low one is searched.
  *       |        v
+ *
+ * Where the values at the places rise all the time, or fall all the time, there is no dip to be found, and the
+ * ends tell it all.  Contacts, which have an event in every sixth step or so, look at that first.
  */
 #include "ode/flow.h"
+
+#include <string.h>
 
 #include "base/bracket.h"
 
@@ -159,6 +164,86 @@ double fst_flow_extreme(fst_flow *flow, fst_step_function function, const void *
 static double state_function_at(fst_flow *flow, double x, const void *function)
 {
     return fst_flow_function_at(flow, x, *(const fst_state_function *)function);
+}
+
+/* The values of a function at the places of the path but the last guess of the end, with their nodes. */
+enum { VALUES = FST_PATH_PLACES - 1 };
+typedef struct profile {
+    double node[VALUES], f[VALUES];
+} profile;
+
+/* Whether they never rise, or never fall. */
+static int is_monotonic(const fst_flow *flow, fst_state_function function, profile *p)
+{
+    const fst_bead_step_double *s = &flow->step;
+    int rises = 0, falls = 0;
+    for (int i = 0; i < VALUES; ++i) {
+        const int n = i < VALUES - 1 ? i : FST_PATH_END;
+        p->node[i] = FST_PATH_NODE[n];
+        p->f[i] = function(flow, FST_PATH_STATE(s, n), FST_PATH_PULL(s, n));
+        rises |= i > 0 && p->f[i] > p->f[i - 1];
+        falls |= i > 0 && p->f[i] < p->f[i - 1];
+    }
+    return !(rises && falls);
+}
+
+/* The polynomial through the values, and its slope, at x (Neville's scheme). */
+static double interpolate(const profile *p, double x, double *slope)
+{
+    double f[VALUES], df[VALUES] = {0.0};
+    memcpy(f, p->f, sizeof f);
+    for (int order = 1; order < VALUES; ++order)
+        for (int i = 0; i + order < VALUES; ++i) {
+            const double left = x - p->node[i], right = x - p->node[i + order];
+            const double inverse = 1.0 / (p->node[i + order] - p->node[i]);
+            df[i] = (left * df[i + 1] + f[i + 1] - right * df[i] - f[i]) * inverse;
+            f[i] = (left * f[i + 1] - right * f[i]) * inverse;
+        }
+    *slope = df[0];
+    return f[0];
+}
+
+/* The zero of a function that falls through it all along the step: where the polynomial through the values has
+ * it, then by secants on the dense output.  They need no bracket but to know that they went astray. */
+static double locate_fall(fst_flow *flow, fst_state_function function, const profile *p)
+{
+    enum { ROUNDS = 8, LAST = VALUES - 1 };
+    const double near = 1e-9; /* so small a correction is right to 1e-13 */
+    int after = 1;
+    while (after < LAST && p->f[after] >= 0)
+        ++after;
+    double lo = p->node[after - 1], hi = p->node[after], slope;
+    double x = lo + (hi - lo) * p->f[after - 1] / (p->f[after - 1] - p->f[after]);
+    for (int i = 0; i < ROUNDS; ++i) {
+        const double value = interpolate(p, x, &slope), change = slope < 0 ? -value / slope : 0.0;
+        x = fmin(fmax(x + change, lo), hi);
+        if (fabs(change) < near)
+            break;
+    }
+    double f = fst_flow_function_at(flow, x, function);
+    for (int i = 0; i < ROUNDS && slope < 0; ++i) {
+        const double change = -f / slope, next = x + change;
+        if (!(next >= 0 && next <= 1))
+            break;
+        if (fabs(change) < near)
+            return next;
+        const double f_next = fst_flow_function_at(flow, next, function);
+        slope = (f_next - f) / change;
+        x = next;
+        f = f_next;
+    }
+    return fst_flow_locate(flow, function, 0.0, 1.0, p->f[0], p->f[LAST]);
+}
+
+int fst_flow_becomes_negative(fst_flow *flow, fst_state_function function, double *x)
+{
+    profile p;
+    if (!is_monotonic(flow, function, &p) || !(p.f[0] > 0))
+        return fst_flow_first_negative(flow, function, 0.0, x);
+    const int falls = p.f[VALUES - 1] < 0;
+    if (falls)
+        *x = locate_fall(flow, function, &p);
+    return falls;
 }
 
 int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double lo, double *x)

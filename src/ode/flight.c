@@ -90,7 +90,7 @@ int fst_flight_impact(fst_flow *flow, double *state)
     c->law.coulomb.mode = FST_MODE_FLIGHT;
     fst_flight_begin(flow, bounces);
     /* A short hop lasts 2 z'/N: the first step is hardly longer. */
-    flow->contact.proposal[FST_MODE_FLIGHT] =
+    flow->contact.proposal[FST_MODE_FLIGHT][FST_ROLL_ROLLS] =
         load > 0 ? fmin(2.5 * bounces / load, flow->control.proposal) : flow->control.proposal;
     return 0;
 }

@@ -132,18 +132,14 @@ void fst_flow_slope(const fst_flow *flow, double slope[FST_STATE_SIZE])
 
 double fst_flow_speed(const fst_flow *flow)
 {
-    double greatest = 0.0, slope[FST_STATE_SIZE];
-    fst_flow_slope(flow, slope);
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        greatest = fabs(slope[i]) > greatest ? fabs(slope[i]) : greatest;
-    return greatest;
+    return fst_step_speed_double(&flow->step);
 }
 
 double fst_flow_fraction(fst_flow *flow, fst_twofold t)
 {
     const double since_start = fst_twofold_difference(t, flow->t_start);
-    if (flow->step.context.coefficients.kinds.paced)
-        return fst_contact_fraction(flow, since_start);
+    if (flow->step.context.coefficients.kinds.paced) /* a step that landed did so just there */
+        return fst_twofold_difference(t, flow->t) == 0.0 ? 1.0 : fst_contact_fraction(flow, since_start);
     return since_start / flow->step.h;
 }
 

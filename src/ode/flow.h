@@ -10,15 +10,21 @@
 
 #include "ode/bead_step.inl"
 #include "ode/path.inl"
+#include "ode/paced.inl"
 #include "ode/step_control.inl"
 
 /* The contact of a bead under a law with modes (contact.c). */
 typedef struct fst_contact_state {
-    int next_mode;              /* begins with the next step; -1: the mode goes on */
-    int64_t captures;           /* slips that came to rest before the last step */
-    fst_twofold released;       /* when the last onset began */
-    double proposal[FST_MODES]; /* size of the next step in each mode */
-    int64_t impacts; /* of a bead that flew, the impulses that held it up, and the energy they took */
+    int next_mode;                              /* begins with the next step; -1: the mode goes on */
+    int next_roll;                              /* and that of rolling resistance */
+    int64_t captures;                           /* slips that came to rest before the last step */
+    fst_twofold released;                       /* when the last onset began, */
+    double slips_from;                          /* and the slip at which it is said to slip */
+    double proposal[FST_MODES][FST_ROLL_MODES]; /* size of the next step in each mode */
+    double rolls_from;         /* the rotation at which a bead that starts to roll is said to roll, */
+    double rolls_by;           /* the time after which it usually does, */
+    fst_twofold roll_released; /* since then */
+    int64_t impacts;           /* of a bead that flew, the impulses that held it up, and the energy they took */
     double impulse, impact_loss;
     double clock[8]; /* dense output of the time over the last step, */
     int has_clock;   /* once formed */
@@ -101,12 +107,32 @@ double fst_flow_drive_at_place(const fst_flow *flow, int place);
 void fst_contact_put_down(fst_flow *flow, double *state);
 fst_status fst_contact_step(fst_flow *flow, double t_limit, fst_error *error);
 
-/* Begin the mode onset in a state, at the release of a bead that stuck (onset.c). */
-void fst_contact_begin_onset(fst_flow *flow, const double *state);
+/* The parts of such a step before and after the tries that are made until one is good, for lanes, which make
+ * these.  Before: the mode that is to follow begins, and the flow stands at step.y with the first stage there.
+ * After: the step is made anew up to an event or the end of the way, if it holds one, and passes. */
+void fst_contact_begin_step(fst_flow *flow);
+void fst_contact_end_step(fst_flow *flow, double t_limit);
+
+/* Where a good step that has not passed yet must end, a fraction of it, and which mode follows; 1: that is the
+ * end of the way, and the mode is not looked for. */
+int fst_contact_look_ahead(fst_flow *flow, double t_limit, double *end);
+
+/* Begin the modes that follow those of the last step, if one of them is over. */
+void fst_contact_begin_next(fst_flow *flow);
+
+/* Begin the mode onset in a state, at the release of a bead that stuck (onset.c); returns the time that it may
+ * last, over the usual one. */
+double fst_contact_begin_onset(fst_flow *flow, const double *state);
+
+/* Begin to roll in a state, against a resistance that held the bead so far: how strong it is, and how fast the
+ * push outgrows it and changes, as rates of W_h. */
+void fst_contact_begin_rolling(fst_flow *flow, const double *state, double *strength, double *growth,
+                               double *turning);
 
 /* Steps under a law with modes (pace.c): the mode of the last step; the time that it took; the fraction at a
  * time since its start, and the other way round. */
 int fst_contact_mode(const fst_flow *flow);
+int fst_contact_roll(const fst_flow *flow);
 double fst_contact_elapsed(const fst_flow *flow);
 double fst_contact_fraction(fst_flow *flow, double since_start);
 double fst_contact_time(fst_flow *flow, double x);
@@ -147,6 +173,9 @@ double fst_load_function(const fst_flow *flow, const double *state, const fst_pu
 /* Whether an event function became negative in the part [lo, 1] of the last step, even if only between its
  * ends, and at which fraction first: *x. */
 int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double lo, double *x);
+
+/* The same in the whole step, quicker: where the function only rises or only falls, its ends are enough. */
+int fst_flow_becomes_negative(fst_flow *flow, fst_state_function function, double *x);
 
 /* Least and greatest value of a function at the stages of the last step that lie on the trajectory. */
 void fst_flow_path_range(const fst_flow *flow, fst_state_function function, double *least, double *greatest);

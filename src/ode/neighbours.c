@@ -26,6 +26,15 @@
  *                       dt = -Dg d/(Dg w), g being what static friction could still take: d + w dt goes on
  *     onset -> stick    the slip has come back to nothing at the rate s': dt = -ds/s', d + (w - f) dt goes on
  *
+ * Where the plate resists rolling (ode/rest.c), its modes are the same with the rotation W_h in place of the
+ * slip: rolls -> rests as slip -> stick, rests -> starts as stick -> onset.  Two things are more delicate
+ * there:
+ *
+ *     starts -> rolls   the rotation is so small that differences at equal theta would grow, to cancel against
+ * f dt in the end; so the neighbours go on at equal rotations, dt = -d|W_h|/|W_h|' both at once      f changes
+ * where the contact does, and with it what the resistance has to hold; so the modes that follow are asked of a
+ * copy of the flow
+ *
  * A bead at rest has no slip, and neither has any neighbour: nine directions become seven.  So a return that
  * sticks somewhere has two multipliers that are exactly zero.
  *
@@ -54,10 +63,7 @@ static int differs(const fst_neighbours *b)
 static void take_numbers(fst_coulomb_double *to, const fst_coulomb_double *from)
 {
     to->mode = from->mode;
-    to->lean = from->lean;
-    to->lean_slip = from->lean_slip;
-    memcpy(to->lean_then, from->lean_then, sizeof to->lean_then);
-    to->since = from->since;
+    to->lag = from->lag;
     to->patch.slow_2 = from->patch.slow_2;
 }
 
@@ -67,6 +73,8 @@ static void take_mode(fst_neighbours *b, const fst_coefficients_double *c)
         return;
     take_numbers(&b->below.law.coulomb, &c->law.coulomb);
     take_numbers(&b->above.law.coulomb, &c->law.coulomb);
+    b->below.resistance.mode = b->above.resistance.mode = c->resistance.mode;
+    b->below.resistance.lag = b->above.resistance.lag = c->resistance.lag;
 }
 
 /* By how much v differs in a setup if the contact slips as it does in the motion: the slip depends on eps. */
@@ -165,6 +173,22 @@ static void stop_slips(fst_neighbours *b, const fst_coefficients_double *c, cons
     }
 }
 
+/* Take the rotation out of all neighbours of a bead that rests; each keeps its slip. */
+static void stop_rolling(fst_neighbours *b, const fst_coefficients_double *c)
+{
+    for (int column = 0; column < b->count; ++column)
+        fst_stop_rolling_double(c, b->d[column]);
+}
+
+/* What a mode of the motion allows no neighbour to have. */
+static void stop_what_stops(fst_neighbours *b, const fst_coefficients_double *c, const double *y)
+{
+    if (c->kinds.resists && fst_rests_double(&c->resistance))
+        stop_rolling(b, c);
+    if (fst_sticks_double(c) > 0.5)
+        stop_slips(b, c, y);
+}
+
 /* ------------------------------------------------------------------ along a step */
 
 /* The derivatives of the differences by theta at a stage. */
@@ -198,6 +222,7 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
     const fst_bead_step_double *s = &flow->step;
     fst_coefficients_double here = s->context.coefficients, *c = &here;
     const int onset = c->kinds.paced && fst_contact_mode(flow) == FST_MODE_ONSET;
+    const int starts = c->kinds.resists && fst_contact_roll(flow) == FST_ROLL_STARTS;
     double k[STAGES][FST_NEIGHBOURS][FST_STATE_SIZE], kt[STAGES][FST_NEIGHBOURS],
         at[FST_NEIGHBOURS][FST_STATE_SIZE];
     take_mode(b, c);
@@ -209,8 +234,9 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
                 for (int i = 0; i < FST_STATE_SIZE; ++i)
                     at[column][i] += weight * k[before][column][i];
         }
-        if (onset) { /* the lag behind the push changes within the step */
-            fst_coulomb_lean_double(&here.law.coulomb, fst_stage_time_double(&s->context, s->h, stage));
+        if (onset || starts) { /* the lag behind the push changes within the step */
+            const double since = fst_stage_time_double(&s->context, s->h, stage);
+            fst_lag_at_double(onset ? &here.law.coulomb.lag : &here.resistance.lag, since);
             take_mode(b, c);
         }
         if (stage < STAGES)
@@ -220,19 +246,19 @@ static void carry_along_step(fst_neighbours *b, const fst_flow *flow)
     for (int stage = 0; stage < STAGES; ++stage)
         for (int column = 0; column < b->count; ++column)
             b->dt[column] += s->h * weights[STAGES][stage] * kt[stage][column];
-    if (fst_sticks_double(c) > 0.5)
-        stop_slips(b, c, s->end);
+    stop_what_stops(b, c, s->end);
 }
 
 /* ------------------------------------------------------------------ where the mode changes */
 
-/* d(state)/dt in a mode. */
-static void rate_in(const fst_flow *flow, int mode, double *f)
+/* d(state)/dt in a mode of the contact, and of rolling. */
+static void rate_in(const fst_flow *flow, int mode, int roll, double *f)
 {
     fst_coefficients_double c = flow->step.context.coefficients;
     fst_pull_double unused;
     if (c.kinds.paced)
         c.law.coulomb.mode = mode;
+    c.resistance.mode = roll;
     fst_rhs_double(&c, flow->step.omega, flow->step.end, f, &unused);
 }
 
@@ -281,7 +307,7 @@ static void let_go(fst_neighbours *b, const fst_flow *flow)
     const fst_coefficients_double *c = &flow->step.context.coefficients;
     const double *y = flow->step.end, omega = flow->step.omega;
     double w[FST_STATE_SIZE];
-    rate_in(flow, FST_MODE_STICK, w);
+    rate_in(flow, FST_MODE_STICK, fst_contact_roll(flow), w);
     const double rate = grip_change(c, omega, y, w);
     for (int column = 0; column < b->count; ++column)
         b->dt[column] = -grip_change(c, omega, y, b->d[column]) / rate;
@@ -291,61 +317,126 @@ static void let_go(fst_neighbours *b, const fst_flow *flow)
     stop_slips(b, c, y);
 }
 
-/* A slip that came to nothing before it was one: at times of their own, too. */
-static void sink_back(fst_neighbours *b, const fst_flow *flow)
+/* Bring every neighbour, by a time of its own, to the place where its slip, or its rotation, along the push is
+ * that of the motion. */
+static void at_equal_speeds(fst_neighbours *b, const fst_flow *flow, int rolls)
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
     const double *y = flow->step.end;
+    double w[FST_STATE_SIZE], slip[2];
     fst_pull_double p;
-    double w[FST_STATE_SIZE], f[FST_STATE_SIZE], slowing[2];
     fst_magnetic_pull_double(c, y, &p);
     const fst_contact_double at = fst_contact_of_double(c, y, &p);
-    rate_in(flow, FST_MODE_ONSET, w);
-    rate_in(flow, FST_MODE_STICK, f);
-    fst_slip_double(c, w, slowing);
-    const double rate = at.push[0] * slowing[0] + at.push[1] * slowing[1];
+    const double *push = rolls ? at.balance : at.push;
+    rate_in(flow, fst_contact_mode(flow), fst_contact_roll(flow), w);
+    fst_slip_double(c, w, slip);
+    const double *slowing = rolls ? w + FST_WX : slip;
+    const double rate = push[0] * slowing[0] + push[1] * slowing[1];
     for (int column = 0; column < b->count; ++column) {
-        double slip[2];
         slip_of(b, c, y, column, slip);
-        b->dt[column] = -(at.push[0] * slip[0] + at.push[1] * slip[1]) / rate;
+        const double *speed = rolls ? b->d[column] + FST_WX : slip;
+        const double dt = -(push[0] * speed[0] + push[1] * speed[1]) / rate;
+        for (int i = 0; i < FST_STATE_SIZE; ++i)
+            b->d[column][i] += dt * w[i];
+        b->dt[column] += dt;
     }
-    shift(b, w, 1.0);
-    stop_slips(b, c, y);
-    shift(b, f, -1.0);
-    forget_clocks(b);
 }
 
-/* What is left of a slip dies at equal theta; compare at equal times in the mode that follows. */
-static void come_to_rest(fst_neighbours *b, const fst_flow *flow, int after)
+/* The flow after the modes changed at the end of its last step. */
+static void change(const fst_flow *flow, fst_flow *then)
+{
+    *then = *flow;
+    fst_contact_begin_next(then);
+}
+
+/* d(state)/dt where the modes have just changed. */
+static void rate_then(const fst_flow *flow, const fst_flow *then, double *f)
+{
+    rate_in(flow, fst_contact_mode(then), fst_contact_roll(then), f);
+}
+
+/* Neighbours that were compared at equal theta are compared at equal times from now on.  (Not while a tiny slip
+ * goes on.) */
+static void catch_up(fst_neighbours *b, const fst_flow *flow, const fst_flow *then)
 {
     double f[FST_STATE_SIZE];
-    stop_slips(b, &flow->step.context.coefficients, flow->step.end);
-    rate_in(flow, after, f);
+    rate_then(flow, then, f);
     shift(b, f, -1.0);
     forget_clocks(b);
 }
 
-/* The mode changes at the end of the flow's last step. */
-static void change_mode(fst_neighbours *b, const fst_flow *flow)
+/* The neighbours of a motion that lets go, or sinks back, do so at times of their own; they must be compared at
+ * equal times before. */
+static void bring_to_equal_times(fst_neighbours *b, const fst_flow *flow)
 {
-    const int before = fst_contact_mode(flow), after = flow->contact.next_mode;
+    double w[FST_STATE_SIZE];
+    if (!flow->step.context.coefficients.kinds.resists) /* then they are */
+        return;
+    rate_in(flow, fst_contact_mode(flow), fst_contact_roll(flow), w);
+    shift(b, w, -1.0);
+    forget_clocks(b);
+}
+
+/* The mode of rolling changes, at the end of the flow's last step, to that of `then`. */
+static void change_roll(fst_neighbours *b, const fst_flow *flow, const fst_flow *then)
+{
+    const fst_coefficients_double *c = &flow->step.context.coefficients;
+    const int before = fst_contact_roll(flow), after = fst_contact_roll(then);
+    if (before == after)
+        return;
+    const int starts = before == FST_ROLL_STARTS;
+    if (before == FST_ROLL_RESTS) { /* f = w: nothing happens */
+        bring_to_equal_times(b, flow);
+        return;
+    }
+    if (starts) /* at equal rotations */
+        at_equal_speeds(b, flow, 1);
+    if (after == FST_ROLL_ROLLS)
+        return;
+    stop_rolling(b, c);
+    if (fst_sticks_double(c) > 0.5)
+        stop_slips(b, c, flow->step.end);
+    if (starts || fst_contact_mode(then) != FST_MODE_SLIP)
+        catch_up(b, flow, then);
+}
+
+/* That of the contact. */
+static void change_contact(fst_neighbours *b, const fst_flow *flow, const fst_flow *then)
+{
+    const int before = fst_contact_mode(flow), after = fst_contact_mode(then);
     const fst_coefficients_double *c = &flow->step.context.coefficients;
     const int jumps = c->law.coulomb.holding > fst_coulomb_mu_double(&c->law.coulomb, 0.0);
-    double f[FST_STATE_SIZE];
     if (before == FST_MODE_SLIP && after == FST_MODE_SLIP) { /* against a push that turns it round */
         stop_slips(b, c, flow->step.end);
-    } else if (before == FST_MODE_SLIP) {
-        come_to_rest(b, flow, after);
+    } else if (before == FST_MODE_SLIP) { /* what is left of a slip dies at equal theta */
+        stop_slips(b, c, flow->step.end);
+        catch_up(b, flow, then);
     } else if (before == FST_MODE_STICK && after == FST_MODE_SLIP) {
+        bring_to_equal_times(b, flow);
         let_go(b, flow);
-    } else if (before == FST_MODE_STICK && jumps) {
+    } else if (before == FST_MODE_STICK && after == FST_MODE_ONSET && jumps) {
+        bring_to_equal_times(b, flow);
         let_go(b, flow);
-        rate_in(flow, after, f);
-        shift(b, f, -1.0);
-        forget_clocks(b);
+        catch_up(b, flow, then);
     } else if (before == FST_MODE_ONSET && after == FST_MODE_STICK) {
-        sink_back(b, flow);
+        at_equal_speeds(b, flow, 0);
+        stop_slips(b, c, flow->step.end);
+        catch_up(b, flow, then);
     }
+}
+
+/* A mode changes at the end of the flow's last step.  The other one may change with it. */
+static void change_mode(fst_neighbours *b, const fst_flow *flow)
+{
+    fst_flow then;
+    change(flow, &then);
+    if (flow->contact.next_roll >= 0)
+        change_roll(b, flow, &then);
+    if (flow->contact.next_mode >= 0)
+        change_contact(b, flow, &then);
+    take_mode(b, &then.step.context.coefficients);
+    if (then.step.context.coefficients.kinds.resists)
+        stop_what_stops(b, &then.step.context.coefficients, then.step.end);
 }
 
 /* ------------------------------------------------------------------ the way */
@@ -355,6 +446,8 @@ void fst_neighbours_start(fst_neighbours *b, const fst_flow *flow)
     const fst_coefficients_double *c = &flow->step.context.coefficients;
     forget_clocks(b);
     take_mode(b, c);
+    if (c->kinds.resists && fst_contact_roll(flow) != FST_ROLL_ROLLS)
+        stop_rolling(b, c);
     if (fst_sticks_double(c) > 0.5 || (c->kinds.paced && fst_contact_mode(flow) == FST_MODE_ONSET))
         stop_slips(b, c, flow->step.y);
 }
@@ -372,7 +465,8 @@ int fst_neighbours_known(const fst_flow *flow)
 void fst_neighbours_follow(fst_neighbours *b, const fst_flow *flow)
 {
     carry_along_step(b, flow);
-    if (flow->step.context.coefficients.kinds.paced && flow->contact.next_mode >= 0)
+    if (flow->step.context.coefficients.kinds.paced &&
+        (flow->contact.next_mode >= 0 || flow->contact.next_roll >= 0))
         change_mode(b, flow);
 }
 
@@ -382,7 +476,7 @@ void fst_neighbours_at_equal_times(fst_neighbours *b, const fst_flow *flow)
     double f[FST_STATE_SIZE];
     if (!paced || flow->contact.next_mode >= 0) /* where a mode just ended, the clocks were set, or must wait */
         return;
-    rate_in(flow, fst_contact_mode(flow), f);
+    rate_in(flow, fst_contact_mode(flow), fst_contact_roll(flow), f);
     shift(b, f, -1.0);
     forget_clocks(b);
 }

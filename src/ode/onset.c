@@ -1,4 +1,7 @@
 /* onset.c - how a slip begins: its direction, from which onset (contact.c) follows the bead while it is slow.
+ * And how a bead begins to roll that a plate's resistance had kept from it (rest.c), which is the same for
+ * another velocity: W_h, with the push a T and the strength a rho N, a = 5/(7 eps^2) of a contact that sticks
+ * and 5/(2 eps^2) of one that slips.
  *
  * Let delta be the angle by which V lags behind A, B the rate at which A turns in space, s = |V|, a = |A|, and
  * c = (7/2) mu N.  In a slip
@@ -21,10 +24,44 @@
 
 #include "model/tangent.inl"
 
-static const double APART = 1e-3; /* of the states before and after, in 1/gamma */
+static const double APART = 1e-3; /* of the states before and after, in 1/gamma, */
+static const double PART = 0.1;   /* or of the time in which the push doubles */
+static const double TURNS = 2.0;  /* how far an onset may go while its push turns, over radians */
 
-/* `lean` in a state of this motion; *across: 3 a - 2 c there. */
-static double lean_in(const fst_flow *flow, double omega, const double *state, double *across)
+/* A push a and its change, with the strength c of what it works against. */
+typedef struct pushed {
+    double a[2], da[2], c, dc;
+} pushed;
+
+static pushed push_of_slip(const fst_coefficients_double *c, const fst_contact_double *at,
+                           const fst_contact_double *by)
+{
+    /* A bead that does not roll feels A as (2/7) A: model/dynamics.inl */
+    const double share = c->kinds.resists && fst_rests_double(&c->resistance) ? 2.0 / 7.0 : 1.0;
+    const double mu = 3.5 * share * fst_coulomb_mu_double(&c->law.coulomb, 0.0);
+    const pushed p = {{share * at->push[0], share * at->push[1]},
+                      {share * by->push[0], share * by->push[1]},
+                      mu * fst_coulomb_load_double(at),
+                      mu * by->load};
+    return p;
+}
+
+static pushed push_of_roll(const fst_coefficients_double *c, const fst_contact_double *at,
+                           const fst_contact_double *by)
+{
+    const double share = fst_sticks_double(c) > 0.5 ? 2.0 / 7.0 * c->torque : c->torque;
+    const pushed p = {{share * at->balance[0], share * at->balance[1]},
+                      {share * by->balance[0], share * by->balance[1]},
+                      share * c->resistance.arm * fst_coulomb_load_double(at),
+                      share * c->resistance.arm * by->load};
+    return p;
+}
+
+typedef pushed (*push_function)(const fst_coefficients_double *, const fst_contact_double *,
+                                const fst_contact_double *);
+
+/* The push on a bead in this state of this motion, and its change in time. */
+static pushed push_in(const fst_flow *flow, push_function push, double omega, const double *state)
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
     fst_linear_double l;
@@ -32,20 +69,28 @@ static double lean_in(const fst_flow *flow, double omega, const double *state, d
     fst_linearise_double(c, omega, state, &l, dy);
     fst_contact_double by;
     fst_pull_change_double(c, &l, state, dy, force, turning);
+    fst_slip_double(c, dy, by.slip);
     by.load = -force[2];
     fst_cross_double(dy + FST_NX, l.at.b, twist);
     fst_cross_double(state + FST_NX, turning, torque);
     fst_dry_change_double(c, &l, state, dy, force, twist, torque, &by);
-    const double *a = l.contact.push, size2 = a[0] * a[0] + a[1] * a[1], size = sqrt(size2);
-    const double turns = omega + (a[0] * by.push[1] - a[1] * by.push[0]) / size2;
-    const double mu = fst_coulomb_mu_double(&c->law.coulomb, 0.0);
-    const double excess = size - 3.5 * mu * fst_coulomb_load_double(&l.contact);
+    return push(c, &l.contact, &by);
+}
+
+/* `lean` in a state of this motion; *across: 3 a - 2 c there. */
+static double lean_in(const fst_flow *flow, push_function push, double omega, const double *state,
+                      double *across)
+{
+    const pushed p = push_in(flow, push, omega, state);
+    const double size2 = p.a[0] * p.a[0] + p.a[1] * p.a[1], size = sqrt(size2);
+    const double turns = omega + (p.a[0] * p.da[1] - p.a[1] * p.da[0]) / size2;
+    const double excess = size - p.c;
     *across = size + 2.0 * excess;
     return turns / (size + excess);
 }
 
-/* The states APART before (0) and after (1) the given one, to the second order in time. */
-static void states_around(const fst_flow *flow, double omega, const double *state,
+/* The states `apart` before (0) and after (1) the given one, to the second order in time. */
+static void states_around(const fst_flow *flow, double omega, const double *state, double apart,
                           double around[2][FST_STATE_SIZE])
 {
     const fst_coefficients_double *c = &flow->step.context.coefficients;
@@ -53,28 +98,72 @@ static void states_around(const fst_flow *flow, double omega, const double *stat
     fst_pull_double unused;
     fst_rhs_double(c, omega, state, slope, &unused);
     for (int side = 0; side < 2; ++side) {
-        const double time = side ? APART : -APART;
+        const double time = side ? apart : -apart;
         for (int i = 0; i < FST_STATE_SIZE; ++i)
             around[side][i] = state[i] + time * slope[i];
         fst_rhs_double(c, omega + time * flow->step.ramp, around[side], slopes[side], &unused);
     }
     for (int side = 0; side < 2; ++side)
         for (int i = 0; i < FST_STATE_SIZE; ++i)
-            around[side][i] += 0.25 * APART * (slopes[1][i] - slopes[0][i]); /* y'' APART^2/2 */
+            around[side][i] += 0.25 * apart * (slopes[1][i] - slopes[0][i]); /* y'' apart^2/2 */
 }
 
-void fst_contact_begin_onset(fst_flow *flow, const double *state)
+/* The lag of a motion that begins in this state, whose mode is set; `apart` is the time between the states of
+ * which it is made. */
+static void begin_lag(const fst_flow *flow, push_function push, double apart, const double *state,
+                      fst_lag_double *lag)
+{
+    const double omega = fst_flow_omega(flow, flow->t), turn = apart * flow->step.ramp;
+    double around[2][FST_STATE_SIZE], across;
+    states_around(flow, omega, state, apart, around);
+    const double before = lean_in(flow, push, omega - turn, around[0], &across),
+                 after = lean_in(flow, push, omega + turn, around[1], &across);
+    const double lean = lean_in(flow, push, omega, state, &across);
+    lag->lean = lag->then[0] = lean;
+    lag->then[1] = (after - before) / (2.0 * apart);
+    lag->then[2] = 0.5 * (after - 2.0 * lean + before) / (apart * apart);
+    lag->slip = -lag->then[1] / across;
+    lag->since = 0.0;
+}
+
+static const fst_lag_double NO_LAG = {0.0, 0.0, {0.0, 0.0, 0.0}, 0.0};
+
+/* The time, in 1/gamma but at most 1, in which the push on a slip may turn.  It does so at the rate at which
+ * the direction of a slow rotation does, from which the plate's torque comes. */
+static double time_of_turning(const fst_coefficients_double *c, const double *state)
+{
+    if (!c->kinds.resists || c->resistance.mode != FST_ROLL_ROLLS)
+        return 1.0;
+    fst_pull_double p;
+    fst_magnetic_pull_double(c, state, &p);
+    const double strength = 2.0 / 7.0 * c->torque * c->resistance.arm * fmax(fst_load_double(c, p.force), 0.0);
+    return fmin(1.0, TURNS * hypot(state[FST_WX], state[FST_WY]) / (strength + 1e-290));
+}
+
+double fst_contact_begin_onset(fst_flow *flow, const double *state)
 {
     fst_coulomb_double *law = &flow->step.context.coefficients.law.coulomb;
-    const double omega = fst_flow_omega(flow, flow->t), turn = APART * flow->step.ramp;
-    double around[2][FST_STATE_SIZE], across;
+    fst_lag_double lag;
     law->mode = FST_MODE_ONSET;
-    law->lean = law->lean_slip = law->since = 0.0;
-    states_around(flow, omega, state, around);
-    const double before = lean_in(flow, omega - turn, around[0], &across),
-                 after = lean_in(flow, omega + turn, around[1], &across);
-    law->lean = law->lean_then[0] = lean_in(flow, omega, state, &across);
-    law->lean_then[1] = (after - before) / (2.0 * APART);
-    law->lean_then[2] = 0.5 * (after - 2.0 * law->lean + before) / (APART * APART);
-    law->lean_slip = -law->lean_then[1] / across;
+    law->lag = NO_LAG;
+    const double time = time_of_turning(&flow->step.context.coefficients, state);
+    begin_lag(flow, push_of_slip, fmin(APART, PART * time), state, &lag);
+    law->lag = lag;
+    return time;
+}
+
+void fst_contact_begin_rolling(fst_flow *flow, const double *state, double *strength, double *growth,
+                               double *turning)
+{
+    fst_resistance_double *resistance = &flow->step.context.coefficients.resistance;
+    fst_lag_double lag;
+    resistance->mode = FST_ROLL_STARTS;
+    resistance->lag = NO_LAG;
+    const pushed p = push_in(flow, push_of_roll, fst_flow_omega(flow, flow->t), state);
+    const double size = sqrt(p.a[0] * p.a[0] + p.a[1] * p.a[1]) + 1e-290;
+    *turning = sqrt(p.da[0] * p.da[0] + p.da[1] * p.da[1]) + 1e-290;
+    *strength = p.c;
+    *growth = (p.a[0] * p.da[0] + p.a[1] * p.da[1]) / size - p.dc;
+    begin_lag(flow, push_of_roll, fmin(APART, PART * size / *turning), state, &lag);
+    resistance->lag = lag;
 }

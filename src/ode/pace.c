@@ -6,39 +6,30 @@
  * the end of the way is made anew, so short that it lands there.
  *
  * Errors.  While |V| falls over many orders of magnitude, a tolerance on v and W would stop seeing V long
- * before the end.  So a step must also keep some digits of V itself, however small it is.
+ * before the end.  So a step must also keep some digits of V itself, however small it is.  Where the plate
+ * resists rolling the same holds for W_h.
  */
 #include "ode/flight.h"
 
 #include "base/bracket.h"
-
-static const double LEAST_DIGITS = 0.03; /* relative error of V that a step may make */
 
 int fst_contact_mode(const fst_flow *flow)
 {
     return (int)flow->step.context.coefficients.law.coulomb.mode;
 }
 
-static double size_of(const double v[2])
+int fst_contact_roll(const fst_flow *flow)
 {
-    return sqrt(v[0] * v[0] + v[1] * v[1]);
+    return (int)flow->step.context.coefficients.resistance.mode;
+}
+
+/* Whether the last step measured a time of its own. */
+static int has_pace(const fst_flow *flow)
+{
+    return fst_measures_time_double(&flow->step.context.coefficients);
 }
 
 /* ------------------------------------------------------------------ errors */
-
-/* The embedded error of the slip in a step, as dop853.inl has it for the whole state. */
-static double slip_error(const fst_bead_step_double *s)
-{
-    static const int slot[8] = {0, 5, 6, 7, 8, 9, 10, 11};
-    static const double fifth[8] = {DOP_E5_1, DOP_E5_6,  DOP_E5_7,  DOP_E5_8,
-                                    DOP_E5_9, DOP_E5_10, DOP_E5_11, DOP_E5_12};
-    double error[FST_STATE_SIZE] = {0}, slip[2];
-    for (int i = FST_VX; i < FST_STATE_SIZE; ++i)
-        for (int j = 0; j < 8; ++j)
-            error[i] += s->h * fifth[j] * s->k[slot[j]][i];
-    fst_slip_double(&s->context.coefficients, error, slip);
-    return size_of(slip);
-}
 
 double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *atol)
 {
@@ -46,15 +37,7 @@ double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *
     const fst_coefficients_double *c = &s->context.coefficients;
     if (fst_is_in_flight_double(c))
         return fmax(error, fst_flight_error(s, rtol));
-    if (!c->kinds.paced || c->law.coulomb.mode != FST_MODE_SLIP)
-        return error;
-    double start[2], end[2];
-    fst_slip_double(c, s->y, start);
-    fst_slip_double(c, s->end, end);
-    const double least = fmin(fst_contact_motion_2_double(c, start, s->y[FST_WZ]),
-                              fst_contact_motion_2_double(c, end, s->end[FST_WZ]));
-    const double of_slip = slip_error(s) / (LEAST_DIGITS * sqrt(least));
-    return of_slip > error ? of_slip : error;
+    return c->kinds.paced ? fst_paced_error_double(s, error) : error;
 }
 
 /* ------------------------------------------------------------------ time within a step */
@@ -62,13 +45,7 @@ double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *
 /* The time that the last step took. */
 double fst_contact_elapsed(const fst_flow *flow)
 {
-    const fst_bead_step_double *s = &flow->step;
-    double pace[FST_PATH_PLACES];
-    if (fst_contact_mode(flow) != FST_MODE_SLIP)
-        return s->h;
-    for (int place = 0; place < FST_PATH_PLACES; ++place)
-        pace[place] = FST_PATH_PACE(s, place);
-    return fst_path_integral_double(s, pace, 1);
+    return fst_paced_time_double(&flow->step);
 }
 
 static void make_clock(fst_flow *flow)
@@ -87,7 +64,7 @@ static void make_clock(fst_flow *flow)
 
 double fst_contact_time(fst_flow *flow, double x)
 {
-    if (fst_contact_mode(flow) != FST_MODE_SLIP)
+    if (!has_pace(flow))
         return x * flow->step.h;
     double time;
     make_clock(flow);
@@ -98,7 +75,7 @@ double fst_contact_time(fst_flow *flow, double x)
 double fst_contact_fraction(fst_flow *flow, double since_start)
 {
     const double whole = fst_contact_elapsed(flow);
-    if (fst_contact_mode(flow) != FST_MODE_SLIP || !(since_start > 0 && since_start < whole))
+    if (!has_pace(flow) || !(since_start > 0 && since_start < whole))
         return since_start / whole;
     fst_bracket z = {0.0, 1.0, -since_start, whole - since_start, 0};
     for (int i = 0; i < 100 && z.hi - z.lo > 1e-16; ++i) {

@@ -18,7 +18,7 @@ static inline __attribute__((always_inline)) REAL FN(path_integral)(const FN(bea
     return s->h * sum;
 }
 
-#ifdef REAL_IS_SCALAR
+#if KNOWS_DRY
 /* What integrates to time integrals: the integrands q times dt/dtheta at a place, under a law with modes. */
 static inline void FN(pace_integrands)(const FN(bead_step) * s, int place, int dim, REAL *q)
 {
@@ -44,4 +44,18 @@ static inline void FN(path_dense)(const FN(bead_step) * s, int dim, const REAL *
             stage[FST_PATH_STAGE_[place] * dim + i] =
                 place < FST_PATH_PLACES ? path[place * dim + i] : added[(place - FST_PATH_PLACES) * dim + i];
     FN(bead_dense_coefficients)(dim, s->h, zero, increments, stage, dim, coefficients);
+}
+
+/* Greatest component of |d(state)/dt| at the end of the step. */
+static inline REAL FN(step_speed)(const FN(bead_step) * s)
+{
+    const REAL *slope = FST_PATH_SLOPE(s, FST_PATH_END);
+    REAL speed = REAL_ABS(slope[0]);
+    for (int i = 1; i < FST_STATE_SIZE; ++i)
+        speed = REAL_MAX(REAL_ABS(slope[i]), speed);
+#if KNOWS_DRY
+    if (HAS(s->context.coefficients.kinds, paced)) /* the slopes are those by theta */
+        speed = speed / FST_PATH_PACE(s, FST_PATH_END);
+#endif
+    return speed;
 }

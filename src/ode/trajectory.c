@@ -58,7 +58,7 @@ fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
     made->omega_start = model->groups.omega;
     memcpy(s->y, state, sizeof s->y);
     (void)fst_renormalise_double(s->y);
-    made->contact.next_mode = -1;
+    made->contact.next_mode = made->contact.next_roll = -1;
     fst_contact_put_down(made, s->y);
     fst_bead_flow_begin(made, options->first_step, options->greatest_step);
     made->bead_angle.x = s->y[FST_X];

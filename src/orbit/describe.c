@@ -200,6 +200,22 @@ fst_status fst_describe_orbit(const fst_family *family, const fst_solution *s, i
     return status;
 }
 
+void fst_orbit_fill(const fst_description *d, const fst_solution *at, fst_orbit *orbit)
+{
+    orbit->means = d->means;
+    orbit->means.period = fst_whole_period(at);
+    orbit->symmetry = d->means.symmetry;
+    orbit->turns = d->turns;
+    orbit->stable = fst_solution_is_stable(at);
+    orbit->residual = at->residual;
+    orbit->relaxation_time = fst_solution_relaxation(at);
+    orbit->swing_ratio = d->swing_ratio;
+    orbit->trivial_error = at->trivial_error;
+    memcpy(orbit->multiplier_re, at->re, sizeof orbit->multiplier_re);
+    memcpy(orbit->multiplier_im, at->im, sizeof orbit->multiplier_im);
+    memcpy(orbit->state, at->y[0], sizeof orbit->state);
+}
+
 fst_status fst_orbit_from_solution(const fst_family *family, const fst_solution *s, fst_orbit *orbit,
                                    fst_error *error)
 {
@@ -230,17 +246,6 @@ fst_status fst_orbit_from_solution(const fst_family *family, const fst_solution 
         status = fst_describe_orbit(family, &at, 1, &d, error);
     if (status != FST_OK)
         return status;
-    orbit->means = d.means;
-    orbit->means.period = fst_whole_period(&at);
-    orbit->symmetry = d.means.symmetry;
-    orbit->turns = d.turns;
-    orbit->stable = fst_solution_is_stable(&at);
-    orbit->residual = at.residual;
-    orbit->relaxation_time = fst_solution_relaxation(&at);
-    orbit->swing_ratio = d.swing_ratio;
-    orbit->trivial_error = at.trivial_error;
-    memcpy(orbit->multiplier_re, at.re, sizeof orbit->multiplier_re);
-    memcpy(orbit->multiplier_im, at.im, sizeof orbit->multiplier_im);
-    memcpy(orbit->state, at.y[0], sizeof orbit->state);
+    fst_orbit_fill(&d, &at, orbit);
     return FST_OK;
 }

@@ -29,7 +29,11 @@ static inline double fst_whole_period(const fst_solution *s)
 /* The radial velocity times r, for fst_flow_locate(): zero where r is extreme. */
 double fst_radial_function(const fst_flow *flow, const double *state, const fst_pull_double *p);
 
-/* Fill in the public description; the state is moved to the section Phi = pi/2 where the orbit passes it. */
+/* Fill in the public description of a corrected orbit with its spectrum. */
+void fst_orbit_fill(const fst_description *d, const fst_solution *at, fst_orbit *orbit);
+
+/* The same of any solution, which is not described yet; the state is moved to the section Phi = pi/2 where the
+ * orbit passes it. */
 fst_status fst_orbit_from_solution(const fst_family *family, const fst_solution *s, fst_orbit *orbit,
                                    fst_error *error);
 

@@ -75,5 +75,11 @@ void fst_dry_coefficients(const fst_setup *setup, const double *y, fst_coefficie
     fst_slip_double(out, y, slip);
     const int rests = !out->kinds.patch && slip[0] * slip[0] + slip[1] * slip[1] <= NO_SLIP * NO_SLIP &&
                       fst_grip(out, y) >= 0.0;
-    out->law.coulomb.mode = rests ? FST_MODE_STICK : FST_MODE_SLIP;
+    const int always = setup->model.groups.friction == FST_FRICTION_ROLLING;
+    out->law.coulomb.mode = always || rests ? FST_MODE_STICK : FST_MODE_SLIP;
+    if (out->kinds.resists) {
+        fst_pull_double pull;
+        fst_magnetic_pull_double(out, y, &pull);
+        fst_find_rest_double(out, y, &pull);
+    }
 }

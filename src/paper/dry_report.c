@@ -3,9 +3,29 @@
 #include "paper/report_parts.h"
 #include "paper/runs.h"
 
+/* The number on the colour of its verdict, with the distance from the paper's. */
+static void write_fact(FILE *out, const fst_statement *about, int law, double value)
+{
+    static const char *const classes[] = {"reproduced", "close", "not"}, *const marks[] = {"✓", "≈", "✗"};
+    const fst_verdict verdict = fst_statement_verdict(about, value);
+    char name[48], text[64];
+    double border;
+    fst_dry_law_name(law, name, sizeof name);
+    fst_statement_value(about, value, text, sizeof text);
+    fprintf(out, "<td class=\"n %s\" title=\"%s\"><span class=\"label\">", classes[verdict],
+            fst_verdict_name(verdict));
+    fst_report_text(out, name);
+    fprintf(out, "</span>%s&nbsp;%s", text, marks[verdict]);
+    if (isfinite(value) && isfinite(about->published))
+        fprintf(out, "<br><small>%+.0f %%</small>", 100.0 * (value / about->published - 1.0));
+    if (fst_statement_margin(about, value, &border) < FST_HAIR)
+        fprintf(out, "<br><small>%.4g decides</small>", border);
+    fputs("</td>", out);
+}
+
 static void write_facts(FILE *out, const fst_paper_state *paper)
 {
-    fputs("<div class=\"scroll\"><table><thead><tr><th>the paper's words</th><th></th>", out);
+    fputs("<table class=\"facts\"><thead><tr><th>the paper's words</th>", out);
     for (int law = 0; law < FST_DRY_LAWS; ++law) {
         char name[48];
         fst_dry_law_name(law, name, sizeof name);
@@ -19,20 +39,13 @@ static void write_facts(FILE *out, const fst_paper_state *paper)
         char text[64];
         fputs("<tr><td>", out);
         fst_report_text(out, about->text);
-        fst_statement_value(about, about->published, text, sizeof text);
-        fprintf(out, "</td><td class=\"n\">%s</td>", isfinite(about->published) ? text : "most");
-        for (int law = 0; law < FST_DRY_LAWS; ++law) {
-            const double value = fst_dry_fact(paper, fact, law);
-            fst_statement_value(about, value, text, sizeof text);
-            fprintf(out, "<td class=\"n\">%s<br>", text);
-            if (isfinite(value) && isfinite(about->published))
-                fprintf(out, "<small>%+.0f %%</small> ", 100.0 * (value / about->published - 1.0));
-            fst_report_badge(out, fst_statement_verdict(about, value));
-            fputs("</td>", out);
-        }
+        fst_statement_published(about, text, sizeof text);
+        fprintf(out, ": <strong>%s</strong></td>", isfinite(about->published) ? text : "most");
+        for (int law = 0; law < FST_DRY_LAWS; ++law)
+            write_fact(out, about, law, fst_dry_fact(paper, fact, law));
         fputs("</tr>\n", out);
     }
-    fputs("</tbody></table></div>\n", out);
+    fputs("</tbody></table>\n", out);
 }
 
 static void write_cell(FILE *out, const fst_paper_run *run)
@@ -52,7 +65,7 @@ static void write_cell(FILE *out, const fst_paper_run *run)
 
 static void write_map(FILE *out, const fst_paper_dry *dry, int start)
 {
-    fprintf(out, "<h3>%s</h3><div class=\"scroll\"><table><thead><tr><th>Hz</th>",
+    fprintf(out, "<h3>%s</h3><table class=\"map\"><thead><tr><th>Hz</th>",
             start ? "Released at rest above a pole" : "Rolling at the start");
     for (int mu = 0; mu < FST_DRY_MUS; ++mu)
         fprintf(out, "<th>μ = %g</th>", fst_dry_mus[mu]);
@@ -64,7 +77,7 @@ static void write_map(FILE *out, const fst_paper_dry *dry, int start)
             write_cell(out, &dry->map[mu][drive][start]);
         fputs("</tr>\n", out);
     }
-    fputs("</tbody></table></div>\n", out);
+    fputs("</tbody></table>\n", out);
 }
 
 void fst_report_dry(FILE *out, const fst_paper_state *paper)
@@ -80,12 +93,13 @@ void fst_report_dry(FILE *out, const fst_paper_state *paper)
         "exact equations) with that law. While its contact sticks it rolls exactly; friction is then whatever "
         "keeps it so.</p>\n"
         "<p>Corotation ends where the locked, slipping state ends in a fold, near 7 to 8 Hz: the centrifugal "
-        "force wins over the magnet's pull. Beyond, almost every bead is thrown off the plate, as in the "
+        "force wins over the magnet's pull. Beyond, most beads are thrown off the plate, as in the "
         "experiment and unlike with viscous friction; from about 10 Hz on counter-rotation takes over. The "
-        "third column of the statements below has μ = %g.</p>\n",
+        "third column of the claims above has μ = %g.</p>\n",
         FST_DRY_MU);
     write_facts(out, paper);
-    fputs("<p class=\"fine\">The percentages are distances from the paper's number. Runs of 120 turns of the "
+    fputs("<p class=\"fine\">✓ reproduced, ≈ close, ✗ not reproduced. The percentages are distances from the "
+          "paper's number. Runs of 120 turns of the "
           "magnet, means after 80. What a bead does depends on its start too: two are shown. A question mark "
           "stands where the motion had not settled. Motions that end in pure rolling settle ever more slowly, "
           "and "

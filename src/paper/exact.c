@@ -14,6 +14,9 @@ static const double BRANCH_FROM = 0.17, BRANCH_TO = 4.0;
 static const double BRANCH_START = 0.3; /* a drive at which the bead counter-rotates */
 /* The last locked state loses its stability between these drives. */
 static const double LOCKED_FROM = 0.14, LOCKED_TO = 0.17;
+/* With more friction it does so between these, if it is lost where it was, or as the paper's balance has it,
+ * where friction is as great as before. */
+static const double RUBBED_FROM = 0.143, RUBBED_TO = 0.157;
 static const double LOCKED_AT = 0.02; /* the slowest drive of the runs */
 /* A small kappa, and a drive at which a bead that is held so weakly stays locked. */
 static const double WEAK = 0.015, WEAK_DRIVE = 0.001;
@@ -63,14 +66,14 @@ static void read_branch(const fst_branch *branch, fst_paper_exact *exact)
     }
 }
 
-/* Find where the stable locked states end that reach the highest drive. */
-static fst_status find_locked_end(const fst_params *params, const fst_progress *progress,
-                                  fst_paper_exact *exact, fst_error *error)
+/* Find where the stable locked states end that reach the highest drive; NAN: nowhere between these drives. */
+static fst_status find_locked_end(const fst_params *params, double from, double to,
+                                  const fst_progress *progress, double *end, fst_error *error)
 {
     fst_branch_options options = fst_default_branch_options();
     options.kind = FST_BRANCH_LOCKED;
-    options.from = LOCKED_FROM;
-    options.to = LOCKED_TO;
+    options.from = from;
+    options.to = to;
     options.progress = progress;
     fst_branch branch;
     const fst_status status = fst_branch_follow(params, &options, &branch, error);
@@ -81,9 +84,23 @@ static fst_status find_locked_end(const fst_params *params, const fst_progress *
     for (size_t i = 0; status == FST_OK && i < branch.special_count; ++i) {
         const fst_special *special = &branch.specials[i];
         if (special->type == FST_SPECIAL_HOPF && special->omega >= highest)
-            exact->locked_end = fmin(special->omega, isnan(exact->locked_end) ? INFINITY : exact->locked_end);
+            *end = fmin(special->omega, isnan(*end) ? INFINITY : *end);
     }
     fst_branch_free(&branch);
+    return status;
+}
+
+/* The same with more friction and everything else, in its own units, as it was: kappa gamma^2 is the magnet's.
+ */
+static fst_status find_rubbed_end(const fst_params *params, const fst_progress *progress, double *end,
+                                  fst_error *error)
+{
+    fst_params rubbed = *params;
+    rubbed.friction_gamma *= FST_MORE_FRICTION;
+    rubbed.model_kappa /= FST_MORE_FRICTION * FST_MORE_FRICTION;
+    const fst_status status = find_locked_end(&rubbed, RUBBED_FROM / FST_MORE_FRICTION,
+                                              RUBBED_TO / FST_MORE_FRICTION, progress, end, error);
+    *end *= FST_MORE_FRICTION; /* in the units of the usual friction */
     return status;
 }
 
@@ -144,7 +161,9 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
     }
     fst_branch_free(&branch);
     if (status == FST_OK)
-        status = find_locked_end(&params, progress, exact, &why);
+        status = find_locked_end(&params, LOCKED_FROM, LOCKED_TO, progress, &exact->locked_end, &why);
+    if (status == FST_OK)
+        status = find_rubbed_end(&params, progress, &exact->locked_end_rubbed, &why);
     if (status == FST_OK)
         status = count_minima(dynamics, progress, exact, &why);
     if (status == FST_OK)
@@ -162,8 +181,13 @@ fst_status fst_paper_find_exact(fst_paper_state *paper, int index, fst_error *er
 
 void fst_paper_exact_begin(fst_paper_exact *exact)
 {
-    *exact = (fst_paper_exact){
-        .halving = NAN, .fold = NAN, .origin = NAN, .locked_end = NAN, .locked_minima = NAN, .damping = NAN};
+    *exact = (fst_paper_exact){.halving = NAN,
+                               .fold = NAN,
+                               .origin = NAN,
+                               .locked_end = NAN,
+                               .locked_end_rubbed = NAN,
+                               .locked_minima = NAN,
+                               .damping = NAN};
     for (int row = 0; row < FST_TABLE1_ROWS; ++row)
         exact->closed[row].omega = NAN;
 }

@@ -1,5 +1,5 @@
-/* figures.c - the table of the paper's figures: what each shows, how it is drawn, and which statements decide
- * its verdict. */
+/* figures.c - the table of the paper's figures: what each shows, how it is drawn, and which statement says
+ * what it shows. */
 #include "paper/figures.h"
 #include "paper/runs.h"
 #include "paper/work.h"
@@ -42,7 +42,6 @@ static const fst_paper_figure figures[] = {
      .caption = "A bead (vermilion) on a plate, and below it a bar magnet that turns anticlockwise; blue: the "
                 "lines of dipoles that model it. The moment n has the angle θ against e_r; φ is the angle in "
                 "the plane of e_α and e_z: n = cos θ e_r + sin θ (sin φ e_α − cos φ e_z).",
-     .statements = "length|spacing|eps",
      .scan = FST_SCAN_FOLD4,
      .draw = fst_paper_draw_sketch},
     {.name = "camera",
@@ -52,7 +51,7 @@ static const fst_paper_figure figures[] = {
          "The simulated path sampled like the experiment's, at 200 frames a second. The paper gives no scale; "
          "here a millimetre has 10 pixels.",
      .each = 1,
-     .statements = "fold4-festoons",
+     .own = "fold4-festoons",
      .scan = FST_SCAN_FOLD4,
      .draw = fst_paper_draw_camera},
     {.name = "radius",
@@ -61,7 +60,7 @@ static const fst_paper_figure figures[] = {
      .caption =
          "Mean radius of the path and its standard deviation against the magnet's frequency, where the bead "
          "counter-rotates.",
-     .statements = "shrinking",
+     .own = "shrinking",
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_radius},
     {.name = "supercritical",
@@ -72,7 +71,7 @@ static const fst_paper_figure figures[] = {
                 "turn), mean of n_z, "
                 "and the time in which the motion settles. Dotted: the pitchfork of the periodic orbits.",
      .each = 1,
-     .statements = "halving|halving-branch|halving-root|halving-time",
+     .own = "halving",
      .scan = FST_SCAN_COMPARISON,
      .step = FST_PAPER_STEP_HALVING,
      .draw = fst_paper_draw_supercritical},
@@ -82,7 +81,6 @@ static const fst_paper_figure figures[] = {
      .caption = "Least magnetic strength κ with which a bead that the field magnetises isotropically still "
                 "counter-rotates 600 turns of the magnet after a free-rolling start (rigid). Points: computed; "
                 "the lines guide the eye.",
-     .statements = "remanence",
      .scan = FST_SCAN_COMPARISON,
      .step = FST_PAPER_STEP_REMANENCE,
      .draw = fst_paper_draw_remanence},
@@ -92,7 +90,7 @@ static const fst_paper_figure figures[] = {
      .caption =
          "The field in which the bead moves: five lines of dipoles, two poles. Colour: strength; arrows: "
          "direction of its part in the plane. At the maxima the field stands almost upright.",
-     .statements = "maxima|spacing|orthoradial",
+     .own = "maxima",
      .scan = FST_SCAN_FOLD15,
      .draw = draw_field},
     {.name = "comparison",
@@ -105,7 +103,7 @@ static const fst_paper_figure figures[] = {
                 "not counter-rotate regularly the lines end. The measured points are not in the paper's text; "
                 "what the text "
                 "tells of them is marked.",
-     .statements = "bell|slowness|halving",
+     .own = "bell",
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_comparison},
     {.name = "dotal",
@@ -114,7 +112,7 @@ static const fst_paper_figure figures[] = {
      .caption = "The bead goes round with the magnet at low drives, and against it, more slowly, at high ones. "
                 "Lines: counter-rotation from the rolling start, enlarged in the inset; circles: beads "
                 "released at rest.",
-     .statements = "corotation|onset|bell",
+     .own = "bell-shape",
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_dotal},
     {.name = "f4",
@@ -124,7 +122,7 @@ static const fst_paper_figure figures[] = {
          "Two revolutions of the bead at the drive 0.215. Colour: vertical part of the moment; arrows: its "
          "horizontal part.",
      .each = 1,
-     .statements = "fold4-festoons|fold4-nz",
+     .own = "fold4-festoons",
      .scan = FST_SCAN_FOLD4,
      .draw = draw_trajectory},
     {.name = "f4detail-angle",
@@ -132,7 +130,7 @@ static const fst_paper_figure figures[] = {
      .title = "The moment follows the field",
      .caption = "The upper right corner of the same path, coloured by the angle between moment and field.",
      .each = 1,
-     .statements = "fold4-angle|rare-moments",
+     .own = "fold4-angle",
      .scan = FST_SCAN_FOLD4,
      .draw = draw_trajectory,
      .colour = "angle",
@@ -143,7 +141,7 @@ static const fst_paper_figure figures[] = {
      .caption =
          "The same corner, coloured by the speed of the contact point, which friction is proportional to.",
      .each = 1,
-     .statements = "turning-points|friction-angle|friction-outside",
+     .own = "turning-points",
      .scan = FST_SCAN_FOLD4,
      .draw = draw_trajectory,
      .colour = "slip",
@@ -157,7 +155,7 @@ static const fst_paper_figure figures[] = {
      .plain = 1,
      .inset = 1,
      .each = 1,
-     .statements = "fold15-festoons|fold15-angle",
+     .own = "fold15-festoons",
      .scan = FST_SCAN_FOLD15,
      .draw = draw_trajectory,
      .colour = "slip"},
@@ -167,17 +165,20 @@ static const fst_paper_figure figures[] = {
      .caption = "The moment's direction in the local frame at the drive 0.4, seen along the radius and along "
                 "the circle; grey: the unit sphere's outline.",
      .each = 1,
-     .statements = "fold15-closed|fold15-round|fold15-tilt",
+     .own = "fold15-closed",
      .scan = FST_SCAN_FOLD15,
      .draw = draw_trajectory,
      .kind = FST_FIGURE_LOCAL_N},
     {.name = "magint",
      .source = "Fig. 13",
      .title = "Where the festoons come from",
-     .caption = "Radius and field strength while the magnet turns by half a revolution under the bead, at "
-                "the drive 0.4: the pole draws the bead inwards, between the poles it swings out.",
+     .caption = "Radius and field strength while the magnet turns by half a revolution under the bead, at the "
+                "drive 0.4. "
+                "The radius is least over the ends of the magnet, where the field is strongest and the "
+                "magnet's force on "
+                "the bead weakest; the pull inwards is greatest over the middle (force-ends, pull-weakens).",
      .each = 1,
-     .statements = "magint-least|magint-field|magint-aligned|magint-across|force-ends|pull-weakens",
+     .own = "magint-least",
      .scan = FST_SCAN_FOLD15,
      .draw = draw_trajectory,
      .kind = FST_FIGURE_RADIUS_FIELD},
@@ -188,7 +189,7 @@ static const fst_paper_figure figures[] = {
          "Solid: mean angular velocities of the bead about the axis and of its moment; dashed: the paper's "
          "formulas for free rolling, with the mean radius of each run. Under the drive 0.185 the moment swings "
          "without turning over, ⟨φ′⟩ = 0: left out.",
-     .statements = "rolling-alpha|rolling-phi",
+     .own = "rolling-alpha",
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_test},
     {.name = "evolution",
@@ -197,7 +198,7 @@ static const fst_paper_figure figures[] = {
      .caption = "The three terms of the averaged radial equation (12); their exact sum is zero. The paper "
                 "drops n_r from the magnetic term: dashed.",
      .each = 1,
-     .statements = "friction|spin-term|magnetic-term|asymptotic-hz",
+     .own = "friction",
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_evolution},
 };
@@ -231,32 +232,13 @@ fst_paper_figure fst_paper_figure_at(int index)
     return figure;
 }
 
-/* Whether the list "one|two" contains `id`. */
-static int lists(const char *ids, const char *id)
-{
-    size_t length = strlen(id);
-    for (const char *at = ids; at; at = strchr(at, '|') ? strchr(at, '|') + 1 : NULL)
-        if (!strncmp(at, id, length) && (at[length] == '|' || at[length] == '\0'))
-            return 1;
-    return 0;
-}
-
 int fst_paper_figure_verdict(const fst_paper_state *paper, const fst_paper_figure *figure,
                              fst_dynamics dynamics, fst_verdict *verdict)
 {
-    *verdict = FST_VERDICT_REPRODUCED;
-    if (!figure->statements)
+    const fst_statement *statement = figure->own ? fst_statement_named(figure->own) : NULL;
+    if (!statement || !fst_statement_known(statement, paper))
         return 0;
-    for (int i = 0; i < fst_statement_count(); ++i) {
-        const fst_statement *statement = fst_statement_at(i);
-        if (!lists(figure->statements, statement->id))
-            continue;
-        if (!fst_statement_known(statement, paper))
-            return 0;
-        fst_finding finding = fst_statement_check(fst_statement_at(i), paper);
-        if (finding.verdict[dynamics] > *verdict)
-            *verdict = finding.verdict[dynamics];
-    }
+    *verdict = fst_statement_check(statement, paper).verdict[dynamics];
     return 1;
 }
 

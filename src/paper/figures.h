@@ -8,9 +8,9 @@ typedef struct fst_paper_figure {
     const char *name;   /* "f4" */
     const char *source; /* the paper's figure or section */
     const char *title, *caption;
-    int each;               /* one figure for each dynamics */
-    const char *statements; /* ids that decide the verdict, '|' between them; NULL: no verdict */
-    fst_scan scan;          /* the runs that it shows */
+    int each;        /* one figure for each dynamics */
+    const char *own; /* the id of the statement that says what the figure shows; NULL: no verdict */
+    fst_scan scan;   /* the runs that it shows */
     fst_status (*draw)(const fst_paper_state *paper, const struct fst_paper_figure *figure, const char *out,
                        fst_error *error);
     fst_paper_step step;  /* after which it can be drawn */
@@ -26,7 +26,7 @@ typedef struct fst_paper_figure {
 /* The figures; one that each dynamics has counts twice. */
 int fst_paper_figure_count(void);
 fst_paper_figure fst_paper_figure_at(int index);
-/* The worst verdict on the figure's statements; returns 0 where the figure has none. */
+/* The verdict on what the figure itself shows; returns 0 where the figure has none. */
 int fst_paper_figure_verdict(const fst_paper_state *paper, const fst_paper_figure *figure,
                              fst_dynamics dynamics, fst_verdict *verdict);
 /* The command lines that draw it again. */

@@ -128,6 +128,8 @@ static void add_dynamics(json_t *object, const fst_statement *statement, const f
     json_object_set_new(object, key, json_string(fst_verdict_name(finding->verdict[dynamics])));
     (void)snprintf(key, sizeof key, "%s_note", name);
     json_object_set_new(object, key, json_string(finding->note[dynamics]));
+    (void)snprintf(key, sizeof key, "%s_undecided", name);
+    json_object_set_new(object, key, json_boolean(finding->undecided[dynamics]));
     fst_statement_command(statement, paper, dynamics, command, sizeof command);
     (void)snprintf(key, sizeof key, "%scommand", prefix);
     json_object_set_new(object, key, json_string(command));
@@ -145,9 +147,56 @@ static void add_dry(json_t *object, const fst_statement *statement, const fst_pa
     json_object_set_new(object, "coulomb_mu", json_real(FST_DRY_MU));
     json_object_set_new(object, "coulomb_verdict", json_string(fst_verdict_name(finding->dry_verdict)));
     json_object_set_new(object, "coulomb_note", json_string(finding->dry_note));
+    json_object_set_new(object, "coulomb_undecided", json_boolean(finding->dry_undecided));
     fst_statement_dry_command(statement, paper, command, sizeof command);
     json_object_set_new(object, "coulomb_command", json_string(command));
     json_object_set_new(object, "coulomb_reads", json_string(fst_statement_dry_reads(statement)));
+}
+
+/* The distance from the border that is nearest, as a share of what it allows; where the verdict hangs by a
+ * hair, and at which value it turns. */
+static void add_margin(json_t *object, const fst_statement *statement, const char *name, double value)
+{
+    char key[48];
+    double border;
+    (void)snprintf(key, sizeof key, "%s_margin", name);
+    json_object_set_new(object, key, fst_json_number(fst_statement_margin(statement, value, &border)));
+    (void)snprintf(key, sizeof key, "%s_border", name);
+    json_object_set_new(object, key, fst_json_number(border));
+}
+
+/* Another way to read the same sentence; the verdict of the statement is the first's. */
+static json_t *second_object(const fst_statement *statement, const fst_paper_state *paper)
+{
+    const fst_reading *reading = fst_statement_reading(statement);
+    if (!reading)
+        return json_null();
+    const fst_statement *second = &reading->second;
+    const fst_finding finding = fst_reading_check(reading, statement, paper);
+    char criterion[320];
+    fst_statement_criterion(second, criterion, sizeof criterion);
+    json_t *object = json_object();
+    json_object_set_new(object, "first", json_string(reading->first));
+    json_object_set_new(object, "reading", json_string(reading->words));
+    json_object_set_new(object, "chosen", json_string(reading->chosen));
+    json_object_set_new(object, "published", statement_value(second, second->published));
+    json_object_set_new(object, "unit", json_string(second->unit));
+    json_object_set_new(object, "scale", json_real(second->scale));
+    json_object_set_new(object, "criterion", json_string(criterion));
+    for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; --d) {
+        const char *name = fst_dynamics_name((fst_dynamics)d);
+        char key[48];
+        json_object_set_new(object, name, statement_value(second, finding.value[d]));
+        (void)snprintf(key, sizeof key, "%sverdict", d == FST_DYNAMICS_RIGID ? "rigid_" : "");
+        json_object_set_new(object, key, json_string(fst_verdict_name(finding.verdict[d])));
+        (void)snprintf(key, sizeof key, "%s_note", name);
+        json_object_set_new(object, key, json_string(finding.note[d]));
+    }
+    if (finding.dry) {
+        json_object_set_new(object, "coulomb", statement_value(second, finding.dry_value));
+        json_object_set_new(object, "coulomb_verdict", json_string(fst_verdict_name(finding.dry_verdict)));
+    }
+    return object;
 }
 
 static json_t *statement_object(const fst_statement *statement, const fst_paper_state *paper)
@@ -160,8 +209,13 @@ static json_t *statement_object(const fst_statement *statement, const fst_paper_
     json_object_set_new(object, "section", json_string(statement->section));
     json_object_set_new(object, "statement", json_string(statement->text));
     json_object_set_new(object, "published", statement_value(statement, statement->published));
+    char printed[64];
+    fst_statement_published(statement, printed, sizeof printed);
     json_object_set_new(object, "published_words",
                         statement->said ? json_string(statement->said) : json_null());
+    json_object_set_new(object, "printed", json_string(printed));
+    json_object_set_new(object, "group", json_string(fst_groups_of_statements[statement->group].name));
+    json_object_set_new(object, "same_for_both", json_boolean(statement->still));
     json_object_set_new(object, "claim", json_boolean(!statement->check));
     json_object_set_new(object, "unit", json_string(statement->unit));
     json_object_set_new(object, "scale", json_real(statement->scale));
@@ -171,6 +225,11 @@ static json_t *statement_object(const fst_statement *statement, const fst_paper_
     add_dynamics(object, statement, paper, &finding, FST_DYNAMICS_FARAGO2020);
     add_dynamics(object, statement, paper, &finding, FST_DYNAMICS_RIGID);
     add_dry(object, statement, paper, &finding);
+    for (int d = FST_PAPER_DYNAMICS - 1; d >= 0; --d)
+        add_margin(object, statement, fst_dynamics_name((fst_dynamics)d), finding.value[d]);
+    if (finding.dry)
+        add_margin(object, statement, "coulomb", finding.dry_value);
+    json_object_set_new(object, "second_reading", second_object(statement, paper));
     return object;
 }
 

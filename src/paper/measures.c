@@ -26,7 +26,7 @@ static double maximum_on_axis(const fst_params *params)
 
 MEASURE(field_maximum)
 {
-    (void)snprintf(note, size, "at the height of the bead's centre, on the magnet's axis");
+    (void)snprintf(note, size, "on the magnet's axis");
     return maximum_on_axis(&fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)->params);
 }
 
@@ -58,8 +58,7 @@ MEASURE(fitted_length)
         }
         at_length[at_plate] = 1e3 * below;
     }
-    (void)snprintf(note, size, "at the height of the bead's centre; for maxima on the plate's surface %.2f mm",
-                   at_length[1]);
+    (void)snprintf(note, size, "for maxima at that height; on the plate's surface %.2f mm", at_length[1]);
     return at_length[0];
 }
 

@@ -49,15 +49,38 @@ static double dot(const double a[3], const double b[3])
 
 /* ------------------------------------------------------------------ section IV */
 
+/* The errors of the equations of section IV along a motion. */
+typedef struct section_iv {
+    leftover centre;  /* Eqs. (9), (10) */
+    leftover printed; /* Eqs. (7), (8), for n and psi */
+    leftover euler;   /* Euler's equation for W, which the paper does not print */
+} section_iv;
+
+/* n'' as Eq. (7) prints it, less the computed one, and psi'' by Eq. (8).  `axis` is V x e. */
+static void printed_turning(const fst_groups *g, const double *y, const double n1[3], const double w1[3],
+                            const double b[3], const double slip[2], leftover *sum)
+{
+    const double *n = y + FST_NX, axis[3] = {slip[1], -slip[0], 0.0};
+    double friction[3], n2[3], turned[3];
+    cross(axis, n, friction);
+    cross(w1, n, n2); /* n'' = W' x n + W x n' */
+    cross(y + FST_WX, n1, turned);
+    for (int i = 0; i < 3; ++i)
+        add(sum, n2[i] + turned[i],
+            -dot(n1, n1) * n[i] - 2.5 / g->eps * friction[i] + 2.5 * g->kappa * (b[i] - n[i] * dot(n, b)));
+    /* V.(e x n), and psi' = W.n */
+    add(sum, dot(w1, n) + dot(y + FST_WX, n1), -2.5 / g->eps * (slip[1] * n[0] - slip[0] * n[1]));
+}
+
 /* Forces and torques computed here directly, to compare with the accelerations of the dynamics. */
-static void newton_and_euler(const fst_model *model, const double y[FST_STATE_SIZE], leftover *centre,
-                             leftover *turning)
+static void newton_and_euler(const fst_model *model, const double y[FST_STATE_SIZE], section_iv *sums)
 {
     const fst_groups g = fst_model_groups(model);
-    double rates[FST_STATE_SIZE], b[3], grad[3][3], v_rate[3], w_rate[3], n_cross_b[3];
+    double rates[FST_STATE_SIZE], b[3], grad[3][3], v_rate[3], n_rate[3], w_rate[3], n_cross_b[3];
     fst_rhs(model, y, rates);
     fst_field(model, y[FST_X], y[FST_Y], b, grad);
     laboratory_rate(y, rates, g.omega, FST_VX, 2, v_rate);
+    laboratory_rate(y, rates, g.omega, FST_NX, 3, n_rate);
     laboratory_rate(y, rates, g.omega, FST_WX, 3, w_rate);
     cross(y + FST_NX, b, n_cross_b);
     double slip[2];
@@ -65,46 +88,53 @@ static void newton_and_euler(const fst_model *model, const double y[FST_STATE_SI
     const double friction[3] = {-slip[1], slip[0], 0.0}; /* e x V */
     for (int i = 0; i < 2; ++i) {
         double pull = y[FST_NX] * grad[0][i] + y[FST_NY] * grad[1][i] + y[FST_NZ] * grad[2][i];
-        add(centre, g.kappa * g.eps * g.eps * pull - slip[i], v_rate[i]);
+        add(&sums->centre, g.kappa * g.eps * g.eps * pull - slip[i], v_rate[i]);
     }
     for (int i = 0; i < 3; ++i)
-        add(turning, 2.5 * (g.kappa * n_cross_b[i] + friction[i] / g.eps), w_rate[i]);
+        add(&sums->euler, w_rate[i], 2.5 * (g.kappa * n_cross_b[i] + friction[i] / g.eps));
+    printed_turning(&g, y, n_rate, w_rate, b, slip, &sums->printed);
 }
 
-static void along_path(const fst_paper_state *paper, fst_dynamics dynamics, leftover *centre, leftover *turning)
+static section_iv along_path(const fst_paper_state *paper, fst_dynamics dynamics)
 {
     const fst_paper_run *run = fst_paper_single(paper, FST_SCAN_FOLD15, dynamics);
     fst_model *model = NULL;
-    *centre = *turning = (leftover){0.0, 0.0};
+    section_iv sums = {{0.0, 0.0}, {0.0, 0.0}, {0.0, 0.0}};
     if (fst_model_new(&run->params, &model, NULL) != FST_OK)
-        return;
+        return sums;
     for (size_t row = 0; row < run->trajectory.rows; row += STRIDE) {
         double y[FST_STATE_SIZE];
         state_at(&run->trajectory, row, y);
-        newton_and_euler(model, y, centre, turning);
+        newton_and_euler(model, y, &sums);
     }
     fst_model_free(model);
+    return sums;
 }
 
 MEASURE(centre_equations)
 {
-    leftover centre, turning;
     if (!is_viscous(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), note, size))
         return NAN;
-    along_path(paper, dynamics, &centre, &turning);
-    return share(centre);
+    return share(along_path(paper, dynamics).centre);
 }
 
 MEASURE(turning_equations)
 {
-    leftover centre, turning;
     if (!is_viscous(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), note, size))
         return NAN;
-    along_path(paper, dynamics, &centre, &turning);
-    (void)snprintf(note, size,
-                   "along the motion at the drive 0.4; Eq. (7) as printed lacks ψ′ n × n′: ψ′ is no rate "
-                   "of a coordinate, so that Lagrange's equations for n and ψ are not enough");
-    return share(turning);
+    (void)snprintf(
+        note, size,
+        "root mean square along the motion at the drive 0.4. A bead has ψ′ n × n′ on the right of Eq. (7) as "
+        "well: ψ′ is no rate of a coordinate, so that Lagrange's equations for n and ψ are not enough");
+    return share(along_path(paper, dynamics).printed);
+}
+
+MEASURE(euler_equation)
+{
+    if (!is_viscous(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), note, size))
+        return NAN;
+    (void)snprintf(note, size, "the same motion");
+    return share(along_path(paper, dynamics).euler);
 }
 
 /* ------------------------------------------------------------------ the appendix */

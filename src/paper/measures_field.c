@@ -1,6 +1,9 @@
 /* measures_field.c - statements about the field, and about the forces along a path. */
 #include "base/constants.h"
+#include "paper/dry.h"
 #include "paper/measures_parts.h"
+
+#include <stdlib.h>
 
 /* ------------------------------------------------------------------ the field */
 
@@ -217,27 +220,117 @@ MEASURE(slow_parallel)
     return paper->scans[FST_SCAN_SLOW][dynamics][0].result.max_angle_deg;
 }
 
-/* Of the locked runs, the one with the most friction. */
+static int by_power(const void *one, const void *other)
+{
+    const fst_run_result *const *a = one, *const *b = other;
+    const double x = (*a)->mean_friction_power, y = (*b)->mean_friction_power;
+    return (x > y) - (x < y);
+}
+
+/* The locked runs, the one with the least friction first. */
+enum { MOST_LOCKED = 64 };
+static int locked_runs(const fst_paper_state *paper, fst_dynamics dynamics,
+                       const fst_run_result *runs[MOST_LOCKED])
+{
+    int count = 0;
+    for (int i = 0; i < paper->counts[FST_SCAN_SLOW] && count < MOST_LOCKED; ++i)
+        if (paper->scans[FST_SCAN_SLOW][dynamics][i].result.regime == FST_REGIME_LOCKED)
+            runs[count++] = &paper->scans[FST_SCAN_SLOW][dynamics][i].result;
+    qsort(runs, (size_t)count, sizeof runs[0], by_power);
+    return count;
+}
+
 MEASURE(slow_friction)
 {
-    const fst_run_result *most = NULL, *slowest = &paper->scans[FST_SCAN_SLOW][dynamics][0].result;
+    const fst_run_result *runs[MOST_LOCKED];
+    const int count = locked_runs(paper, dynamics, runs);
+    int slipping = 0;
+    if (count == 0)
+        return NAN;
+    for (int i = 0; i < count; ++i)
+        slipping += runs[i]->rms_slip > 1e-6;
+    (void)snprintf(note, size,
+                   "%d of %d locked runs, 1 to 12 Hz, lose more than rounding: on the magnet's axis the spin "
+                   "about n takes "
+                   "the value at which the contact is at rest",
+                   slipping, count);
+    return 100.0 * runs[count / 2]->mean_friction_power /
+           single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
+}
+
+MEASURE(most_slow_friction)
+{
+    const fst_run_result *runs[MOST_LOCKED];
+    const int count = locked_runs(paper, dynamics, runs);
+    if (count == 0)
+        return NAN;
+    const fst_run_result *most = runs[count - 1];
+    (void)snprintf(note, size, "locked at %.1f Hz, Φ = %+.1f deg, where the contact slips at %.3f ℓγ",
+                   most->frequency_hz, FST_DEGREES * atan2(most->final_state[FST_Y], most->final_state[FST_X]),
+                   most->rms_slip);
+    return 100.0 * most->mean_friction_power / single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
+}
+
+MEASURE(slow_drag)
+{
+    const fst_run_result *slowest = &paper->scans[FST_SCAN_SLOW][dynamics][0].result;
+    (void)snprintf(note, size,
+                   "at %.2f Hz, where friction takes %.0e ℓ²γ³ of power. A bead that stays parallel to the "
+                   "field is free to "
+                   "spin about its axis, and rolls without any slip",
+                   slowest->frequency_hz, slowest->mean_friction_power);
+    return 100.0 * slowest->rms_slip / (slowest->omega * slowest->mean_r);
+}
+
+MEASURE(unlocking)
+{
+    const fst_paper_exact *exact = &paper->exact[dynamics];
+    const double hertz =
+        fst_paper_single(paper, FST_SCAN_SLOW, dynamics)->params.friction_gamma / (2.0 * FST_PI);
+    if (exact->missing[0])
+        (void)snprintf(note, size, "%s", exact->missing);
+    else
+        (void)snprintf(
+            note, size,
+            "the last locked state loses its stability at %.4f Hz; with γ greater by %.0f %% and the same "
+            "field, bead and magnet at %.4f Hz, where the paper's balance has %.2f Hz",
+            hertz * exact->locked_end, 100.0 * (FST_MORE_FRICTION - 1.0), hertz * exact->locked_end_rubbed,
+            hertz * exact->locked_end / FST_MORE_FRICTION);
+    return -log(exact->locked_end_rubbed / exact->locked_end) / log(FST_MORE_FRICTION);
+}
+
+MEASURE(locked_again)
+{
+    int others = 0, all = 0, undecided = 0;
     for (int i = 0; i < paper->counts[FST_SCAN_SLOW]; ++i) {
         const fst_run_result *result = &paper->scans[FST_SCAN_SLOW][dynamics][i].result;
-        if (result->regime == FST_REGIME_LOCKED &&
-            (!most || result->mean_friction_power > most->mean_friction_power))
-            most = result;
+        if (result->frequency_hz >= 7.0)
+            continue;
+        ++all;
+        undecided += isnan(result->mean_alpha_dot) && result->regime == FST_REGIME_UNDECIDED;
+        others += fst_outcome(result) != FST_OUTCOME_WITH;
     }
-    if (!most)
-        return NAN;
-    (void)snprintf(
-        note, size,
-        "locked at %.1f Hz, Φ = %+.1f deg, where the contact slips at %.3f ℓγ; on the magnet's axis, Φ = 0, as "
-        "at the "
-        "slowest drive (%.0e ℓ²γ³), it loses nothing: the spin about n takes the value at which the contact is "
-        "at rest",
-        most->frequency_hz, FST_DEGREES * atan2(most->final_state[FST_Y], most->final_state[FST_X]),
-        most->rms_slip, slowest->mean_friction_power);
-    return 100.0 * most->mean_friction_power / single(paper, FST_SCAN_FOLD4, dynamics)->mean_friction_power;
+    (void)snprintf(note, size,
+                   "of %d runs from rest under 7 Hz; what they lie below is no chaos here (see chaos)", all);
+    return others > 0 && others == undecided ? NAN : (double)others;
+}
+
+MEASURE(not_at_rest)
+{
+    int others = 0;
+    double from = NAN, to = NAN;
+    for (int i = 0; i < paper->counts[FST_SCAN_SLOW]; ++i) {
+        const fst_run_result *result = &paper->scans[FST_SCAN_SLOW][dynamics][i].result;
+        if (result->frequency_hz >= 7.0 || result->regime == FST_REGIME_LOCKED)
+            continue;
+        ++others;
+        from = isnan(from) ? result->frequency_hz : from;
+        to = result->frequency_hz;
+    }
+    if (others > 0)
+        (void)snprintf(note, size, "they swing about the magnet, or roll on under it, from %.1f to %.1f Hz",
+                       from, to);
+    return others;
 }
 
 /* ------------------------------------------------------------------ the assumptions of section VI */

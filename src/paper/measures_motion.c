@@ -38,31 +38,87 @@ static piece *cut_at_turning_points(const fst_table *table, size_t *count)
     return pieces;
 }
 
+static int lossier(const void *one, const void *other)
+{
+    double a = ((const piece *)one)->loss, b = ((const piece *)other)->loss;
+    return (a < b) - (a > b);
+}
+
+/* Shares of the path and of the loss; the pieces last equally long. */
+typedef struct shares {
+    double path, loss, path_quarter, path_quarter_time;
+} shares;
+
+/* What the quarter of the time next to the turning points has, and the quarter of the path. */
+static shares next_to_turning_points(piece *pieces, size_t count)
+{
+    double path = 0.0, loss = 0.0, near_path = 0.0, near_loss = 0.0;
+    shares found = {NAN, NAN, NAN, NAN};
+    qsort(pieces, count, sizeof *pieces, nearer);
+    for (size_t i = 0; i < count; ++i) {
+        path += pieces[i].path;
+        loss += pieces[i].loss;
+    }
+    for (size_t i = 0; i < count; ++i) {
+        if (4 * i < count)
+            found.path = (near_path + pieces[i].path) / path;
+        if (4 * i < count)
+            found.loss = (near_loss + pieces[i].loss) / loss;
+        if (near_path < 0.25 * path) {
+            found.path_quarter = (near_loss + pieces[i].loss) / loss;
+            found.path_quarter_time = (double)(i + 1) / (double)count;
+        }
+        near_path += pieces[i].path;
+        near_loss += pieces[i].loss;
+    }
+    return found;
+}
+
+MEASURE(turning_times)
+{
+    size_t count;
+    piece *pieces =
+        cut_at_turning_points(&fst_paper_single(paper, FST_SCAN_FOLD4, dynamics)->trajectory, &count);
+    if (!pieces || count == 0) {
+        free(pieces);
+        return NAN;
+    }
+    const shares near = next_to_turning_points(pieces, count);
+    free(pieces);
+    (void)snprintf(note, size,
+                   "next to the points of greatest r, where %.0f %% of the path are; the quarter of the path "
+                   "next to them, in "
+                   "which the bead spends %.0f %% of the time, has %.0f %% of the loss",
+                   100.0 * near.path, 100.0 * near.path_quarter_time, 100.0 * near.path_quarter);
+    return 100.0 * near.loss;
+}
+
 MEASURE(turning_points)
 {
     size_t count;
     piece *pieces =
         cut_at_turning_points(&fst_paper_single(paper, FST_SCAN_FOLD4, dynamics)->trajectory, &count);
-    double path = 0.0, loss = 0.0, near_path = 0.0, near_loss = 0.0, near_time = 0.0;
-    for (size_t i = 0; pieces && i < count; ++i) {
-        path += pieces[i].path;
-        loss += pieces[i].loss;
+    double all = 0.0, lossiest = 0.0, both = 0.0;
+    if (!pieces || count == 0) {
+        free(pieces);
+        return NAN;
     }
-    if (pieces)
-        qsort(pieces, count, sizeof *pieces, nearer);
-    size_t i = 0;
-    for (; pieces && i < count && near_path < 0.25 * path; ++i) {
-        near_path += pieces[i].path;
-        near_loss += pieces[i].loss;
-        near_time = (double)(i + 1) / (double)count;
+    qsort(pieces, count, sizeof *pieces, nearer);
+    const double half = pieces[count / 2].distance;
+    qsort(pieces, count, sizeof *pieces, lossier);
+    for (size_t i = 0; i < count; ++i) {
+        const double in_quarter = 4 * i < count ? pieces[i].loss : 0.0;
+        all += pieces[i].loss;
+        lossiest += in_quarter;
+        both += pieces[i].distance < half ? in_quarter : 0.0;
     }
     free(pieces);
-    (void)snprintf(
-        note, size,
-        "in the quarter of the path next to the points of greatest r, where the bead lingers for %.0f %% of "
-        "the time; on the points themselves friction is weak, it peaks just before and after",
-        100.0 * near_time);
-    return loss > 0.0 ? 100.0 * near_loss / loss : NAN;
+    (void)snprintf(note, size,
+                   "the quarter of the time with the greatest loss has %.0f %% of it; on the turning points "
+                   "themselves friction "
+                   "is weak, it peaks just before and after",
+                   100.0 * lossiest / all);
+    return 100.0 * both / all;
 }
 
 MEASURE(friction_follows_angle)
@@ -143,41 +199,64 @@ static double turning_part(const double *x, const double *y, const double *t, si
     return cabs(sum) / (double)rows;
 }
 
-/* In the laboratory the path is a sum of circular motions at alpha' + k (omega - alpha').  A hypotrochoid has
- * two of them.  This is the share of the strongest one that turns against the bead, among all except the bead's
- * own circling. */
-static double trochoid_share(const fst_paper_run *run, int *best)
+/* In the laboratory the path is a sum of circular motions at alpha' + k (omega - alpha').  A trochoid has two
+ * of them: the bead's own circling and the strongest of the others, which turn against it. */
+typedef struct circles {
+    double own, other; /* their radii */
+    double rate;       /* of the other */
+    double rest;       /* mean square of the path less that of its own circling */
+    int k;             /* of the other */
+} circles;
+
+static circles circles_of(const fst_paper_run *run)
 {
     const fst_table *table = &run->trajectory;
     const double *x = fst_collected(table, "x"), *y = fst_collected(table, "y"), *t = fst_collected(table, "t");
-    double circling = run->result.mean_alpha_dot, meeting = run->result.omega - circling, all = 0.0, most = 0.0;
+    const double circling = run->result.mean_alpha_dot, meeting = run->result.omega - circling;
+    circles found = {NAN, NAN, NAN, NAN, 0};
     if (table->rows < 2)
-        return NAN;
+        return found;
     /* The samples over whole meetings of bead and magnet, two at a time, which suits both S1 and S2. */
-    double turn = 2.0 * FST_PI / meeting, last = turn * floor((t[table->rows - 1] - t[0]) / turn);
+    double turn = 2.0 * FST_PI / meeting, last = turn * floor((t[table->rows - 1] - t[0]) / turn), all = 0.0;
     size_t rows = 0;
     for (; rows < table->rows && t[rows] - t[0] < last; ++rows)
         all += x[rows] * x[rows] + y[rows] * y[rows];
-    double own = turning_part(x, y, t, rows, circling);
+    found.own = turning_part(x, y, t, rows, circling);
+    found.other = 0.0;
     for (int k = 1; k <= 4; ++k) {
         double part = turning_part(x, y, t, rows, circling + k * meeting);
-        *best = part > most ? k : *best;
-        most = fmax(most, part);
+        found.k = part > found.other ? k : found.k;
+        found.other = fmax(found.other, part);
     }
-    return most * most / (all / (double)rows - own * own);
+    found.rate = circling + found.k * meeting;
+    found.rest = all / (double)rows - found.own * found.own;
+    return found;
 }
 
 MEASURE(trochoid)
 {
-    int few = 0, many = 0;
-    double share = trochoid_share(fst_paper_single(paper, FST_SCAN_FOLD4, dynamics), &few);
-    double other = trochoid_share(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics), &many);
+    const circles few = circles_of(fst_paper_single(paper, FST_SCAN_FOLD4, dynamics));
+    const circles many = circles_of(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics));
     (void)snprintf(
         note, size,
-        "share of one circular motion against the bead's in what the path adds to its circling, drive "
-        "0.215; it turns at ⟨α′⟩ + k(ω − ⟨α′⟩), k = %d. At 0.4, k = %d, %.2f",
-        few, many, other);
-    return share;
+        "at the drive 0.215 it turns at ⟨α′⟩ + k(ω − ⟨α′⟩), k = %d; at 0.4, k = %d, the share is %.2f", few.k,
+        many.k, many.other * many.other / many.rest);
+    return few.other * few.other / few.rest;
+}
+
+/* The smaller over the greater of the two circles' speeds. */
+static double cusped(const fst_paper_run *run)
+{
+    const circles both = circles_of(run);
+    const double own = both.own * fabs(run->result.mean_alpha_dot), other = both.other * both.rate;
+    return fmin(own, other) / fmax(own, other);
+}
+
+MEASURE(cusps)
+{
+    (void)snprintf(note, size, "at the drive 0.215; at 0.4, where the festoons are many, %.2f",
+                   cusped(fst_paper_single(paper, FST_SCAN_FOLD15, dynamics)));
+    return cusped(fst_paper_single(paper, FST_SCAN_FOLD4, dynamics));
 }
 
 MEASURE(rare_moments)
@@ -305,27 +384,46 @@ static double friction_part(const fst_paper_run *run)
                                           : INFINITY;
 }
 
-MEASURE(asymptotic_frequency)
+/* The lowest drive from which friction stays under a tenth of the magnetic term, and the first at which it is.
+ */
+typedef struct negligible {
+    double from, first;
+} negligible;
+
+static negligible friction_negligible(const fst_paper_state *paper, fst_dynamics dynamics)
 {
     static const fst_scan beyond[2] = {FST_SCAN_ASYMPTOTIC, FST_SCAN_FAST};
-    if (!is_viscous(fst_paper_single(paper, FST_SCAN_ASYMPTOTIC, dynamics), note, size))
-        return NAN;
-    double from = NAN, first = NAN;
-    int negligible = 1; /* whether friction is negligible from this drive upwards */
+    negligible found = {NAN, NAN};
+    int still = 1; /* whether friction is negligible from this drive upwards */
     for (int s = 0; s < 2; ++s) {
         for (int i = paper->counts[beyond[s]] - 1; i >= 0; --i) {
             const fst_paper_run *run = &paper->scans[beyond[s]][dynamics][i];
-            int small = friction_part(run) < 0.1;
-            negligible = negligible && small;
-            from = negligible ? run->result.frequency_hz : from;
-            first = small ? run->result.frequency_hz : first;
+            const int small = friction_part(run) < 0.1;
+            still = still && small;
+            found.from = still ? run->result.frequency_hz : found.from;
+            found.first = small ? run->result.frequency_hz : found.first;
         }
     }
-    (void)snprintf(note, size,
-                   "lowest drive from which friction stays under a tenth of the magnetic term, up to 149 Hz; "
-                   "first under a tenth, on its way through zero, at %.0f Hz",
-                   first);
+    return found;
+}
+
+MEASURE(asymptotic_frequency)
+{
+    if (!is_viscous(fst_paper_single(paper, FST_SCAN_ASYMPTOTIC, dynamics), note, size))
+        return NAN;
+    (void)snprintf(note, size, "up to 149 Hz there is no such drive, or the motion has ended before");
+    const double from = friction_negligible(paper, dynamics).from;
+    if (isfinite(from))
+        (void)snprintf(note, size, "looked for up to 149 Hz");
     return from;
+}
+
+MEASURE(asymptotic_first)
+{
+    if (!is_viscous(fst_paper_single(paper, FST_SCAN_ASYMPTOTIC, dynamics), note, size))
+        return NAN;
+    (void)snprintf(note, size, "friction's part is on its way through zero there, and grows again beyond");
+    return friction_negligible(paper, dynamics).first;
 }
 
 MEASURE(rolling_below)
@@ -359,14 +457,26 @@ static double exponent(const fst_paper_state *paper, fst_dynamics dynamics, size
 
 MEASURE(halving_nz)
 {
-    const fst_halving_point *points = paper->halving[dynamics].points;
     (void)snprintf(
         note, size,
-        "⟨n_z⟩² of settled runs vanishes at ω = %.5f on a straight line, the exponent is fitted with the "
-        "threshold of the orbits; p falls from %.1f to %.2f on the way: it is a ratio, in which a term "
-        "linear in n_z joins the square root at once",
-        fst_paper_halving_line(paper, dynamics), points[0].order, points[FST_HALVING_BELOW - 1].order);
+        "⟨n_z⟩² of settled runs vanishes at ω = %.5f on a straight line; the exponent is fitted with the "
+        "threshold of the orbits",
+        fst_paper_halving_line(paper, dynamics));
     return exponent(paper, dynamics, offsetof(fst_halving_point, mean_nz), 0, FST_HALVING_BELOW);
+}
+
+MEASURE(halving_p)
+{
+    const fst_halving_point *points = paper->halving[dynamics].points;
+    enum { NEAREST = 4 };
+    (void)snprintf(
+        note, size,
+        "p falls from %.1f to %.2f over ten drives below the threshold; over the nearest %d of them the "
+        "exponent is "
+        "%.2f. p is a ratio of swings: a term linear in ⟨n_z⟩ joins the square root at once",
+        points[0].order, points[FST_HALVING_BELOW - 1].order, NEAREST,
+        exponent(paper, dynamics, offsetof(fst_halving_point, order), FST_HALVING_BELOW - NEAREST, NEAREST));
+    return exponent(paper, dynamics, offsetof(fst_halving_point, order), 0, FST_HALVING_BELOW);
 }
 
 MEASURE(halving_relaxation)

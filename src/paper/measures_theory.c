@@ -204,11 +204,14 @@ static double worst_residual(const fst_paper_state *paper, fst_dynamics dynamics
         residual = fmax(residual, fst_balance_residual(&paper->balances[dynamics][i].of[kind]));
         boundary = fmax(boundary, fst_balance_boundary(&paper->balances[dynamics][i].of[kind]));
     }
-    (void)snprintf(
-        note, size,
-        "greatest of three motions over 100 turns of the magnet; what the state's change between the ends "
-        "adds is up to %.0f %% and taken into account",
-        100.0 * boundary);
+    if (kind == FST_BALANCE_ENERGY)
+        (void)snprintf(
+            note, size,
+            "greatest of three motions over 100 turns of the magnet; what the state's change between the ends "
+            "adds is up to %.0f %% and taken into account",
+            100.0 * boundary);
+    else
+        (void)snprintf(note, size, "the same motions; the state's change adds up to %.0f %%", 100.0 * boundary);
     return residual;
 }
 
@@ -241,8 +244,9 @@ static double not_positive(const fst_paper_state *paper, fst_dynamics dynamics, 
         wrong += settled && !(motion->of[kind].friction > 0.0);
         least = fmin(least, motion->of[kind].friction);
     }
-    (void)snprintf(note, size, "of three motions, drives 0.1, 0.3 and 0.6; least %.1e ℓ²γ²%s", least,
-                   unsettled ? "; undecided: one or more had not settled" : "");
+    (void)snprintf(note, size, "%s; least %.1e ℓ²γ²%s",
+                   kind == FST_BALANCE_MOMENT ? "of three motions, drives 0.1, 0.3 and 0.6" : "of these three",
+                   least, unsettled ? "; undecided: one or more had not settled" : "");
     return wrong == 0 && unsettled > 0 ? NAN : (double)wrong;
 }
 
@@ -333,15 +337,16 @@ MEASURE(remanence)
 
 MEASURE(anisotropy)
 {
-    int others = 0;
+    int others = 0, undecided = 0;
     double speeds[2] = {NAN, NAN};
     for (int i = 0; i < paper->counts[FST_SCAN_ANISOTROPIC]; ++i) {
         const fst_paper_run *run = &paper->scans[FST_SCAN_ANISOTROPIC][dynamics][i];
-        others += !fst_paper_counter_rotates(run);
+        undecided += fst_paper_may_settle(&run->result);
+        others += !fst_paper_counter_rotates(run) && !fst_paper_may_settle(&run->result);
         speeds[i] = run->result.mean_alpha_dot;
     }
     (void)snprintf(
         note, size, "κ = 0, a = b = 1e-3, %g turns of the magnet, drives 0.3 and 0.4: ⟨α′⟩ = %.4f and %.4f",
         fst_paper_single(paper, FST_SCAN_ANISOTROPIC, dynamics)->params.run_periods, speeds[0], speeds[1]);
-    return others;
+    return others == 0 && undecided > 0 ? NAN : (double)others;
 }

@@ -17,40 +17,52 @@ static const fst_dynamics order[FST_PAPER_DYNAMICS] = {FST_DYNAMICS_FARAGO2020, 
 
 /* ------------------------------------------------------------------ the first page */
 
+static void write_counts(FILE *out, const char *title, const char *id, const fst_tally *tally)
+{
+    fputs("<tr><td>", out);
+    if (id)
+        fprintf(out, "<a href=\"#%s\">%s</a>", id, title);
+    else
+        fprintf(out, "<b>%s</b>", title);
+    fputs("</td>", out);
+    for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
+        const int *of = tally->of[order[i]];
+        fprintf(out, tally->moving > 0 ? "<td class=\"n\">%d · %d · %d</td>" : "<td></td>", of[0], of[1],
+                of[2]);
+    }
+    fprintf(out, tally->still > 0 ? "<td class=\"n\">%d · %d · %d</td></tr>\n" : "<td></td></tr>\n",
+            tally->once[0], tally->once[1], tally->once[2]);
+}
+
 static void write_summary(FILE *out, const fst_paper_state *paper)
 {
-    int tally[FST_PAPER_DYNAMICS][3] = {{0}};
-    (void)fst_paper_tally(paper, tally);
-    int rows[FST_PAPER_DYNAMICS] = {0};
-    int known = fst_paper_has(paper, FST_PAPER_STEP_RUNS, FST_SCAN_TABLE);
-    for (int row = 0; row < FST_TABLE1_ROWS && known; ++row)
-        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
-            rows[d] += fst_table1_verdict(paper, row, (fst_dynamics)d) == FST_VERDICT_REPRODUCED;
-    fputs(fst_report_introduction, out);
-    if (!paper->complete)
-        fputs("<p class=\"incomplete\">Incomplete: this was interrupted. What was done until then is here; the "
-              "same "
-              "command makes the whole.</p>\n",
-              out);
-    fputs("<div class=\"scroll\"><table><thead><tr><th></th><th>farago2020<br><small>as "
-          "printed</small></th><th>rigid<br><small>exact</small></th></tr></thead><tbody>\n",
+    fputs("<h2 id=\"tally\">The claims, counted</h2>\n<p>Reproduced · close · not reproduced. Where no motion "
+          "enters, "
+          "both dynamics have the same number, and it counts once.</p>\n"
+          "<table class=\"tally\"><thead><tr><th></th><th>farago2020<br><small>as "
+          "printed</small></th><th>rigid<br><small>exact</small></th><th>no motion</th></tr></thead><tbody>\n",
           out);
-    static const char *const names[] = {"statements reproduced", "close", "not reproduced"};
-    for (int v = 0; v < 3; ++v)
-        fprintf(out, "<tr><td>%s</td><td class=\"n\">%d</td><td class=\"n\">%d</td></tr>\n", names[v],
-                tally[order[0]][v], tally[order[1]][v]);
-    fprintf(
-        out,
-        "<tr><td>rows of Table 1 reproduced, of %d</td><td class=\"n\">%d</td><td class=\"n\">%d</td></tr>\n",
-        FST_TABLE1_ROWS, rows[order[0]], rows[order[1]]);
-    fputs("</tbody></table></div>\n", out);
+    for (int group = 0; group < FST_GROUP_COUNT; ++group) {
+        const fst_tally tally = fst_paper_tally(paper, (fst_group)group);
+        char id[16];
+        (void)snprintf(id, sizeof id, "group-%d", group + 1);
+        write_counts(out, fst_groups_of_statements[group].title, id, &tally);
+    }
+    const fst_tally all = fst_paper_tally(paper, FST_GROUP_COUNT);
+    write_counts(out, "All", NULL, &all);
+    fputs("</tbody></table>\n", out);
+    if (all.undecided > 0)
+        fprintf(
+            out,
+            "<p class=\"fine\">%d of the verdicts “not reproduced” are undecided: runs had not settled.</p>\n",
+            all.undecided);
     int dry[3] = {0};
     const int about_motion = fst_paper_dry_tally(paper, dry);
     if (about_motion > 0)
         fprintf(out,
-                "<p>Of these statements, %d are about the bead's motion. With <a href=\"#dry\">dry "
-                "friction</a>, μ = %g, "
-                "%d are reproduced, %d close, %d not.</p>\n",
+                "<p>Of the claims, %d can be asked of a bead that rubs dry. With <a href=\"#dry\">dry "
+                "friction</a>, "
+                "μ = %g, %d are reproduced, %d close, %d not.</p>\n",
                 about_motion, FST_DRY_MU, dry[0], dry[1], dry[2]);
 }
 
@@ -109,7 +121,7 @@ static void write_table1(FILE *out, const fst_paper_state *paper)
           "twice or half as large. The last line of each cell is the drive at which the pattern closes "
           "exactly: a "
           "periodic orbit found by Newton's method.</p>\n"
-          "<div class=\"scroll\"><table><thead><tr><th>drive "
+          "<table class=\"narrow\"><thead><tr><th>drive "
           "ω</th><th>published</th><th>farago2020</th><th>rigid</th></tr></thead><tbody>\n",
           out);
     for (int row = 0; row < FST_TABLE1_ROWS; ++row) {
@@ -119,155 +131,85 @@ static void write_table1(FILE *out, const fst_paper_state *paper)
             write_festoons(out, paper, row, order[i]);
         fputs("</tr>\n", out);
     }
-    fputs("</tbody></table></div>\n", out);
+    fputs("</tbody></table>\n", out);
     write_orbits_missing(out, paper);
     fputs("<p class=\"fine\">Criterion: " FST_TABLE1_CRITERION ". Each number again:</p>", out);
     fst_report_code(out, command);
     fst_report_code(out, "festoon orbit --festoons 4 --set model.dynamics=farago2020   # and 5, 6, 14, 15");
 }
 
-/* ------------------------------------------------------------------ statements */
-
-static void write_values(FILE *out, const fst_statement *statement, const fst_finding *finding)
-{
-    for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
-        char value[64];
-        fst_statement_value(statement, finding->value[order[i]], value, sizeof value);
-        fprintf(out, "<tr><td>%s</td><td class=\"n\">", fst_dynamics_name(order[i]));
-        fst_report_text(out, value);
-        fputs("</td><td>", out);
-        fst_report_badge(out, finding->verdict[order[i]]);
-        fputs("</td></tr>\n", out);
-    }
-    if (!finding->dry)
-        return;
-    char value[64];
-    fst_statement_value(statement, finding->dry_value, value, sizeof value);
-    fprintf(out, "<tr><td>coulomb, μ = %g</td><td class=\"n\">", FST_DRY_MU);
-    fst_report_text(out, value);
-    fputs("</td><td>", out);
-    fst_report_badge(out, finding->dry_verdict);
-    fputs("</td></tr>\n", out);
-}
-
-static void write_notes(FILE *out, const fst_finding *finding)
-{
-    const char *first = finding->note[order[0]], *second = finding->note[order[1]];
-    if (first[0] == '\0' && second[0] == '\0')
-        return;
-    fputs("<p class=\"fine\">", out);
-    if (!strcmp(first, second)) {
-        fst_report_text(out, first);
-    } else {
-        fputs("farago2020: ", out);
-        fst_report_text(out, first);
-        fputs("; rigid: ", out);
-        fst_report_text(out, second);
-    }
-    fputs(".</p>", out);
-}
-
-static void write_dry_note(FILE *out, const fst_finding *finding)
-{
-    if (!finding->dry || finding->dry_note[0] == '\0')
-        return;
-    fputs("<p class=\"fine\">coulomb: ", out);
-    fst_report_text(out, finding->dry_note);
-    fputs(".</p>", out);
-}
-
-/* The rules come before the statements that they judge. */
-static void write_rules(FILE *out)
-{
-    fputs("<p id=\"rules\">One set of rules holds for all of them. The rules depend on how the paper prints a "
-          "number, not on what was computed here:</p>\n<dl class=\"rules\">\n",
-          out);
-    for (int rule = 0; rule < FST_RULE_COUNT; ++rule) {
-        fprintf(out, "<dt>%s: ", fst_rules[rule].name);
-        fst_report_text(out, fst_rules[rule].kind);
-        fputs("</dt><dd><b>reproduced:</b> ", out);
-        fst_report_text(out, fst_rules[rule].reproduced);
-        if (fst_rules[rule].close[0]) {
-            fputs("; <b>close:</b> ", out);
-            fst_report_text(out, fst_rules[rule].close);
-        }
-        fputs("</dd>\n", out);
-    }
-    fputs("</dl>\n", out);
-}
-
-static void write_statements(FILE *out, const fst_paper_state *paper)
-{
-    fputs("<h2 id=\"statements\">The paper's statements, one by one</h2>\n", out);
-    write_rules(out);
-    for (int i = 0; i < fst_statement_count(); ++i) {
-        const fst_statement *statement = fst_statement_at(i);
-        if (!fst_statement_known(statement, paper))
-            continue;
-        fst_finding finding = fst_statement_check(statement, paper);
-        char text[320];
-        fprintf(out, "<section class=\"card\" id=\"%s\"><p class=\"from\">", statement->id);
-        fst_report_text(out, statement->section);
-        fputs("</p><p>", out);
-        fst_report_text(out, statement->text);
-        fputs("</p><table><tbody><tr><td>published</td><td colspan=\"2\">", out);
-        if (statement->said)
-            (void)snprintf(text, sizeof text, "%s", statement->said);
-        else
-            fst_statement_value(statement, statement->published, text, sizeof text);
-        fst_report_text(out, text);
-        fputs("</td></tr>\n", out);
-        write_values(out, statement, &finding);
-        fputs("</tbody></table>", out);
-        write_notes(out, &finding);
-        write_dry_note(out, &finding);
-        fst_statement_criterion(statement, text, sizeof text);
-        fputs("<p class=\"fine\">Criterion: ", out);
-        fst_report_text(out, text);
-        fputs(".</p>", out);
-        char command[320], repeat[448];
-        fst_statement_command(statement, paper, FST_DYNAMICS_FARAGO2020, command, sizeof command);
-        (void)snprintf(repeat, sizeof repeat, "%s   # %s", command,
-                       fst_statement_reads(statement, FST_DYNAMICS_FARAGO2020));
-        fst_report_code(out, repeat);
-        fputs("</section>\n", out);
-    }
-}
-
 /* ------------------------------------------------------------------ figures */
 
-static fst_status write_figure(FILE *out, const fst_paper_state *paper, int index, fst_error *error)
+/* The verdict on what the figure itself shows. */
+static void write_figure_badge(FILE *out, const fst_paper_state *paper, const fst_paper_figure *figure,
+                               fst_dynamics dynamics)
 {
-    fst_paper_figure figure = fst_paper_figure_at(index);
     fst_verdict verdict;
-    fprintf(out, "<figure id=\"figure-%s\"><h3>", figure.file);
-    fst_report_text(out, figure.title);
-    if (figure.each)
-        fprintf(out, " <small>%s</small>", fst_dynamics_name(figure.dynamics));
-    fputs("</h3>\n", out);
-    char *path = fst_paper_path(paper, figure.file, "svg");
-    fst_status status = path ? fst_report_image(out, path, figure.title, error)
-                             : fst_fail(error, FST_NO_MEMORY, figure.file, "no memory for a file name");
-    free(path);
-    fputs("<figcaption>", out);
-    fst_report_text(out, figure.caption);
-    fputs(" <span class=\"from\">The paper's ", out);
-    fst_report_text(out, figure.source);
-    fputs(".</span> ", out);
-    for (int i = 0; i < FST_PAPER_DYNAMICS; ++i) {
-        if ((figure.each && order[i] != figure.dynamics) ||
-            !fst_paper_figure_verdict(paper, &figure, order[i], &verdict))
-            continue;
-        if (!figure.each)
-            fprintf(out, " <small>%s</small> ", fst_dynamics_name((fst_dynamics)order[i]));
-        fst_report_badge(out, verdict);
+    if (!fst_paper_figure_verdict(paper, figure, dynamics, &verdict))
+        return;
+    fprintf(out, " <small>%s</small> ", fst_dynamics_name(dynamics));
+    fst_report_badge(out, verdict);
+}
+
+/* The picture of one dynamics, or of both. */
+static fst_status write_picture(FILE *out, const fst_paper_state *paper, const fst_paper_figure *figure,
+                                fst_error *error)
+{
+    char *path = fst_paper_path(paper, figure->file, "svg"), command[512], alternative[160];
+    if (!path)
+        return fst_fail(error, FST_NO_MEMORY, figure->file, "no memory for a file name");
+    fprintf(out, "<div id=\"figure-%s\">", figure->file);
+    if (figure->each) {
+        fprintf(out, "<p class=\"which\">%s</p>", fst_dynamics_name(figure->dynamics));
+        (void)snprintf(alternative, sizeof alternative, "%s, %s", figure->title,
+                       fst_dynamics_name(figure->dynamics));
+    } else {
+        (void)snprintf(alternative, sizeof alternative, "%s", figure->title);
     }
-    fputs("</figcaption>", out);
-    char command[512];
-    fst_paper_figure_command(paper, &figure, command, sizeof command);
+    const fst_status status = fst_report_image(out, path, alternative, error);
+    free(path);
+    fst_paper_figure_command(paper, figure, command, sizeof command);
+    fputs("<details><summary>draw it again</summary>", out);
     fst_report_code(out, command);
-    fputs("</figure>\n", out);
+    fputs("</details></div>\n", out);
     return status;
+}
+
+/* The figures of one row: both dynamics share title and caption. */
+static fst_status write_figure(FILE *out, const fst_paper_state *paper, int *index, fst_error *error)
+{
+    fst_paper_figure figure = fst_paper_figure_at(*index);
+    const fst_paper_figure first = figure;
+    fst_status status = FST_OK;
+    fputs("<figure><h3>", out);
+    fst_report_text(out, figure.title);
+    fputs("</h3>\n", out);
+    for (; status == FST_OK && *index < fst_paper_figure_count(); ++*index) {
+        figure = fst_paper_figure_at(*index);
+        if (strcmp(figure.name, first.name) != 0)
+            break;
+        if (paper->drawn[*index])
+            status = write_picture(out, paper, &figure, error);
+    }
+    fputs("<figcaption>", out);
+    fst_report_prose(out, first.caption);
+    fputs(" <span class=\"from\">The paper's ", out);
+    fst_report_text(out, first.source);
+    fputs(".</span>", out);
+    if (first.own)
+        fprintf(out, " <span class=\"from\">Judged by <a href=\"#%s\">%s</a>:</span>", first.own, first.own);
+    for (int i = 0; i < FST_PAPER_DYNAMICS; ++i)
+        write_figure_badge(out, paper, &first, order[i]);
+    fputs("</figcaption></figure>\n", out);
+    return status;
+}
+
+/* The first figure that is drawn at or after `index`. */
+static int next_drawn(const fst_paper_state *paper, int index)
+{
+    while (index < fst_paper_figure_count() && !paper->drawn[index])
+        ++index;
+    return index;
 }
 
 /* ------------------------------------------------------------------ the end */
@@ -275,9 +217,8 @@ static fst_status write_figure(FILE *out, const fst_paper_state *paper, int inde
 static void write_regimes(FILE *out, const fst_paper_state *paper)
 {
     fputs("<h2 id=\"regimes\">How the runs ended</h2>\n"
-          "<p>How the runs of Fig. 6 ended:</p><div "
-          "class=\"scroll\"><table><thead><tr><th>motion</th><th>farago2020</th><th>rigid</th></tr></"
-          "thead><tbody>\n",
+          "<p>The drives of Fig. 6, from the rolling start:</p>"
+          "<table><thead><tr><th>motion</th><th>farago2020</th><th>rigid</th></tr></thead><tbody>\n",
           out);
     for (int regime = FST_REGIME_UNDECIDED; regime <= FST_REGIME_LIFTED; ++regime) {
         int counts[FST_PAPER_DYNAMICS] = {0};
@@ -288,7 +229,7 @@ static void write_regimes(FILE *out, const fst_paper_state *paper)
             fprintf(out, "<tr><td>%s</td><td class=\"n\">%d</td><td class=\"n\">%d</td></tr>\n",
                     fst_regime_name((fst_regime)regime), counts[order[0]], counts[order[1]]);
     }
-    fputs("</tbody></table></div>\n", out);
+    fputs("</tbody></table>\n", out);
 }
 
 static void write_times(FILE *out, const fst_paper_state *paper)
@@ -326,24 +267,44 @@ static void write_provenance(FILE *out, const fst_paper_state *paper)
     free(scene);
 }
 
+static fst_status write_figures(FILE *out, const fst_paper_state *paper, fst_error *error)
+{
+    fst_status status = FST_OK;
+    fputs("<h2 id=\"figures\">The figures</h2>\n<p>A badge says whether the figure shows what the paper's "
+          "shows; the "
+          "statement that decides it is named. Claims about the same figure that fail are in the lists above. "
+          "Full size, "
+          "with scripts and data: the files beside this page.</p>\n<div class=\"figures\">\n",
+          out);
+    for (int i = next_drawn(paper, 0); i < fst_paper_figure_count() && status == FST_OK;
+         i = next_drawn(paper, i))
+        status = write_figure(out, paper, &i, error);
+    fputs("</div>\n", out);
+    for (int i = 0; i < paper->films; ++i)
+        fprintf(out, "%s%s.mp4",
+                i ? ", " : "<p class=\"fine\">The supplement's films, beside this page (--films): ",
+                fst_film_names[i]);
+    if (paper->films > 0)
+        fputs("</p>\n", out);
+    return status;
+}
+
 static fst_status write_all(FILE *out, const fst_paper_state *paper, fst_error *error)
 {
     fputs(fst_report_head, out);
+    fputs(fst_report_introduction, out);
+    if (!paper->complete)
+        fputs("<p class=\"incomplete\">Incomplete: this was interrupted. What was done until then is here; the "
+              "same "
+              "command makes the whole.</p>\n",
+              out);
+    fst_report_findings(out, paper);
+    fputs(fst_report_reading, out);
     write_summary(out, paper);
     write_table1(out, paper);
-    fputs("<h2 id=\"figures\">The figures</h2>\n<div class=\"figures\">\n", out);
-    fst_status status = FST_OK;
-    for (int i = 0; i < fst_paper_figure_count() && status == FST_OK; ++i)
-        if (paper->drawn[i])
-            status = write_figure(out, paper, i, error);
-    fputs("</div>\n", out);
-    for (int i = 0; i < paper->films; ++i)
-        fprintf(
-            out,
-            "<p class=\"fine\">Film of the supplement, beside this page: %s.mp4 (festoon paper --films).</p>\n",
-            fst_film_names[i]);
+    fst_report_statements(out, paper);
+    const fst_status status = write_figures(out, paper, error);
     fst_report_dry(out, paper);
-    write_statements(out, paper);
     write_regimes(out, paper);
     write_provenance(out, paper);
     fputs("</main></body></html>\n", out);

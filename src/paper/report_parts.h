@@ -8,9 +8,18 @@
 
 /* Everything up to <main>, style included, and the opening paragraphs. */
 extern const char fst_report_head[], fst_report_introduction[];
+/* How to read the page. */
+extern const char fst_report_reading[];
+/* The first chapter: what was found. */
+void fst_report_findings(FILE *out, const fst_paper_state *paper);
+/* The rules, then the claims in their groups. */
+void fst_report_statements(FILE *out, const fst_paper_state *paper);
 
 /* Text with <, >, & and " made safe. */
 void fst_report_text(FILE *out, const char *text);
+
+/* The same, with the subscript of "e_r" and "V_α" set low. */
+void fst_report_prose(FILE *out, const char *text);
 
 /* A command, as a line of code. */
 void fst_report_code(FILE *out, const char *command);

@@ -86,6 +86,9 @@ enum {
     FST_BALANCE_CASES = 3
 };
 
+/* By how much friction is raised, to see what it has to do with the end of corotation. */
+#define FST_MORE_FRICTION 1.05
+
 /* The drive at which a pattern of Table 1 closes exactly; NAN: nowhere on the stable branch. */
 typedef struct fst_paper_pattern {
     double omega;
@@ -101,9 +104,10 @@ typedef struct fst_paper_exact {
     double origin;     /* where it passes the axis, going down, and is a libration from there; NAN: nowhere */
     double locked_end; /* where the last locked state loses its stability, a Hopf point; NAN: not found */
     double most_s1;    /* greatest N of stable S1 orbits */
-    double locked_minima; /* stable locked states at the drive 0.02 */
-    double damping;       /* -Re/|lambda| of the least damped swing about a pole at kappa = 0.015 */
-    char missing[768];    /* why nothing of this could be computed; "": it was */
+    double locked_end_rubbed; /* and with FST_MORE_FRICTION times the friction */
+    double locked_minima;     /* stable locked states at the drive 0.02 */
+    double damping;           /* -Re/|lambda| of the least damped swing about a pole at kappa = 0.015 */
+    char missing[768];        /* why nothing of this could be computed; "": it was */
 } fst_paper_exact;
 
 /* ------------------------------------------------------------------ probes */

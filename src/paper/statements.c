@@ -8,10 +8,13 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const fst_statement statements[] = {
-#define ROW(id, section, text, said, published, scale, unit, digits, rule, measure, scan, step, reads, checks) \
+#define ROW(id, group, section, text, said, published, scale, unit, digits, rule, measure, scan, step, reads,  \
+            checks, stands)                                                                                    \
     {id,                                                                                                       \
+     FST_GROUP_##group,                                                                                        \
      section,                                                                                                  \
      text,                                                                                                     \
      said,                                                                                                     \
@@ -24,13 +27,32 @@ static const fst_statement statements[] = {
      FST_SCAN_##scan,                                                                                          \
      FST_PAPER_STEP_##step,                                                                                    \
      reads,                                                                                                    \
-     checks},
-#define STATEMENT(...) ROW(__VA_ARGS__, 0)
-#define CHECK(...) ROW(__VA_ARGS__, 1)
+     checks,                                                                                                   \
+     stands},
+#define STATEMENT(...) ROW(__VA_ARGS__, 0, 0)
+#define STILL(...) ROW(__VA_ARGS__, 0, 1)
+#define CHECK(...) ROW(__VA_ARGS__, 1, 0)
 #include "paper/statements.def"
 #undef STATEMENT
+#undef STILL
 #undef CHECK
 #undef ROW
+};
+
+const fst_group_words fst_groups_of_statements[FST_GROUP_COUNT] = {
+    [FST_GROUP_ERROR] = {"errors in the paper", "Errors in the paper",
+                         "Equations and arguments that the model contradicts, whichever way they are read."},
+    [FST_GROUP_EXPERIMENT] =
+        {"model against experiment", "The model against the experiment",
+         "What the paper reports of its experiment. Its measured points are not in its text, so that "
+         "words and single numbers are compared."},
+    [FST_GROUP_READING] =
+        {"depends on the reading", "What depends on the reading",
+         "Sentences with two readings. The badges are the first's, and only they are counted."},
+    [FST_GROUP_ARITHMETIC] = {"arithmetic", "Arithmetic",
+                              "Numbers that follow from others that the paper gives. No motion enters."},
+    [FST_GROUP_MODEL] = {"model and theory", "The computed motion and the theory",
+                         "What the paper computes and concludes, and checks of this computation."},
 };
 
 int fst_statement_count(void)
@@ -48,18 +70,32 @@ int fst_statement_known(const fst_statement *statement, const fst_paper_state *p
     return fst_paper_has(paper, statement->step, statement->scan);
 }
 
-int fst_paper_tally(const fst_paper_state *paper, int tally[FST_PAPER_DYNAMICS][3])
+const fst_statement *fst_statement_named(const char *id)
 {
-    int count = 0;
+    for (int i = 0; i < fst_statement_count(); ++i)
+        if (strcmp(statements[i].id, id) == 0)
+            return &statements[i];
+    return NULL;
+}
+
+fst_tally fst_paper_tally(const fst_paper_state *paper, fst_group group)
+{
+    fst_tally tally = {0};
     for (int i = 0; i < fst_statement_count(); ++i) {
-        if (statements[i].check || !fst_statement_known(&statements[i], paper))
+        const fst_statement *statement = &statements[i];
+        if (statement->check || (group != FST_GROUP_COUNT && statement->group != group) ||
+            !fst_statement_known(statement, paper))
             continue;
-        fst_finding finding = fst_statement_check(&statements[i], paper);
-        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
-            tally[d][finding.verdict[d]]++;
-        ++count;
+        const fst_finding finding = fst_statement_check(statement, paper);
+        if (statement->still)
+            ++tally.once[finding.verdict[FST_DYNAMICS_RIGID]];
+        for (int d = 0; d < FST_PAPER_DYNAMICS && !statement->still; ++d) {
+            ++tally.of[d][finding.verdict[d]];
+            tally.undecided += finding.undecided[d];
+        }
+        ++*(statement->still ? &tally.still : &tally.moving);
     }
-    return count;
+    return tally;
 }
 
 int fst_paper_dry_tally(const fst_paper_state *paper, int tally[3])
@@ -136,9 +172,9 @@ char *fst_paper_statements_text(void)
     for (int i = 0; i < fst_statement_count(); ++i) {
         const fst_statement *statement = &statements[i];
         char published[64];
-        fst_statement_value(statement, statement->published, published, sizeof published);
-        (void)fprintf(out, "| %s | %s | %s | %s |\n", statement->section, statement->text,
-                      statement->said ? statement->said : published, fst_rules[statement->rule].name);
+        fst_statement_published(statement, published, sizeof published);
+        (void)fprintf(out, "| %s | %s | %s | %s |\n", statement->section, statement->text, published,
+                      fst_rules[statement->rule].name);
     }
     if (fclose(out) != 0) {
         free(text);

@@ -41,6 +41,7 @@ typedef enum {
     FST_RULE_MOSTLY,
     FST_RULE_EXACT,
     FST_RULE_NEVER,
+    FST_RULE_SEVERAL,
     FST_RULE_SYMMETRY,
     FST_RULE_COUNT
 } fst_rule;
@@ -53,9 +54,26 @@ extern const fst_rule_words fst_rules[FST_RULE_COUNT];
 
 /* ------------------------------------------------------------------ statements */
 
+/* The parts of the report, in their order. */
+typedef enum {
+    FST_GROUP_ERROR,      /* what the equations contradict */
+    FST_GROUP_EXPERIMENT, /* what was seen, held against the model */
+    FST_GROUP_READING,    /* claims with two readings */
+    FST_GROUP_ARITHMETIC, /* numbers that follow from given ones */
+    FST_GROUP_MODEL,      /* what the model does and what the paper concludes from it */
+    FST_GROUP_COUNT
+} fst_group;
+/* A word for programs, a title, and a sentence. */
+typedef struct fst_group_words {
+    const char *name, *title, *about;
+} fst_group_words;
+extern const fst_group_words fst_groups_of_statements[FST_GROUP_COUNT];
+
 /* A row of statements.def, which explains the fields. */
 typedef struct fst_statement {
-    const char *id, *section, *text, *said;
+    const char *id;
+    fst_group group;
+    const char *section, *text, *said;
     double published; /* for FST_RULE_SYMMETRY 1 or 2 */
     double scale;
     const char *unit; /* "" for a pure number */
@@ -68,14 +86,17 @@ typedef struct fst_statement {
     fst_paper_step step;
     const char *reads;
     int check; /* a check of the computation, or something beyond the paper: it does not count in the tally */
+    int still; /* no motion enters: both dynamics have one number, which counts once */
 } fst_statement;
 
 typedef struct fst_finding {
     double value[FST_PAPER_DYNAMICS];
     fst_verdict verdict[FST_PAPER_DYNAMICS];
     char note[FST_PAPER_DYNAMICS][320];
+    int undecided[FST_PAPER_DYNAMICS]; /* there is no value since runs had not settled */
     int dry; /* whether the statement has a third column, and that is computed; if so: */
     double dry_value;
+    int dry_undecided;
     fst_verdict dry_verdict;
     char dry_note[320];
 } fst_finding;
@@ -87,6 +108,8 @@ const fst_statement *fst_statement_at(int index);
 void fst_statement_command(const fst_statement *statement, const fst_paper_state *paper, fst_dynamics dynamics,
                            char *command, size_t size);
 const char *fst_statement_reads(const fst_statement *statement, fst_dynamics dynamics);
+/* The statement with this id; NULL: there is none. */
+const fst_statement *fst_statement_named(const char *id);
 /* The function that measures the statement on a bead that rubs dry (dry_statements.def); NULL: it has no third
  * column. */
 typedef double (*fst_measure)(const fst_paper_state *paper, fst_dynamics dynamics, char *note, size_t size);
@@ -100,12 +123,33 @@ int fst_statement_known(const fst_statement *statement, const fst_paper_state *p
 /* The verdict on a value by the statement's rule. */
 fst_verdict fst_statement_verdict(const fst_statement *statement, double value);
 fst_finding fst_statement_check(const fst_statement *statement, const fst_paper_state *paper);
+/* The second reading of a statement, a row of readings.def; NULL: it has one reading. */
+typedef struct fst_reading {
+    const char *id, *first, *words, *chosen;
+    fst_statement second; /* with the same runs */
+} fst_reading;
+const fst_reading *fst_statement_reading(const fst_statement *statement);
+fst_finding fst_reading_check(const fst_reading *reading, const fst_statement *statement,
+                              const fst_paper_state *paper);
 /* Add the known verdicts of the third column to `tally`; returns how many claims these are. */
 int fst_paper_dry_tally(const fst_paper_state *paper, int tally[3]);
-/* Add the known verdicts on the paper's claims to `tally`; returns how many claims these are. */
-int fst_paper_tally(const fst_paper_state *paper, int tally[FST_PAPER_DYNAMICS][3]);
-/* The criterion, and a value as people read it ("13.2 %", "S2", "none"). */
+/* How many claims of the paper got which verdict: by each dynamics, and, of claims into which no motion enters,
+ * by both at once. */
+typedef struct fst_tally {
+    int moving, still; /* how many claims these are */
+    int of[FST_PAPER_DYNAMICS][3], once[3];
+    int undecided; /* verdicts, of the third kind, on values that are undecided */
+} fst_tally;
+/* Of the claims of one group, or of all: FST_GROUP_COUNT. */
+fst_tally fst_paper_tally(const fst_paper_state *paper, fst_group group);
+/* How far a value is from the nearest border of its verdict, as a share of the distance that the border allows;
+ * NAN: the rule has no distances.  `border` receives that border. */
+double fst_statement_margin(const fst_statement *statement, double value, double *border);
+/* A verdict with less margin than this hangs by a hair. */
+#define FST_HAIR 0.1
+/* The criterion, what is printed in the paper, and a value as people read it ("13.2 %", "S2", "none"). */
 void fst_statement_criterion(const fst_statement *statement, char *text, size_t size);
+void fst_statement_published(const fst_statement *statement, char *text, size_t size);
 void fst_statement_value(const fst_statement *statement, double value, char *text, size_t size);
 
 #endif

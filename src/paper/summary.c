@@ -30,16 +30,17 @@ char *fst_paper_summary(const fst_paper_state *paper)
     (void)fprintf(out, "  %-8s %-11s   %-29s   %s\n", "omega", "published", "farago2020", "rigid");
     for (int row = 0; row < FST_TABLE1_ROWS; ++row)
         put_row(out, paper, row);
-    int count[FST_PAPER_DYNAMICS][3] = {{0}};
-    const int claims = fst_paper_tally(paper, count);
-    (void)fprintf(out, "\n%d statements: farago2020 %d reproduced, %d close, %d not; rigid %d, %d, %d\n",
-                  claims, count[FST_DYNAMICS_FARAGO2020][0], count[FST_DYNAMICS_FARAGO2020][1],
-                  count[FST_DYNAMICS_FARAGO2020][2], count[FST_DYNAMICS_RIGID][0], count[FST_DYNAMICS_RIGID][1],
-                  count[FST_DYNAMICS_RIGID][2]);
+    const fst_tally tally = fst_paper_tally(paper, FST_GROUP_COUNT);
+    const int *printed = tally.of[FST_DYNAMICS_FARAGO2020], *rigid = tally.of[FST_DYNAMICS_RIGID];
+    (void)fprintf(
+        out, "\n%d statements about motions: farago2020 %d reproduced, %d close, %d not; rigid %d, %d, %d\n",
+        tally.moving, printed[0], printed[1], printed[2], rigid[0], rigid[1], rigid[2]);
+    (void)fprintf(out, "%d statements into which no motion enters: %d reproduced, %d close, %d not\n",
+                  tally.still, tally.once[0], tally.once[1], tally.once[2]);
     int dry[3] = {0};
     const int about_motion = fst_paper_dry_tally(paper, dry);
     if (about_motion > 0)
-        (void)fprintf(out, "%d of them with dry friction, mu = %g: %d, %d, %d\n", about_motion, FST_DRY_MU,
+        (void)fprintf(out, "%d of the first with dry friction, mu = %g: %d, %d, %d\n", about_motion, FST_DRY_MU,
                       dry[0], dry[1], dry[2]);
     if (fclose(out) != 0) {
         free(text);

@@ -30,7 +30,9 @@
  * exponent to be told (conclude.h).  Their runs are parked until there are as many as lanes, and followed side
  * by side too.
  *
- * A run with dry friction has modes, which lanes do not know: it is done alone, while the lanes wait.
+ * Runs with dry friction have an engine of their own, which takes the place of the usual one while nothing is
+ * at work, and modes that end in a step (lane_contact.c).  Those with a disc of contact or with flight are done
+ * alone, while the lanes wait.
  *
  * No row's bits depend on any of this: lanes do not mix (only the order in which rows come out does).
  */
@@ -101,8 +103,28 @@ static int fits(const fst_row_worker *w, const fst_model *model)
 
 typedef enum { BEGUN, REFUSED, ALONE, FAILED } beginning;
 
+/* Whether lanes know the contact of a model. */
+static int lanes_know(const fst_kinds *kinds)
+{
+    return !kinds->dry || (kinds->patch == FST_PATCH_POINT && !kinds->flies && !kinds->resists);
+}
+
+/* Change the engine, while nothing is at work. */
+static void use_engine(fst_row_worker *w, const fst_lane_engine *engine)
+{
+    fst_lane_batch *batches[] = {&w->observed, &w->run_up};
+    if (engine == w->engine)
+        return;
+    w->engine = engine;
+    memset(w->pending_steps, 0, engine->waiting_bytes);
+    for (int i = 0; i < 2; ++i) {
+        memset(batches[i]->memory, 0, engine->bytes);
+        engine->view(batches[i]->memory, &batches[i]->view);
+    }
+}
+
 /* Begin the job of `at`.  FAILED: `error` says why; REFUSED: it has to wait until nothing is at work; ALONE: it
- * is one for no lane, since lanes know no contact that slips and sticks. */
+ * is one for no lane. */
 static beginning begin(fst_row_worker *w, fst_lane *at, fst_status *status, fst_error *error)
 {
     fst_watched_run *run = calloc(1, sizeof *run);
@@ -111,13 +133,15 @@ static beginning begin(fst_row_worker *w, fst_lane *at, fst_status *status, fst_
         return FAILED;
     }
     *status = fst_watched_run_begin(run, &at->job.params, at->job.has_start ? at->job.start : NULL, error);
-    const int alone = *status == FST_OK && run->model->coefficients.kinds.dry;
+    const int alone = *status == FST_OK && !lanes_know(&run->model->coefficients.kinds);
     const int refused = *status == FST_OK && !alone && !fits(w, run->model);
     if (*status != FST_OK || refused || alone) {
         fst_watched_run_free(run);
         free(run);
         return alone ? ALONE : refused ? REFUSED : FAILED;
     }
+    if (at_work(w) == 0)
+        use_engine(w, run->model->coefficients.kinds.dry ? w->dry : w->usual);
     at->run = run;
     w->kind = run->model->coefficients;
     run->window.span.asked_at_end = 1;
@@ -322,7 +346,8 @@ static void step_observed(fst_row_worker *w)
 {
     fst_lane_batch *b = &w->observed;
     const fst_lane_tries tries = w->engine->try_steps(b->memory);
-    const unsigned accepted = tries.accepted;
+    const fst_lane_contacts contacts = fst_worker_look_at_contacts(w, b, tries);
+    const unsigned accepted = tries.accepted | contacts.passed;
     fst_lane_events events = w->engine->watch(b->memory, accepted, accepted, w->in_window);
     unsigned beaten[FST_RECORD_COUNT] = {0};
     /* In the fast form, a run that is not in its window yet has no discard: its first step is in it. */
@@ -335,15 +360,33 @@ static void step_observed(fst_row_worker *w)
     if (w->engine->fused)
         fst_worker_set_aside(w, beaten);
     w->engine->advance(b->memory, accepted & ~over);
-    for (int l = 0; (over | tries.failed) != 0 && l < w->engine->width; ++l) {
-        if (over & fst_lane_bit(l))
+    for (int l = 0; (over | tries.failed | contacts.turned | contacts.landed) != 0 && l < w->engine->width;
+         ++l) {
+        const unsigned bit = fst_lane_bit(l);
+        if (contacts.landed & bit)
+            (void)fst_worker_land(w, b, l);
+        if ((over | contacts.landed) & bit)
             conclude(w, b, l);
-        else if (tries.failed & fst_lane_bit(l))
+        else if (tries.failed & bit)
             give_up(w, b, l);
+        else if (contacts.turned & bit)
+            fst_worker_begin_mode(w, b, l);
     }
 }
 
 /* ------------------------------------------------------------------ before the window */
+
+/* The end of the last step is where the flow goes on; the mode of a contact goes on too. */
+static void stand_at_end(fst_flow *flow)
+{
+    if (flow->step.context.coefficients.kinds.paced) {
+        fst_contact_begin_step(flow);
+        flow->t_start = flow->t;
+        flow->bead_angle_start = flow->bead_angle;
+    } else {
+        fst_flow_restart(flow);
+    }
+}
 
 /* The discard of a run is over: its window begins with the state that it has. */
 static void open_window(fst_row_worker *w, int l)
@@ -353,7 +396,7 @@ static void open_window(fst_row_worker *w, int l)
     run->window.activity = b->view.activity[l];
     fst_quadrature_begin_moment_angle(&run->window.quadrature, run->flow->step.end);
     fst_window_mark_periods(&run->window, run->flow);
-    fst_flow_restart(run->flow);
+    stand_at_end(run->flow);
     fst_quadrature_set_references(&run->window.quadrature, run->flow);
     fst_returns_see_side(&run->window.returns, run->flow);
     fst_window_pass(&run->window, &run->flow->bead_angle, 0.0);
@@ -361,12 +404,10 @@ static void open_window(fst_row_worker *w, int l)
     move_run(&w->ready[w->ready_count++], &b->lanes[l]);
 }
 
-/* A step in every lane of those that are not. */
-static void step_run_up(fst_row_worker *w)
+/* Look at the steps that may hold something; the lanes whose runs are over. */
+static unsigned look_at_run_up(fst_row_worker *w, fst_lane_events events)
 {
     fst_lane_batch *b = &w->run_up;
-    const fst_lane_tries tries = w->engine->try_steps(b->memory);
-    const fst_lane_events events = w->engine->watch(b->memory, tries.accepted, 0, 0);
     unsigned over = 0;
     for (int l = 0; (events.close >> l) != 0; ++l)
         if (events.close & fst_lane_bit(l)) {
@@ -375,44 +416,61 @@ static void step_run_up(fst_row_worker *w)
             b->view.activity[l] = fmax(b->view.activity[l], b->view.speed[l]);
             over |= (events.ending & fst_lane_bit(l)) && fst_worker_ends_run(w, b, l) ? fst_lane_bit(l) : 0;
         }
-    w->engine->advance(b->memory, tries.accepted & ~(over | tries.landed));
-    for (int l = 0; (over | tries.landed | tries.failed) != 0 && l < w->engine->width; ++l) {
-        if (over & fst_lane_bit(l))
+    return over;
+}
+
+/* A step in every lane of those that are not. */
+static void step_run_up(fst_row_worker *w)
+{
+    fst_lane_batch *b = &w->run_up;
+    const fst_lane_tries tries = w->engine->try_steps(b->memory);
+    const fst_lane_contacts contacts = fst_worker_look_at_contacts(w, b, tries);
+    const unsigned accepted = tries.accepted | contacts.passed, landed = tries.landed | contacts.landed;
+    const unsigned over = look_at_run_up(w, w->engine->watch(b->memory, accepted, 0, 0));
+    w->engine->advance(b->memory, accepted & ~(over | landed));
+    for (int l = 0; (over | landed | tries.failed | contacts.turned) != 0 && l < w->engine->width; ++l) {
+        const unsigned bit = fst_lane_bit(l);
+        if (over & bit || (contacts.landed & bit && fst_worker_land(w, b, l)))
             conclude(w, b, l);
-        else if (tries.landed & fst_lane_bit(l))
+        else if (landed & bit)
             open_window(w, l);
-        else if (tries.failed & fst_lane_bit(l))
+        else if (tries.failed & bit)
             give_up(w, b, l);
+        else if (contacts.turned & bit)
+            fst_worker_begin_mode(w, b, l);
     }
 }
 
 /* ------------------------------------------------------------------ */
 
-static int make_batch(const fst_lane_engine *engine, fst_lane_batch *b)
+/* Room for a batch of either engine. */
+static void *make_memory(size_t usual, size_t dry)
 {
-    b->memory = aligned_alloc(64, (engine->bytes + 63) / 64 * 64);
-    if (!b->memory)
-        return 0;
-    memset(b->memory, 0, engine->bytes);
-    engine->view(b->memory, &b->view);
-    return 1;
+    const size_t bytes = ((usual > dry ? usual : dry) + 63) / 64 * 64;
+    void *memory = aligned_alloc(64, bytes + 64);
+    if (memory)
+        memset(memory, 0, bytes);
+    return memory;
 }
 
 static fst_row_worker *make_worker(const fst_row_work *work, const fst_row_images *images,
                                    const fst_lane_engine *engine)
 {
+    const fst_lane_engine *dry = fst_dry_lane_engine_of(engine);
     fst_row_worker *w = calloc(1, sizeof *w);
     if (!w)
         return NULL;
     w->work = work;
     w->images = fst_run_images_possible() ? images : NULL;
-    w->engine = engine;
-    const size_t bytes = (engine->waiting_bytes + 63) / 64 * 64;
-    w->pending_steps = bytes > 0 ? aligned_alloc(64, bytes) : NULL;
-    if (w->pending_steps)
-        memset(w->pending_steps, 0, bytes);
-    if ((w->pending_steps || bytes == 0) && make_batch(engine, &w->observed) && make_batch(engine, &w->run_up))
+    w->usual = engine;
+    w->dry = dry;
+    w->pending_steps = make_memory(engine->waiting_bytes, dry->waiting_bytes);
+    w->observed.memory = make_memory(engine->bytes, dry->bytes);
+    w->run_up.memory = make_memory(engine->bytes, dry->bytes);
+    if (w->pending_steps && w->observed.memory && w->run_up.memory) {
+        use_engine(w, w->usual);
         return w;
+    }
     free(w->run_up.memory);
     free(w->observed.memory);
     free(w->pending_steps);

@@ -32,10 +32,11 @@ typedef struct fst_lane_batch {
 /* One thread's work on rows in lanes. */
 typedef struct fst_row_worker {
     const fst_row_work *work;
-    const fst_row_images *images; /* NULL: none are made */
-    const fst_lane_engine *engine;
-    fst_lane_batch run_up;   /* the fast form: runs before their windows */
-    fst_lane_batch observed; /* the others */
+    const fst_row_images *images;       /* NULL: none are made */
+    const fst_lane_engine *usual, *dry; /* engines: of most contacts, and of dry ones; */
+    const fst_lane_engine *engine;      /* the one of the runs at work */
+    fst_lane_batch run_up;              /* the fast form: runs before their windows */
+    fst_lane_batch observed;            /* the others */
     /* Lanes of the observed batch, one bit each: */
     unsigned in_window;                 /* the window is open */
     unsigned tracked;                   /* extremes are looked for */
@@ -70,6 +71,22 @@ void fst_worker_extract_step(const fst_row_worker *w, const fst_lane_batch *b, i
 
 /* Whether such a step, which may end the run, does. */
 int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l);
+
+/* Dry contacts: what becomes of the steps that are good, but in which a mode or the way may end. */
+typedef struct fst_lane_contacts {
+    unsigned passed; /* these are accepted after all */
+    unsigned turned; /* accepted steps after which a mode begins, or an onset goes on */
+    unsigned landed; /* the way ends in these: not accepted, see fst_worker_land() */
+} fst_lane_contacts;
+
+fst_lane_contacts fst_worker_look_at_contacts(fst_row_worker *w, fst_lane_batch *b, fst_lane_tries tries);
+
+/* After advance(): the mode of a lane begins. */
+void fst_worker_begin_mode(fst_row_worker *w, fst_lane_batch *b, int l);
+
+/* The last step of a lane up to the end of its way, by the flow of its run; 1 if the bead left the plate in it.
+ */
+int fst_worker_land(fst_row_worker *w, fst_lane_batch *b, int l);
 
 /* Look at the accepted steps of the observed runs that may hold something; the lanes whose runs are over. */
 unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events);

@@ -132,6 +132,10 @@ static int take_mode(fst_coefficients_double *c, const image *from)
         return 1;
     const double mode = then->coulomb.mode;
     c->law = *then;
+    c->resistance = from->flow.step.context.coefficients.resistance;
+    const double roll = c->resistance.mode;
+    if (roll != FST_ROLL_ROLLS && roll != FST_ROLL_RESTS && roll != FST_ROLL_STARTS)
+        return 0;
     return mode == FST_MODE_SLIP || mode == FST_MODE_STICK || mode == FST_MODE_ONSET ||
            (mode == FST_MODE_FLIGHT && c->kinds.flies);
 }

@@ -17,7 +17,8 @@ typedef struct choice {
     size_t seen;
     double scale;       /* from the file's unit of length to the track's */
     int scale_replaces; /* the caller's scale contradicts a unit that the file states */
-    int by_frame;       /* rows are told apart by their frames, not by their times */
+    double step;  /* frames of the film from row to row: some people follow a bead in every second frame */
+    int by_frame; /* rows are told apart by their frames, not by their times */
 } choice;
 
 /* ---------------------------------------------------------------- which track */
@@ -92,7 +93,7 @@ static fst_status choose_unit(choice *c, fst_track *track, fst_error *error)
         return fst_fail(
             error, FST_BAD_INPUT, c->path,
             "read as %s; it does not say in which unit x and y are%s%s%s. Say what one unit of the file is, "
-            "as in 1cm, or px for pixels (fst_track_options.scale)",
+            "as in 1cm, or 1px for pixels",
             c->raw->format, says[0] ? " (\"" : "", says, says[0] ? "\" is none that is known)" : "");
     /* The customary spelling; a unit that is no customary one becomes the metre's. */
     const struct {
@@ -115,6 +116,19 @@ static int by_frame(const void *a, const void *b)
     if (p != q)
         return p < q ? -1 : 1;
     return one->line < other->line ? -1 : one->line > other->line;
+}
+
+/* The greatest number of which all steps from frame to frame are multiples. */
+static double common_step(const track_spot *spots, size_t count)
+{
+    double step = 0.0;
+    for (size_t i = 1; i < count && step != 1.0; ++i)
+        for (double other = spots[i].frame - spots[i - 1].frame; other > 0;) {
+            const double rest = fmod(step, other);
+            step = other;
+            other = rest;
+        }
+    return step > 0 ? step : 1.0;
 }
 
 /* The spots of the chosen track in their order; a frame may hold one place only.  The same place twice is one.
@@ -158,6 +172,9 @@ static fst_status sorted_spots(choice *c, track_spot **spots, size_t *count, fst
         }
     }
     *count = kept;
+    c->step = c->by_frame && kept > 8 ? common_step(*spots, kept) : 1.0;
+    for (size_t i = kept; i-- > 0 && c->step > 1.0;)
+        (*spots)[i].frame = (*spots)[0].frame + ((*spots)[i].frame - (*spots)[0].frame) / c->step;
     return FST_OK;
 }
 
@@ -241,7 +258,7 @@ static fst_status set_clock(const choice *c, track_spot *spots, size_t count, fs
     if (!c->by_frame)
         number_frames(spots, count, frame_interval(spots, count, 0));
     double unevenness = 0.0;
-    track->fps = timed && count > 1 ? clock_of(spots, count, &unevenness) : 1.0 / c->raw->interval;
+    track->fps = timed && count > 1 ? clock_of(spots, count, &unevenness) : 1.0 / (c->raw->interval * c->step);
     track->steady = unevenness < 0.1;
     if (isfinite(c->options->fps)) {
         if (!(c->options->fps > 0))
@@ -249,7 +266,7 @@ static fst_status set_clock(const choice *c, track_spot *spots, size_t count, fs
                             "%g frames a second: a positive number is "
                             "needed",
                             c->options->fps);
-        track->fps = c->options->fps;
+        track->fps = c->options->fps / c->step;
         track->steady = 1;
     }
     if (isfinite(c->options->fps) || !timed)
@@ -276,6 +293,8 @@ static char *tell(const choice *c, const fst_track *track)
                       c->raw->name_count);
     (void)fprintf(out, "%zu places in frames %lld to %lld, ", c->seen, (long long)track->frame[0],
                   (long long)track->frame[track->rows - 1]);
+    if (c->step > 1.0)
+        (void)fprintf(out, "every %g frames, ", c->step);
     if (isfinite(track->fps))
         (void)fprintf(out, "%.6g frames a second%s%s", track->fps, track->steady ? "" : " on average, unevenly",
                       isfinite(c->options->fps) ? " as given" : "");
@@ -301,8 +320,7 @@ fst_status track_choose(const track_raw *raw, const char *path, const fst_track_
     if (status == FST_OK)
         status = sorted_spots(&c, &spots, &count, error);
     if (status == FST_OK && count < 2)
-        status =
-            fst_fail(error, FST_BAD_INPUT, path, "a track of %zu frame: nothing can be measured of it", count);
+        status = fst_fail(error, FST_BAD_INPUT, path, "a track of one frame: nothing can be measured of it");
     if (status == FST_OK)
         status = set_clock(&c, spots, count, track, error);
     for (size_t i = 0; i < count && status == FST_OK; ++i)

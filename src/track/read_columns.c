@@ -73,7 +73,7 @@ static fst_status find_columns(const track_text *text, size_t line, const track_
         const int role = role_of(column.name);
         if (role < 0)
             continue;
-        if (found->at[role] >= 0)
+        if (found->at[role] >= 0 && role != FRAME) /* pandas writes an index called frame beside the column */
             return track_fail_line(text->path, line, error,
                                    "columns %d and %d both give %s: one of each was expected",
                                    found->at[role] + 1, i + 1, role_names[role]);
@@ -107,7 +107,8 @@ static fst_status take_units(const track_text *text, size_t line, const columns 
         return track_fail_line(text->path, line, error,
                                "%s is no unit of length that is known; these are: px %s", fst_quote(x, quoted),
                                fst_unit_accepted(FST_UNIT_LENGTH));
-    (void)snprintf(raw->length_unit, sizeof raw->length_unit, "%s", x);
+    if (x[0])
+        (void)snprintf(raw->length_unit, sizeof raw->length_unit, "%s", x);
     if (found->at[TIME] < 0 || !t[0])
         return FST_OK;
     raw->time_unit = track_time_unit(t);

@@ -80,10 +80,6 @@ static size_t to_utf8(char *to, const unsigned char *bytes, size_t size)
         }
         return length;
     }
-    if (size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0) {
-        bytes += 3;
-        size -= 3;
-    }
     if (is_utf8(bytes, size)) {
         memcpy(to, bytes, size);
         return size;
@@ -130,6 +126,9 @@ fst_status track_text_take(track_text *text, const char *path, const char *bytes
         return fst_fail(error, FST_NO_MEMORY, path, "no memory for this file");
     const size_t length = to_utf8(text->bytes, (const unsigned char *)bytes, size);
     text->bytes[length] = '\0';
+    text->size = length;
+    if (length >= 3 && memcmp(text->bytes, "\xef\xbb\xbf", 3) == 0)
+        memset(text->bytes, ' ', 3); /* the byte order mark */
     return cut_lines(text, length, error);
 }
 
@@ -302,6 +301,15 @@ void track_column_of(const char *cell, track_column *column)
     for (size_t i = 0; i < length; ++i)
         column->name[i] = (char)tolower((unsigned char)cell[i]);
     column->name[length] = '\0';
+    static const char *const units[] = {"_px", "_um", "_mm", "_cm", "_m", "_s", "_ms"};
+    for (size_t i = 0; !open && i < sizeof units / sizeof *units; ++i) {
+        const size_t ending = strlen(units[i]);
+        if (length > ending && strcmp(column->name + length - ending, units[i]) == 0) {
+            column->name[length - ending] = '\0';
+            (void)snprintf(column->unit, sizeof column->unit, "%s", units[i] + 1);
+            break;
+        }
+    }
     if (open) {
         const size_t unit = strcspn(open + 1, "])");
         (void)snprintf(column->unit, sizeof column->unit, "%.*s", (int)(unit < 31 ? unit : 31), open + 1);

@@ -14,7 +14,8 @@
 /* A text file in memory, as lines of UTF-8 without line ends, byte order mark and zero bytes. */
 typedef struct track_text {
     const char *path; /* the caller's */
-    char *bytes;
+    char *bytes;      /* `size` of them; each line end became zeros */
+    size_t size;
     char **lines; /* line i of the file is lines[i - 1]; blank lines are there, as "" */
     size_t count;
 } track_text;
@@ -60,8 +61,8 @@ typedef enum {
  * around it. */
 track_value_kind track_number(const char *cell, double *value);
 
-/* The name of a column, taken apart: "x [mm]", "x (mm)" or "x_mm"... the name in small letters, and the unit in
- * brackets as it stands, "" where there is none. */
+/* The name of a column, taken apart: "x [mm]", "x (mm)" or "x_mm": the name in small letters, and the unit
+ * as it stands, "" where there is none. */
 typedef struct track_column {
     char name[64], unit[32];
 } track_column;

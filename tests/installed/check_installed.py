@@ -54,6 +54,12 @@ def check_tree(prefix):
     """The program runs from the moved tree, with its libraries, its module and its manual page."""
     program = only(prefix, "bin/festoon")
     print("version:", run(program, "--version"), flush=True)
+    for place in ("share/bash-completion/completions/festoon", "share/zsh/site-functions/_festoon",
+                  "share/fish/vendor_completions.d/festoon.fish", "share/doc/festoon/examples/paper-10.7Hz.yaml",
+                  "share/doc/festoon/examples/c/run.c", "share/doc/festoon/LICENSE"):
+        if not (prefix / place).is_file():
+            raise SystemExit(f"{place} is not installed")
+    run(program, "check", prefix / "share/doc/festoon/examples/paper-19.9Hz.yaml")
     manual = only(prefix, "festoon.1").read_text(encoding="utf-8")
     for word in ("bead.radius", "mean_alpha_dot"):
         if word not in manual.replace("\\-", "-"):

@@ -23,19 +23,34 @@
  * is a disc, on one that pivots (patch.inl).
  */
 
-/* Whether the contact has what only dry laws have: kinds.dry, paced, patch, flies.  Lanes know no contact that
- * slips and sticks (rows of such beads are done alone); saying so here keeps its formulas out of their loops.
+/* Whether the contact has what only dry laws have: kinds.dry, paced, resists, patch, flies.  Lanes are compiled
+ * once for the dry laws (FST_DRY_LANES), at a point of contact, without flight and on a plate that does not
+ * resist rolling, and once for all others: saying so here keeps the formulas of the ones out of the loops of
+ * the others.
  */
 #undef HAS
 #undef LAW_IS
+#undef IS_DRY
+#undef KNOWS_DRY
+#define IS_DRY(NAME)                                                                                           \
+    (FST_FRICTION_##NAME == FST_FRICTION_COULOMB || FST_FRICTION_##NAME == FST_FRICTION_ROLLING)
 #ifdef REAL_IS_SCALAR
+#define KNOWS_DRY 1
 #define HAS(kinds, what) ((kinds).what)
 #define LAW_IS(NAME) (kinds->contact == FST_FRICTION_##NAME)
+#elif defined FST_DRY_LANES
+#define KNOWS_DRY 1
+#define DRY_LANES_dry(kinds) 1
+#define DRY_LANES_paced(kinds) ((kinds).paced)
+#define DRY_LANES_resists(kinds) 0
+#define DRY_LANES_patch(kinds) FST_PATCH_POINT
+#define DRY_LANES_flies(kinds) 0
+#define HAS(kinds, what) DRY_LANES_##what(kinds)
+#define LAW_IS(NAME) (IS_DRY(NAME) && kinds->contact == FST_FRICTION_##NAME)
 #else
+#define KNOWS_DRY 0
 #define HAS(kinds, what) 0
-#define LAW_IS(NAME)                                                                                           \
-    (FST_FRICTION_##NAME != FST_FRICTION_COULOMB && FST_FRICTION_##NAME != FST_FRICTION_ROLLING &&             \
-     kinds->contact == FST_FRICTION_##NAME)
+#define LAW_IS(NAME) (!IS_DRY(NAME) && kinds->contact == FST_FRICTION_##NAME)
 #endif
 
 /* What a law sees of the contact.  A law that needs more adds it here and in contact_of() and its tangent
@@ -44,13 +59,15 @@ typedef struct FN(contact) {
     REAL slip[2]; /* V, velocity of the contact point */
     REAL load;    /* N, normal load per mass */
     /* For the dry laws only (kinds.dry): */
-    REAL push[2];   /* A: V' = A - (7/2) f */
-    REAL torque[3]; /* m, that of the resistances, per mass */
+    REAL push[2];    /* A: V' = A - (7/2) f */
+    REAL torque[3];  /* m, that of the resistances, per mass */
+    REAL balance[2]; /* T, of a bead that is kept from rolling (kinds.resists) */
     /* Where the contact is a disc (kinds.patch): */
     int patch;  /* FST_PATCH_* */
     REAL pivot; /* w = W.e */
 } FN(contact);
 
+#include "model/contact/lag.inl"
 #include "model/contact/patch.inl"
 #include "model/contact/resistance.inl"
 

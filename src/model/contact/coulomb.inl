@@ -11,13 +11,7 @@
  *     flight  in the air               0 (dynamics.inl leaves it no load; ode/flight.c)
  *
  * Onset.  Where |A| grows past (7/2) mu_s N and sliding friction is no weaker than static, the slip begins with
- * no speed and hardly any acceleration.  Its direction u follows A at the rate |A|/|V|, without bound, so that
- * it cannot be integrated; but just therefore it is known.  It lags behind A by an angle that is |V| times
- *
- *     lean = (rate at which A turns in space)/(2 |A| - (7/2) mu N)
- *
- * and a correction in proportion to |V|; `lean` is given as a polynomial in the time since the release
- * (ode/onset.c).
+ * no speed and hardly any acceleration, in a direction that is known: lag.inl, with c = (7/2) mu N.
  *
  * A disc.  Where the contact is a disc (patch.inl), f in a slip is mu N tau V/|V|, and the plate resists
  * pivoting. Then slip includes the creep of a bead that pivots, stick is for a bead that does not pivot either,
@@ -27,10 +21,7 @@
  */
 typedef struct FN(coulomb) {
     REAL mode;         /* FST_MODE_* (model/kinds.h): constant within a step */
-    REAL lean;         /* of the onset, now, */
-    REAL lean_slip;    /* and how it grows with |V| */
-    REAL lean_then[3]; /* lean as the polynomial in the time since the release */
-    REAL since;        /* that time at the start of the step */
+    FN(lag) lag;       /* of the onset */
     REAL sliding;      /* mu_d */
     REAL fall;         /* mu_s - mu_d where a Stribeck speed is given, else 0 */
     REAL holding;      /* mu_s */
@@ -43,20 +34,19 @@ typedef struct FN(coulomb) {
 
 static inline FN(coulomb) FN(make_coulomb)(const fst_params *params, const fst_groups *g)
 {
-    const double sliding = params->friction_mu, speed_si = params->friction_stribeck_speed;
-    const double holding = isnan(params->friction_mu_static) ? sliding : params->friction_mu_static;
+    const int rolls = g->friction == FST_FRICTION_ROLLING; /* that law, with a resistance (model/kinds.h) */
+    const double unlimited = 1e30, speed_si = rolls ? NAN : params->friction_stribeck_speed;
+    const double sliding = rolls ? unlimited : params->friction_mu;
+    const double holding = rolls || isnan(params->friction_mu_static) ? sliding : params->friction_mu_static;
     const double speed = speed_si * g->time_unit / g->length_unit;
     const FN(coulomb) law = {
         .mode = R(0.0),
-        .lean = R(0.0),
-        .lean_slip = R(0.0),
-        .lean_then = {R(0.0), R(0.0), R(0.0)},
-        .since = R(0.0),
+        .lag = {R(0.0), R(0.0), {R(0.0), R(0.0), R(0.0)}, R(0.0)},
         .sliding = REAL_OF(sliding),
         .fall = REAL_OF(isnan(speed) ? 0.0 : holding - sliding),
         .holding = REAL_OF(holding),
         .stribeck = REAL_OF(isnan(speed) ? 0.0 : 1.0 / (speed * speed)),
-        .rate = REAL_OF(params->friction_contact_rate * g->time_unit),
+        .rate = REAL_OF(rolls ? 0.0 : params->friction_contact_rate * g->time_unit),
         .usual_slip_2 = R(0.0025),
         .restitution = REAL_OF(isnan(params->impact_restitution) ? 0.0 : params->impact_restitution),
         .patch = FN(make_patch)(params, g),
@@ -82,16 +72,20 @@ static inline REAL FN(coulomb_load)(const FN(contact) * at)
     return REAL_MAX(at->load, R(0.0));
 }
 
-/* In onset: `lean` at a time after the start of the step. */
-static inline void FN(coulomb_lean)(FN(coulomb) * law, REAL time)
-{
-    const REAL *p = law->lean_then, since = law->since + time;
-    law->lean = REAL_MULADD(since, REAL_MULADD(since, p[2], p[1]), p[0]);
-}
-
 static inline REAL_MASK FN(coulomb_sticks)(const FN(coulomb) * law)
 {
     return REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_STICK)), R(0.5));
+}
+
+/* The mask of a slip that has just been let go, which is not of a direction of its own yet. */
+static inline REAL_MASK FN(coulomb_begins)(const FN(coulomb) * law)
+{
+    return REAL_LESS(REAL_ABS(law->mode - REAL_OF(FST_MODE_ONSET)), R(0.5));
+}
+
+static inline REAL_MASK FN(coulomb_slips)(const FN(coulomb) * law)
+{
+    return REAL_LESS(law->mode, R(0.5));
 }
 
 /* ------------------------------------------------------------------ a disc */
@@ -195,38 +189,14 @@ static inline void FN(coulomb_force)(const FN(coulomb) * law, const FN(contact) 
     const REAL *v = at->slip, *a = at->push;
     const REAL s2 = SUM_2(v[0], v[0], v[1], v[1]), dry = FN(coulomb_mu)(law, s2) * FN(coulomb_load)(at);
     const REAL inverse_s = REAL_RECIPROCAL_SQRT(s2 + R(1e-290));
-    const REAL inverse_a = REAL_RECIPROCAL_SQRT(SUM_2(a[0], a[0], a[1], a[1]) + R(1e-290));
-    const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a}; /* A/|A|, and u as it lags behind */
-    const REAL along = SUM_2(v[0], ahead[0], v[1], ahead[1]);
-    const REAL lag = along * REAL_MULADD(law->lean_slip, along, law->lean);
-    const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
-    const REAL u[2] = {(ahead[0] + lag * ahead[1]) * inverse_u, (ahead[1] - lag * ahead[0]) * inverse_u};
-    const REAL_MASK sticks = FN(coulomb_sticks)(law);
-    const REAL_MASK slips = REAL_LESS(law->mode, R(0.5));
+    const REAL_MASK sticks = FN(coulomb_sticks)(law), slips = REAL_LESS(law->mode, R(0.5));
+    REAL u[2] = {R(0.0), R(0.0)};
+    if (REAL_ANY(REAL_LESS(R(1.5), law->mode)))
+        FN(lag_direction)(&law->lag, a, v, u);
     for (int i = 0; i < 2; ++i) {
         const REAL slipping = REAL_MULADD(law->rate, v[i], dry * REAL_SELECT(slips, v[i] * inverse_s, u[i]));
         force[i] = REAL_SELECT(sticks, R(2.0) / R(7.0) * a[i], slipping);
     }
-}
-
-/* The change of the direction u of an onset (times mu N, and with that of mu N itself): the direction of A
- * turns, and it lags behind by another slip.  `lean` is that of the release. */
-static inline void FN(coulomb_onset_change)(const FN(coulomb) * law, const FN(contact) * at,
-                                            const FN(contact) * by, REAL dry, REAL ddry, REAL change[2])
-{
-    const REAL *v = at->slip, *dv = by->slip, *a = at->push, *da = by->push;
-    const REAL inverse_a = REAL_RECIPROCAL_SQRT(SUM_2(a[0], a[0], a[1], a[1]) + R(1e-290));
-    const REAL ahead[2] = {a[0] * inverse_a, a[1] * inverse_a};
-    const REAL turned = SUM_2(ahead[0], da[1], -ahead[1], da[0]) * inverse_a; /* angle of A */
-    const REAL along = SUM_2(v[0], ahead[0], v[1], ahead[1]), across = SUM_2(ahead[0], v[1], -ahead[1], v[0]);
-    const REAL dalong = SUM_2(dv[0], ahead[0], dv[1], ahead[1]) + across * turned;
-    const REAL lag = along * REAL_MULADD(law->lean_slip, along, law->lean);
-    const REAL dlag = dalong * REAL_MULADD(R(2.0) * law->lean_slip, along, law->lean);
-    const REAL inverse_u = REAL_RECIPROCAL_SQRT(R(1.0) + lag * lag);
-    const REAL u[2] = {(ahead[0] + lag * ahead[1]) * inverse_u, (ahead[1] - lag * ahead[0]) * inverse_u};
-    const REAL turning = dry * (turned - dlag * inverse_u * inverse_u); /* the lag is the tangent of an angle */
-    change[0] = REAL_MULADD(law->rate, dv[0], ddry * u[0] - turning * u[1]);
-    change[1] = REAL_MULADD(law->rate, dv[1], ddry * u[1] + turning * u[0]);
 }
 
 static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact) * at, const FN(contact) * by,
@@ -248,10 +218,10 @@ static inline void FN(coulomb_change)(const FN(coulomb) * law, const FN(contact)
     const REAL turned[2] = {-u[1], u[0]};
     const REAL_MASK sticks = FN(coulomb_sticks)(law), slips = REAL_LESS(law->mode, R(0.5));
     REAL onset[2];
-    FN(coulomb_onset_change)(law, at, by, mu * load, ddry, onset);
+    FN(lag_change)(&law->lag, at->push, v, by->push, dv, mu * load, ddry, onset);
     for (int i = 0; i < 2; ++i) {
         const REAL slipping = REAL_MULADD(law->rate, dv[i], REAL_MULADD(ddry, u[i], turning * turned[i]));
-        const REAL released = REAL_SELECT(slips, slipping, onset[i]);
+        const REAL released = REAL_SELECT(slips, slipping, REAL_MULADD(law->rate, dv[i], onset[i]));
         change[i] = REAL_SELECT(sticks, R(2.0) / R(7.0) * by->push[i], released);
     }
 }

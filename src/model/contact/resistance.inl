@@ -1,50 +1,112 @@
 /* resistance.inl - the torque with which a plate resists rolling, over REAL: rho N against the horizontal
- * rotation, m = -rho N W_h/|W_h|, where rho = c_rr eps is its arm.
+ * rotation W_h, where rho = c_rr eps is its arm.
  *
- * The direction of W_h is not defined where the bead does not roll at all.  A bead that comes to rest is slowed
- * over rotations below `rest`, which is far below those of any motion, instead of being held.  It grows with a
- * resistance that is stronger than any plate's, so that the rate of slowing, on which the size of steps
- * depends, stays within bounds.
+ * Like friction it is set-valued: a bead that does not roll, W_h = 0, gets any torque up to rho N, just what it
+ * needs.  With the balance T = (tau + eps e x f)_h of the torque per mass that the magnet and the plate's force
+ * exert about the middle of a bead that does not roll,
+ *
+ *     mode    while                 m
+ *     rolls   W_h != 0              -rho N W_h/|W_h|
+ *     rests   |T| <= rho N          -T:  W_h stays 0
+ *     starts  just released         -rho N u, u near T/|T| (lag.inl)
+ *
+ * This goes beside slip and stick of the contact (coulomb.inl): a bead that neither rolls nor slips is at rest,
+ * though it may pivot about the vertical; one that slips and rests is pushed over the plate without rolling.
  */
 typedef struct FN(resistance) {
-    REAL arm;    /* rho */
-    REAL rest_2; /* square of that rotation */
+    REAL arm;     /* rho */
+    REAL mode;    /* FST_ROLL_* (model/kinds.h): constant within a step */
+    FN(lag) lag;  /* of `starts` */
+    REAL usual_2; /* square of a usual rotation, of the pace */
 } FN(resistance);
 
 static inline FN(resistance) FN(make_resistance)(const fst_params *params, const fst_groups *g)
 {
-    const double strong = 1e-4 * params->friction_rolling_resistance, rest = strong > 1e-6 ? strong : 1e-6;
-    const FN(resistance)
-        made = {REAL_OF(params->friction_rolling_resistance) * REAL_OF(g->eps), REAL_OF(rest * rest)};
+    const FN(resistance) made = {
+        .arm = REAL_OF(params->friction_rolling_resistance) * REAL_OF(g->eps),
+        .mode = REAL_OF(FST_ROLL_ROLLS),
+        .lag = {R(0.0), R(0.0), {R(0.0), R(0.0), R(0.0)}, R(0.0)},
+        .usual_2 = R(0.0025),
+    };
     return made;
 }
 
-/* Its torque per mass at the rotation W and the load N. */
-static inline void FN(resist)(const FN(resistance) * q, const REAL w[3], REAL load, REAL torque[3])
+static inline REAL_MASK FN(rests)(const FN(resistance) * q)
 {
-    const REAL size2 = SUM_2(w[0], w[0], w[1], w[1]) + q->rest_2;
-    const REAL factor = -(q->arm * REAL_MAX(load, R(0.0)) * REAL_RECIPROCAL_SQRT(size2));
+    return REAL_LESS(REAL_ABS(q->mode - REAL_OF(FST_ROLL_RESTS)), R(0.5));
+}
+
+static inline REAL_MASK FN(starts_to_roll)(const FN(resistance) * q)
+{
+    return REAL_LESS(REAL_ABS(q->mode - REAL_OF(FST_ROLL_STARTS)), R(0.5));
+}
+
+/* Whether a bead (in some lane) does not just roll: what only the other modes need is not computed else. */
+static inline int FN(resist_asks_balance)(const FN(resistance) * q)
+{
+    return REAL_ANY(REAL_LESS(R(0.5), q->mode));
+}
+
+/* Its torque per mass at the rotation W, the load N and the balance T. */
+static inline void FN(resist)(const FN(resistance) * q, const REAL w[3], REAL load, const REAL balance[2],
+                              REAL torque[3])
+{
+    const REAL inverse = REAL_RECIPROCAL_SQRT(SUM_2(w[0], w[0], w[1], w[1]) + R(1e-290));
+    const REAL most = q->arm * REAL_MAX(load, R(0.0)), factor = -(most * inverse);
     torque[0] = factor * w[0];
     torque[1] = factor * w[1];
     torque[2] = R(0.0);
+    if (!FN(resist_asks_balance)(q))
+        return;
+    const REAL_MASK rolls = REAL_LESS(q->mode, R(0.5)), rests = FN(rests)(q);
+    REAL u[2];
+    FN(lag_direction)(&q->lag, balance, w, u);
+    for (int i = 0; i < 2; ++i) {
+        const REAL starting = -(most * u[i]);
+        torque[i] = REAL_SELECT(rests, -balance[i], REAL_SELECT(rolls, torque[i], starting));
+    }
 }
 
-/* Its change as W and N change. */
-static inline void FN(resist_change)(const FN(resistance) * q, const REAL w[3], REAL load, const REAL dw[3],
-                                     REAL dload, REAL change[3])
+/* Its change as W, N and T change. */
+static inline void FN(resist_change)(const FN(resistance) * q, const REAL w[3], REAL load,
+                                     const REAL balance[2], const REAL dw[3], REAL dload,
+                                     const REAL dbalance[2], REAL change[3])
 {
-    const REAL size2 = SUM_2(w[0], w[0], w[1], w[1]) + q->rest_2, inverse = REAL_RECIPROCAL_SQRT(size2);
-    const REAL pressed = REAL_MAX(load, R(0.0));
-    const REAL dpressed = REAL_SELECT(REAL_LESS(R(0.0), load), dload, R(0.0));
-    const REAL along = SUM_2(w[0], dw[0], w[1], dw[1]) / size2;
-    for (int i = 0; i < 2; ++i)
-        change[i] = -(q->arm * inverse * (dpressed * w[i] + pressed * (dw[i] - along * w[i])));
+    const REAL inverse = REAL_RECIPROCAL_SQRT(SUM_2(w[0], w[0], w[1], w[1]) + R(1e-290));
+    const REAL most = q->arm * REAL_MAX(load, R(0.0));
+    const REAL dmost = q->arm * REAL_SELECT(REAL_LESS(R(0.0), load), dload, R(0.0));
+    const REAL u[2] = {w[0] * inverse, w[1] * inverse};
+    const REAL turning = most * inverse * SUM_2(u[0], dw[1], -u[1], dw[0]);
+    change[0] = turning * u[1] - dmost * u[0];
+    change[1] = -(dmost * u[1] + turning * u[0]);
     change[2] = R(0.0);
+    if (!FN(resist_asks_balance)(q))
+        return;
+    const REAL_MASK rolls = REAL_LESS(q->mode, R(0.5)), rests = FN(rests)(q);
+    REAL starting[2];
+    FN(lag_change)(&q->lag, balance, w, dbalance, dw, most, dmost, starting);
+    for (int i = 0; i < 2; ++i)
+        change[i] = REAL_SELECT(rests, -dbalance[i], REAL_SELECT(rolls, change[i], -starting[i]));
 }
 
 /* The power that it takes. */
 static inline REAL FN(resistance_loss)(const FN(resistance) * q, const REAL w[3], REAL load)
 {
-    const REAL h2 = SUM_2(w[0], w[0], w[1], w[1]);
-    return q->arm * REAL_MAX(load, R(0.0)) * h2 * REAL_RECIPROCAL_SQRT(h2 + q->rest_2);
+    return q->arm * REAL_MAX(load, R(0.0)) * REAL_SQRT(SUM_2(w[0], w[0], w[1], w[1]));
+}
+
+/* dt/dtheta of a bead that rolls, and its change along dw: as that of a slip (coulomb.inl), so that a rotation
+ * that dies in a finite time decays exponentially. */
+static inline REAL FN(resistance_pace)(const FN(resistance) * q, const REAL w[3])
+{
+    const REAL w2 = SUM_2(w[0], w[0], w[1], w[1]), pace = REAL_SQRT(w2 / (w2 + q->usual_2));
+    return REAL_SELECT(REAL_LESS(q->mode, R(0.5)), pace, R(1.0));
+}
+
+static inline REAL FN(resistance_pace_change)(const FN(resistance) * q, const REAL w[3], const REAL dw[3])
+{
+    const REAL w2 = SUM_2(w[0], w[0], w[1], w[1]), whole = w2 + q->usual_2;
+    const REAL by =
+        SUM_2(w[0], dw[0], w[1], dw[1]) * q->usual_2 * REAL_RECIPROCAL_SQRT((w2 + R(1e-290)) * whole) / whole;
+    return REAL_SELECT(REAL_LESS(q->mode, R(0.5)), by, R(0.0));
 }

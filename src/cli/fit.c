@@ -1,0 +1,284 @@
+/* fit.c - festoon fit: the parameters of the model from a table of measured points. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+
+static const option options[] = {
+    SCENE_OPTIONS,
+    JSON_OPTION,
+    {"free", '\0', "KEY,KEY", "the parameters that are sought, such as model.kappa,friction.gamma"},
+    {"given", '\0', "KEY=V+-S",
+     "what is known otherwise, such as \"magnet.depth=16.2+-0.2 mm\" (again for more keys)"},
+    {"output", 'o', "FIG.svg", "draw the points over the model's curves (svg, pdf, png)"},
+    {"compare", '\0', NULL, "fit the other friction law and the other dynamics too, and compare them (AICc)"},
+    {"bootstrap", '\0', "N",
+     "draw the numbers anew N times, and fit each time: errors from the points themselves"},
+    {NULL, '\0', NULL, NULL},
+};
+
+enum { MOST_KEYS = 64 };
+
+/* The words of the options, cut at commas. */
+typedef struct wishes {
+    char text[2048];
+    const char *keys[MOST_KEYS], *given[MOST_KEYS];
+    int key_count, given_count;
+} wishes;
+
+static fst_status read_wishes(const arguments *given, wishes *out, fst_error *error)
+{
+    const char *text = option_value(given, "free");
+    out->key_count = out->given_count = 0;
+    if (!text)
+        return fail(error, FST_BAD_INPUT, "",
+                    "say which parameters are sought: --free model.kappa,friction.gamma");
+    if (strlen(text) >= sizeof out->text)
+        return fail(error, FST_BAD_INPUT, "--free", "this list is too long");
+    (void)snprintf(out->text, sizeof out->text, "%s", text);
+    for (char *word = out->text; word;) {
+        char *comma = strchr(word, ',');
+        if (comma)
+            *comma++ = '\0';
+        word += strspn(word, " ");
+        word[strcspn(word, " ")] = '\0';
+        if (!word[0])
+            return fail(error, FST_BAD_INPUT, "--free",
+                        "\"%.60s\" must be keys separated by commas, as in model.kappa,friction.gamma", text);
+        if (out->key_count == MOST_KEYS)
+            return fail(error, FST_BAD_INPUT, "--free", "there are more than %d keys", MOST_KEYS);
+        out->keys[out->key_count++] = word;
+        word = comma;
+    }
+    for (int i = 0; i < given->option_count; ++i)
+        if (strcmp(given->options[i].row->name, "given") == 0) {
+            if (out->given_count == MOST_KEYS)
+                return fail(error, FST_BAD_INPUT, "--given", "there are more than %d keys", MOST_KEYS);
+            out->given[out->given_count++] = given->options[i].value;
+        }
+    return FST_OK;
+}
+
+static fst_status read_count(const arguments *given, int *count, fst_error *error)
+{
+    const char *text = option_value(given, "bootstrap");
+    double number = 0.0;
+    *count = 0;
+    if (!text)
+        return FST_OK;
+    const fst_status status = read_numbers("--bootstrap", text, &number, 1, error);
+    if (status != FST_OK)
+        return status;
+    if (!(number >= 10 && number <= 100000) || number != floor(number))
+        return fail(error, FST_BAD_INPUT, "--bootstrap", "\"%.40s\" must be a whole number from 10 to 100000",
+                    text);
+    *count = (int)number;
+    return FST_OK;
+}
+
+/* ------------------------------------------------------------------ the report */
+
+/* A value with its error in the unit that people use. */
+static void print_value(FILE *out, double value, double error, fst_unit unit)
+{
+    const double factor = unit == FST_UNIT_LENGTH ? 1e3 : unit == FST_UNIT_MASS ? 1e3 : 1.0;
+    const char *name = unit == FST_UNIT_LENGTH ? "mm" : unit == FST_UNIT_MASS ? "g" : fst_unit_name(unit);
+    const int digits = isfinite(error) && error > 0 ? (int)fmax(0.0, 1.0 - floor(log10(factor * error))) : 6;
+    (void)fprintf(out, "%.*f", digits < 12 ? digits : 12, factor * value);
+    if (isfinite(error))
+        (void)fprintf(out, " +- %.*f", digits < 12 ? digits : 12, factor * error);
+    if (strcmp(name, "1") != 0)
+        (void)fprintf(out, " %s", name);
+    if (isfinite(error) && value != 0.0)
+        (void)fprintf(out, "  (%.2g %%)", 100.0 * fabs(error / value));
+}
+
+static void print_end(FILE *out, double value, fst_unit unit)
+{
+    const double factor = unit == FST_UNIT_LENGTH || unit == FST_UNIT_MASS ? 1e3 : 1.0;
+    if (isfinite(value))
+        (void)fprintf(out, "%.5g", factor * value);
+    else
+        (void)fprintf(out, "not found");
+}
+
+static void print_parameters(FILE *out, const fst_fit *fit)
+{
+    for (int i = 0; i < fit->count; ++i) {
+        const fst_fit_parameter *p = &fit->parameters[i];
+        (void)fprintf(out, "  %-22s ", p->key);
+        print_value(out, p->value, p->error, p->unit);
+        (void)fprintf(out, "\n  %-22s   68 %% interval from ", "");
+        print_end(out, p->interval[0], p->unit);
+        (void)fprintf(out, " to ");
+        print_end(out, p->interval[1], p->unit);
+        if (isfinite(p->bootstrap_error))
+            (void)fprintf(out, "; bootstrap +- %.3g",
+                          p->bootstrap_error * (p->unit == FST_UNIT_LENGTH ? 1e3 : 1.0));
+        if (isfinite(p->prior[0]))
+            (void)fprintf(out, "; given");
+        (void)fprintf(out, "\n");
+    }
+    (void)fprintf(out, "  %-22s ", "kappa gamma^2");
+    const double relative = fit->kappa_gamma2_error / fit->kappa_gamma2;
+    (void)fprintf(out, "%.6g +- %.2g 1/s^2  (%.2g %%)\n", fit->kappa_gamma2, fit->kappa_gamma2_error,
+                  100.0 * relative);
+}
+
+static void print_correlation(FILE *out, const fst_fit *fit)
+{
+    if (fit->count < 2)
+        return;
+    (void)fprintf(out, "\ncorrelation\n");
+    for (int i = 0; i < fit->count; ++i) {
+        (void)fprintf(out, "  %-22s", fit->parameters[i].key);
+        for (int j = 0; j <= i; ++j)
+            (void)fprintf(out, " %6.3f", fit->correlation[i][j]);
+        (void)fprintf(out, "\n");
+    }
+}
+
+static void print_outliers(FILE *out, const fst_fit *fit)
+{
+    if (fit->outlier_count)
+        (void)fprintf(out, "\nleft out as outliers\n");
+    for (size_t i = 0; i < fit->outlier_count; ++i) {
+        const fst_fit_outlier *o = &fit->outliers[i];
+        const int is_length = fst_measured_unit(o->what) == FST_UNIT_LENGTH;
+        const double factor = is_length ? 1e3 : 1.0;
+        (void)fprintf(
+            out,
+            "  line %d, column %d (%s): %.6g %s, where %.6g were to be expected: %.1f standard deviations\n",
+            o->line, o->column, fst_measured_name(o->what), factor * o->value, is_length ? "mm" : "Hz",
+            factor * o->expected, fabs(o->deviation));
+    }
+}
+
+static void print_choice(FILE *out, const char *key, int index)
+{
+    const char *names = fst_param_at(fst_param_find(key))->names;
+    for (; index > 0 && *names; --index) {
+        names += strcspn(names, "|");
+        names += *names == '|';
+    }
+    (void)fprintf(out, "  %-12.*s", (int)strcspn(names, "|"), names);
+}
+
+static void print_rivals(FILE *out, const fst_fit *fit)
+{
+    double least = INFINITY;
+    for (int i = 0; i < fit->rival_count; ++i)
+        if (fit->rivals[i].fitted)
+            least = fmin(least, fit->rivals[i].aicc);
+    if (fit->rival_count)
+        (void)fprintf(out, "\n  %-12s  %-12s%12s %12s  (AICc above the best; 10 and more is decisive)\n",
+                      "friction", "dynamics", "chi^2", "AICc");
+    for (int i = 0; i < fit->rival_count; ++i) {
+        const fst_fit_rival *r = &fit->rivals[i];
+        print_choice(out, "friction.law", r->law);
+        print_choice(out, "model.dynamics", r->dynamics);
+        if (r->fitted)
+            (void)fprintf(out, "%12.5g %12.5g\n", r->chi2, r->aicc - least);
+        else
+            (void)fprintf(out, "%12s\n", "no such fit");
+    }
+}
+
+static void print_fit(FILE *out, const fst_fit *fit)
+{
+    (void)fprintf(out, "%d numbers, chi^2 = %.5g with %d degrees of freedom\n\n", fit->points, fit->chi2,
+                  fit->dof);
+    print_parameters(out, fit);
+    print_correlation(out, fit);
+    print_outliers(out, fit);
+    print_rivals(out, fit);
+    (void)fprintf(out, "\n%s\n", fit->weakest);
+    for (const char *at = fit->remarks; *at;) {
+        const size_t length = strcspn(at, "\n");
+        (void)fprintf(out, "note: %.*s\n", (int)length, at);
+        at += length + (at[length] == '\n');
+    }
+}
+
+/* ------------------------------------------------------------------ doing it */
+
+static fst_status fit_table(const arguments *given, const char *table, const fst_params *params, FILE *out,
+                            fst_error *error)
+{
+    static wishes wanted;
+    fst_points points;
+    fst_fit fit;
+    fst_fit_options how = fst_default_fit_options();
+    const char *figure = option_value(given, "output");
+    fst_status status = read_wishes(given, &wanted, error);
+    if (status == FST_OK)
+        status = read_count(given, &how.bootstrap, error);
+    if (status == FST_OK)
+        status = fst_points_read(table, &points, error);
+    if (status != FST_OK)
+        return status;
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    how.free = wanted.keys;
+    how.free_count = wanted.key_count;
+    how.given = wanted.given;
+    how.given_count = wanted.given_count;
+    how.rivals = option_value(given, "compare") != NULL;
+    how.curve_points = figure ? 81 : 0;
+    how.progress = &progress;
+    progress_begin(&line);
+    status = fst_fit_points(params, &points, &how, &fit, error);
+    progress_end(&line);
+    if (status == FST_OK && figure)
+        status = fst_figure_fit(&points, &fit, figure, error);
+    if (status == FST_OK && figure)
+        tell_written(figure, "");
+    if (status == FST_OK && option_value(given, "json"))
+        status = print_and_free(fst_fit_json(params, &fit), out, error);
+    else if (status == FST_OK)
+        print_fit(out, &fit);
+    fst_fit_free(&fit);
+    fst_points_free(&points);
+    return status;
+}
+
+static int is_scene(const char *path)
+{
+    const char *ending = strrchr(path, '.');
+    return ending && (strcmp(ending, ".yaml") == 0 || strcmp(ending, ".yml") == 0);
+}
+
+static fst_status perform(const arguments *given, FILE *out, fst_error *error)
+{
+    const char *table = NULL, *scene = NULL;
+    fst_params params;
+    for (int i = 0; i < given->operand_count; ++i) {
+        const char **place = is_scene(given->operands[i]) ? &scene : &table;
+        if (*place)
+            return fail(error, FST_BAD_INPUT, given->operands[i], "there is a %s already",
+                        place == &scene ? "scene" : "table");
+        *place = given->operands[i];
+    }
+    if (!table)
+        return fail(error, FST_BAD_INPUT, "",
+                    "a table of points is missing: festoon measure A B ... -o POINTS.csv makes one");
+    const fst_status status = read_scene(given, scene, &params, error);
+    return status == FST_OK ? fit_table(given, table, &params, out, error) : status;
+}
+
+const command fit_command = {
+    .name = "fit",
+    .synopsis = "DATA.csv [SCENE.yaml] --free KEY,KEY [--given KEY=V+-S]... [options]",
+    .summary = "Find parameters of the model from measured points, with their errors",
+    .details = "The table has a line of column names with units, in any order,\n"
+               "  frequency [Hz],mean_r [mm],mean_r_error [mm],std_r [mm],std_r_error [mm],\n"
+               "  bead_frequency [Hz],bead_frequency_error [Hz]\n"
+               "and optionally frequency_error [Hz]; cells may be empty.  docs/fit.md explains the methods and "
+               "what the\n"
+               "report says.\n",
+    .options = options,
+    .most_operands = 2,
+    .has_helpers = 1,
+    .perform = perform,
+};

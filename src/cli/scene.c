@@ -1,0 +1,69 @@
+/* scene.c - the scene of a command: a file or standard input, and what --set changes in it. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/command.h"
+#include "cli/terminal.h"
+
+/* Apply KEY=VALUE; blanks about the key are removed. */
+static fst_status apply_set(const char *text, fst_params *params, fst_error *error)
+{
+    char key[96];
+    size_t length = strcspn(text, "=");
+    if (text[length] != '=')
+        return fail(error, FST_BAD_INPUT, "--set", "\"%.60s\" must be KEY=VALUE, as in drive.frequency=10.7Hz",
+                    text);
+    size_t start = strspn(text, " \t");
+    while (length > start && (text[length - 1] == ' ' || text[length - 1] == '\t'))
+        --length;
+    (void)snprintf(key, sizeof key, "%.*s", start < length ? (int)(length - start) : 0, text + start);
+    fst_status status = fst_params_set(params, key, strchr(text, '=') + 1, error);
+    if (status != FST_OK)
+        (void)snprintf(error->where, sizeof error->where, "--set");
+    return status;
+}
+
+/* Read the scene that another program writes: festoon init - | festoon run -. */
+static fst_status read_scene_from_input(fst_params *params, fst_error *error)
+{
+    static const char name[] = "standard input";
+    char *text = malloc(FST_SCENE_SIZE_LIMIT + 1);
+    size_t size;
+    if (!text)
+        return fail(error, FST_NO_MEMORY, name, "out of memory");
+    fst_status status = FST_OK;
+    const int reason = read_standard_input(text, FST_SCENE_SIZE_LIMIT + 1, &size);
+    if (interrupted())
+        status = fail(error, FST_INTERRUPTED, name, "interrupted while reading the scene");
+    else if (reason)
+        status = fail(error, FST_IO, name, "reading the scene failed: %s", strerror(reason));
+    else if (size == 0) /* the program before the pipe failed, and said why */
+        status = fail(error, FST_BAD_INPUT, name, "it is empty: expected a scene");
+    else
+        status = fst_scene_parse(text, size, name, params, error);
+    free(text);
+    return status;
+}
+
+fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error)
+{
+    *params = fst_default_params();
+    if (path) {
+        fst_status status =
+            strcmp(path, "-") == 0 ? read_scene_from_input(params, error) : fst_scene_read(path, params, error);
+        if (status != FST_OK)
+            return status;
+    }
+    for (int i = 0; i < given->option_count; ++i) {
+        if (strcmp(given->options[i].row->name, "set") != 0)
+            continue;
+        fst_status status = apply_set(given->options[i].value, params, error);
+        if (status != FST_OK)
+            return status;
+    }
+    params->run_discard = fst_run_discard(params); /* what is printed is what is done */
+    const fst_status status = fst_params_check_effects(params, error);
+    if (status != FST_OK)
+        (void)snprintf(error->where, sizeof error->where, "%s", path ? path : "");
+    return status;
+}

@@ -1,0 +1,103 @@
+/* clean.c - places at which the bead cannot have been.
+ *
+ * Before anything is known of the motion: a bead does not jump to and fro from frame to frame.  Once it is
+ * known: a place far from the model of the motion, and far from what its neighbours deviate, is one of
+ * something else.
+ */
+#include "track/work.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static int ascending(const void *a, const void *b)
+{
+    const double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+static double median(double *values, size_t count)
+{
+    qsort(values, count, sizeof *values, ascending);
+    return count > 0 ? values[count / 2] : 0.0;
+}
+
+/* How far a place lies from the line between the seen places before and behind it. */
+static double bulge(const track_work *work, size_t i)
+{
+    const double span = work->t[i + 1] - work->t[i - 1], part = (work->t[i] - work->t[i - 1]) / span;
+    const double dx = work->x[i] - work->x[i - 1] - part * (work->x[i + 1] - work->x[i - 1]);
+    const double dy = work->y[i] - work->y[i - 1] - part * (work->y[i + 1] - work->y[i - 1]);
+    /* The path bends: over a longer span it bulges by the square of it. */
+    const double frames = fmax(1.0, 0.5 * span * work->fps);
+    return sqrt(dx * dx + dy * dy) / (frames * frames);
+}
+
+/* Mark places far outside of all others: beyond three times the median distance from the median place. */
+static void reject_outside(fst_track *track, const track_work *work, double *sorted)
+{
+    double middle[2];
+    const double *const places[2] = {work->x, work->y};
+    for (int k = 0; k < 2; ++k) {
+        memcpy(sorted, places[k], work->count * sizeof *sorted);
+        middle[k] = median(sorted, work->count);
+    }
+    for (size_t i = 0; i < work->count; ++i)
+        sorted[i] = hypot(work->x[i] - middle[0], work->y[i] - middle[1]);
+    const double limit = 3.0 * median(sorted, work->count);
+    for (size_t i = 0; i < work->count; ++i)
+        if (hypot(work->x[i] - middle[0], work->y[i] - middle[1]) > limit)
+            track->flag[work->row[i]] = FST_FRAME_REJECTED;
+}
+
+size_t track_reject_jumps(fst_track *track, const track_work *work)
+{
+    size_t rejected = 0;
+    if (work->count < 8)
+        return 0;
+    double *bulges = malloc(2 * work->count * sizeof *bulges);
+    if (!bulges)
+        return 0; /* the model finds them too, only later */
+    double *sorted = bulges + work->count;
+    reject_outside(track, work, sorted);
+    for (size_t i = 1; i + 1 < work->count; ++i)
+        sorted[i - 1] = bulges[i] = bulge(work, i);
+    bulges[0] = bulges[work->count - 1] = 0.0;
+    const double limit = 8.0 * median(sorted, work->count - 2);
+    /* A wild place makes its neighbours bulge by half of what it does itself: take the worst of each three. */
+    for (size_t i = 1; i + 1 < work->count; ++i)
+        if (bulges[i] > limit && bulges[i] >= bulges[i - 1] && bulges[i] >= bulges[i + 1])
+            track->flag[work->row[i]] = FST_FRAME_REJECTED;
+    for (size_t i = 0; i < work->count; ++i)
+        rejected += track->flag[work->row[i]] == FST_FRAME_REJECTED;
+    free(bulges);
+    return rejected;
+}
+
+size_t track_reject_far(fst_track *track, const track_work *work)
+{
+    size_t rejected = 0;
+    double *off = malloc(2 * work->count * sizeof *off);
+    if (!off)
+        return 0;
+    double *sorted = off + work->count;
+    for (size_t i = 0; i < work->count; ++i) {
+        const double along = work->r[i] * work->a_off[i];
+        off[i] = sqrt(work->r_off[i] * work->r_off[i] + along * along);
+        sorted[i] = off[i];
+    }
+    const double usual = median(sorted, work->count);
+    for (size_t i = 0; i < work->count; ++i) {
+        /* The median of five neighbours: of a motion that the model lacks they deviate as much. */
+        double near[5];
+        size_t n = 0;
+        for (size_t k = i > 1 ? i - 2 : 0; k <= i + 2 && k < work->count; ++k)
+            near[n++] = off[k];
+        const double neighbours = median(near, n);
+        if (off[i] > 6.0 * usual && off[i] > 4.0 * neighbours) {
+            track->flag[work->row[i]] = FST_FRAME_REJECTED;
+            ++rejected;
+        }
+    }
+    free(off);
+    return rejected;
+}

@@ -1,0 +1,274 @@
+/* drive.c - what the oscillation of r tells of the drive, of the symmetry, and of the clock.
+ *
+ * In the frame of the magnet the bead goes round with f0 = f_drive - f_bead, f_bead being negative against the
+ * magnet. r repeats with f0 (a = 1), or with 2 f0 where the path has the symmetry S2 (a = 2): the film shows
+ * f_r = a f0 and f_bead, and so the drive.  Where the drive is known there is one condition more than unknowns,
+ * and it checks the clock: if times ran slower by a factor s, both rates are too small by s, the drive is not.
+ *
+ *   f_r = a (f_drive - f_bead)   true rates        s f_r = a (f_drive - s f_bead)   a clock that is slow by s
+ *
+ * A film shows rates beyond half its frame rate at another place (folded): they are sought there.
+ */
+#include "track/work.h"
+
+#include <stdarg.h>
+
+#include "base/constants.h"
+
+/* How far the given drive may be from that of the track: people type three digits. */
+#define OF_DRIVE 0.007
+/* Patterns with less festoons than this have a = 1, with more a = 2: the model's end at 6 and begin at 12, the
+ * paper's Table 1 has the same gap. */
+#define MANY_FESTOONS 9.0
+#define LEAST_FESTOONS 2.6 /* fewer are none: the line is a folded one, or no festoon */
+
+void track_warn(fst_measurement *measured, const char *format, ...)
+{
+    if (measured->warning_count == FST_WARNING_LIMIT)
+        return;
+    va_list values;
+    va_start(values, format);
+    (void)vsnprintf(measured->warnings[measured->warning_count++], FST_WARNING_SIZE, format, values);
+    va_end(values);
+}
+
+/* ---------------------------------------------------------------- does the clock agree? */
+
+typedef struct match {
+    int lines;     /* the strongest line of r is at so many times f0 */
+    int relative;  /* sense of the bead against the magnet */
+    double miss;   /* how far that is, over how far it may be */
+    double radial; /* the frequency of that line, unfolded */
+} match;
+
+/* The line of r nearest to where the drive puts it, with the bead's sense as filmed, or else reversed. */
+static match best_match(const track_work *work, double drive, int filmed)
+{
+    match best = {0, filmed, INFINITY, 0.0};
+    for (int turn = 0; turn < 2 && !(best.miss < 1.0); ++turn)
+        for (int lines = 1; lines <= 2; ++lines) {
+            const int relative = turn == 0 ? filmed : -filmed;
+            const double expected = lines * fabs(drive - relative * fabs(work->bead));
+            /* A sense that contradicts the film needs better evidence than a folded line. */
+            if (turn > 0 && expected > 0.5 * work->fps)
+                continue;
+            const double miss = fabs(track_folded(expected, work->fps) - work->peak) /
+                                (OF_DRIVE * lines * drive + 0.3 / track_duration(work));
+            if (miss < best.miss) {
+                const double turns = work->fps * round(expected / work->fps);
+                const double one = turns + work->peak, other = turns - work->peak;
+                best = (match){lines, relative, miss,
+                               fabs(one - expected) < fabs(other - expected) ? one : fabs(other)};
+            }
+        }
+    return best;
+}
+
+/* ---------------------------------------------------------------- which clock would agree? */
+
+/* The frame rate of cameras nearest to `fps`, or 0 where none is near. */
+static double usual_rate(double fps)
+{
+    static const double rates[] = {15,  23.976, 24,  25,     29.97, 30,   48,   50,   59.94,
+                                   60,  90,     100, 119.88, 120,   150,  180,  200,  239.76,
+                                   240, 250,    300, 400,    420,   480,  500,  600,  720,
+                                   800, 900,    960, 1000,   1200,  1500, 1920, 2000, 2400};
+    double nearest = 0.0;
+    for (size_t i = 0; i < sizeof rates / sizeof *rates; ++i)
+        if (fabs(fps / rates[i] - 1.0) < fmin(0.012, fabs(fps / nearest - 1.0)))
+            nearest = rates[i];
+    return nearest;
+}
+
+/* The factor by which the clock is slow, if the strongest line is at `lines` f0 and the bead has this sense. */
+static double slowness(const track_work *work, double drive, int lines, int relative)
+{
+    return lines * drive / (work->peak + lines * relative * fabs(work->bead));
+}
+
+/* The line that is strongest by the number of festoons alone. */
+static int likely_lines(const track_work *work)
+{
+    return work->half || work->peak > MANY_FESTOONS * fabs(work->bead) ? 2 : 1;
+}
+
+/* Make time run by this factor faster. */
+static void correct_clock(track_work *work, double factor)
+{
+    fst_track *track = work->track;
+    const double fps = work->fps * factor;
+    for (size_t i = 0; i < track->rows; ++i)
+        track->t[i] =
+            isfinite(track->fps) ? track->t[i] / factor : (double)(track->frame[i] - track->frame[0]) / fps;
+    for (size_t i = 0; i < work->count; ++i)
+        work->t[i] /= factor;
+    work->fps = fps;
+    work->bead *= factor;
+    work->peak *= factor;
+    work->f0 *= factor;
+    track->fps = fps;
+}
+
+/* Look for a clock under which drive and track agree.  Returns 1 where one was found and set. */
+static int find_clock(track_work *work, double drive, int filmed, track_drive *found, fst_measurement *measured)
+{
+    const int timed = isfinite(work->track->fps), likely = likely_lines(work);
+    double stayed = NAN;
+    for (int try = 0; try < 3; ++try) {
+        const int lines = try == 1 ? 3 - likely : likely, locked = try == 2;
+        if (locked ? filmed < 0 : !(work->peak > 0))
+            continue;
+        const double factor = locked ? drive / fabs(work->bead) : slowness(work, drive, lines, filmed);
+        if (!(factor > 0))
+            continue;
+        if (try == 0)
+            stayed = work->fps * factor;
+        const double usual = timed ? usual_rate(work->fps * factor) : work->fps * factor;
+        if (usual == 0.0 || (timed && fabs(usual / work->fps - 1.0) < 0.01))
+            continue;
+        const double before = work->fps;
+        correct_clock(work, usual / work->fps);
+        found->motion = locked ? FST_MOTION_LOCKED : FST_MOTION_TURNING;
+        found->radial = locked ? NAN : work->peak;
+        found->relative = locked ? 1 : filmed;
+        found->symmetry = lines == 2 && !work->half ? 2 : 1;
+        work->f0 = locked ? work->f0 : work->peak / lines;
+        /* The corrected clock may say that the line is a folded one after all, just beyond half the frame rate.
+         */
+        const match m = locked ? (match){0, filmed, INFINITY, 0.0} : best_match(work, drive, filmed);
+        if (m.miss < 1.0) {
+            found->radial = m.radial;
+            work->f0 = m.radial / m.lines;
+            found->symmetry = m.lines;
+        }
+        if (timed)
+            track_warn(
+                measured,
+                "the clock is wrong: with a drive of %.6g Hz the festoons ask for %.6g frames a second, not "
+                "for "
+                "the file's %.6g (%.4g frames a second stored as %.4g?); all rates are those of the corrected "
+                "clock",
+                drive, usual, before, usual, before);
+        else
+            track_warn(measured,
+                       "the file has no clock: the frame rate, %.6g frames a second, follows from the drive",
+                       usual);
+        return 1;
+    }
+    if (isfinite(stayed) && timed)
+        track_warn(measured,
+                   "the frame rate or the drive is wrong: r oscillates at %.5g Hz while the bead turns at %.5g "
+                   "Hz, which "
+                   "a drive of %.5g Hz does not make; %.5g frames a second would agree, but cameras have no "
+                   "such rate, "
+                   "so the file's %.5g were kept",
+                   work->peak, fabs(work->bead), drive, stayed, work->fps);
+    return 0;
+}
+
+/* ---------------------------------------------------------------- cases */
+
+/* Without a drive, or with one that agrees with nothing: what a bead that circles clockwise against a magnet
+ * that turns counter-clockwise tells by itself. */
+static void by_itself(track_work *work, int filmed, track_drive *found, fst_measurement *measured)
+{
+    const double bead = fabs(work->bead);
+    *found = (track_drive){FST_MOTION_UNKNOWN, 0, filmed, work->peak > 0 ? work->peak : NAN};
+    if (work->peak == 0.0) {
+        track_warn(measured, "r does not oscillate beyond the noise: how the magnet turns cannot be told");
+    } else if (filmed > 0) {
+        track_warn(
+            measured,
+            "the bead goes round counter-clockwise, as the magnet is taken to do: it may be locked or "
+            "librating, "
+            "or the film is mirrored, or the magnet turns clockwise (then the drive is about %.4g Hz: give it "
+            "as %.4g Hz); the drive must be given to tell",
+            work->peak / likely_lines(work) - bead, bead - work->peak / likely_lines(work));
+    } else if (work->peak < LEAST_FESTOONS * bead) {
+        track_warn(measured,
+                   "r oscillates at %.4g Hz in this film, too slowly for festoons at %.4g turns a second: the "
+                   "frame rate "
+                   "is too low to show them (alias); film at 120 or 240 frames a second, or give the drive",
+                   work->peak, bead);
+    } else {
+        const int lines = likely_lines(work);
+        found->motion = FST_MOTION_TURNING;
+        found->symmetry = lines == 2 && !work->half ? 2 : 1;
+        work->f0 = work->peak / lines;
+        if (work->half)
+            found->radial = work->f0;
+    }
+}
+
+/* The drive is given, and so is a clock: compare. */
+static int by_drive(track_work *work, double drive, int filmed, track_drive *found, fst_measurement *measured)
+{
+    const match m = work->peak > 0 ? best_match(work, drive, filmed) : (match){0, filmed, INFINITY, 0.0};
+    const int with_magnet = fabs(fabs(work->bead) - drive) < 0.01 * drive;
+    if (with_magnet && (filmed > 0 || !(m.miss < 1.0))) {
+        *found = (track_drive){FST_MOTION_LOCKED, 0, 1, NAN};
+        if (filmed < 0)
+            track_warn(measured,
+                       "the bead goes round at the magnet's rate, but clockwise: the film is mirrored, or the "
+                       "magnet turns clockwise (then give the drive a minus)");
+        return 1;
+    }
+    if (!(m.miss < 1.0))
+        return 0;
+    *found = (track_drive){FST_MOTION_TURNING, m.lines, m.relative, m.radial};
+    work->f0 = m.radial / m.lines;
+    if (m.relative != filmed)
+        track_warn(
+            measured,
+            "the festoons say that the bead goes round %s the magnet, which contradicts the sense in the film: "
+            "it "
+            "is mirrored, or the drive has the other sign; the bead's frequency has the sign that the festoons "
+            "tell",
+            m.relative < 0 ? "against" : "with");
+    if (m.radial > 0.5 * work->fps)
+        track_warn(measured,
+                   "r oscillates at %.5g Hz, beyond half of %.5g frames a second: the film shows it as %.5g Hz "
+                   "(alias), "
+                   "which the given drive explains",
+                   m.radial, work->fps, work->peak);
+    return 1;
+}
+
+/* Where festoons would stand still in the film, means depend on where they stand. */
+static void warn_of_standing(const track_work *work, double drive, fst_measurement *measured)
+{
+    for (int lines = 1; lines <= 2; ++lines) {
+        const double expected = lines * (drive + fabs(work->bead));
+        if (track_folded(expected, work->fps) < 1.5 / track_duration(work))
+            track_warn(measured,
+                       "%.5g frames a second are in step with festoons at %.5g Hz, which stand still in the "
+                       "film: means "
+                       "of r may be wrong by all of its oscillation; film at another frame rate",
+                       work->fps, expected);
+    }
+}
+
+fst_status track_find_drive(track_work *work, const fst_measure_options *options, track_drive *found,
+                            fst_measurement *measured, fst_error *error)
+{
+    const double drive = fabs(options->drive);
+    const int known = isfinite(drive) && drive > 0, timed = isfinite(work->track->fps);
+    const int filmed = (work->bead > 0 ? 1 : -1) * (options->drive < 0 ? -1 : 1);
+    int agreed = 0;
+    if (known && timed)
+        agreed = by_drive(work, drive, filmed, found, measured);
+    if (known && !agreed)
+        agreed = find_clock(work, drive, filmed, found, measured);
+    if (!agreed)
+        by_itself(work, filmed, found, measured);
+    if (known && timed && work->peak == 0.0)
+        warn_of_standing(work, drive, measured);
+    if (found->motion != FST_MOTION_TURNING)
+        return FST_OK;
+    const fst_status status = track_refine_motion(work, error);
+    if (status == FST_OK && found->symmetry == 2 && track_has_line(work, 1)) {
+        found->symmetry = 1;
+        found->radial = work->f0;
+    }
+    return status;
+}

@@ -1,0 +1,385 @@
+/* geometry.c - centre and tilt of a path, how fast the bead goes round, and the festoons.
+ *
+ * A camera that looks aslant shrinks the plate along one direction, and nobody knows where the axis of the
+ * magnet is in the picture.  Both show in r over alpha: a wrong centre adds cos(alpha) and sin(alpha), a tilt r
+ * cos(2 alpha) and r sin(2 alpha).  The festoons do neither: they oscillate with time, with f_r and its
+ * multiples, whatever alpha is. So one regression tells them apart:
+ *
+ *   r = r0 + sum over k of (a_k cos + b_k sin)(2 pi k f0 t)
+ *          + d_x cos(alpha) + d_y sin(alpha) + r u cos(2 alpha) + r v sin(2 alpha) + (change of f0)
+ *
+ * and Gauss-Newton's method moves centre and tilt until d, u and v vanish.  The ellipse of second moments would
+ * not do: festoons have second moments too.
+ *
+ * r0 is then the mean over time of r itself, whatever frames are lost and wherever the film begins and ends.
+ */
+#include "track/work.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "track/spectrum.h"
+
+enum { LEAST_ROWS = 16, MOST_ROUNDS = 60 };
+
+/* ---------------------------------------------------------------- memory */
+
+fst_status track_work_begin(track_work *work, fst_track *track, fst_error *error)
+{
+    *work = (track_work){.track = track, .stretch = {1.0, 0.0, 1.0}, .gain = 1.0};
+    work->row = malloc((track->rows + 1) * sizeof *work->row);
+    work->t = malloc(7 * (track->rows + 1) * sizeof *work->t);
+    if (!work->row || !work->t) {
+        track_work_free(work);
+        return fst_fail(error, FST_NO_MEMORY, "", "no memory for a track of %zu frames", track->rows);
+    }
+    double **const parts[] = {&work->x, &work->y, &work->r, &work->alpha, &work->r_off, &work->a_off};
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; ++i)
+        *parts[i] = work->t + (i + 1) * (track->rows + 1);
+    work->fps = isfinite(track->fps) ? track->fps : 1.0;
+    track_work_take(work);
+    return FST_OK;
+}
+
+void track_work_free(track_work *work)
+{
+    free(work->row);
+    free(work->t);
+    *work = (track_work){.track = NULL};
+}
+
+void track_work_take(track_work *work)
+{
+    const fst_track *track = work->track;
+    const int timed = isfinite(track->fps);
+    work->count = 0;
+    for (size_t i = 0; i < track->rows; ++i) {
+        if (track->flag[i] != FST_FRAME_SEEN)
+            continue;
+        work->row[work->count] = i;
+        work->t[work->count] = timed ? track->t[i] : (double)(track->frame[i] - track->frame[0]);
+        work->x[work->count] = track->x[i];
+        work->y[work->count] = track->y[i];
+        ++work->count;
+    }
+    const double middle = work->count > 0 ? 0.5 * (work->t[0] + work->t[work->count - 1]) : 0.0;
+    for (size_t i = 0; i < work->count; ++i)
+        work->t[i] -= middle;
+}
+
+double track_duration(const track_work *work)
+{
+    return work->t[work->count - 1] - work->t[0];
+}
+
+/* ---------------------------------------------------------------- the rows of the models */
+
+/* 1, and cosine and sine of the harmonics that are fitted.  Returns the number of columns. */
+static int harmonic_row(const track_work *work, size_t i, double *row)
+{
+    int n = 0;
+    row[n++] = 1.0;
+    for (int k = 1; k <= work->harmonics && work->f0 > 0; ++k) {
+        if (work->skipped[k - 1])
+            continue;
+        const double angle = FST_TWO_PI * k * work->f0 * work->t[i];
+        row[n++] = cos(angle);
+        row[n++] = sin(angle);
+    }
+    return n;
+}
+
+int track_radial_row(const track_work *work, size_t i, double *row)
+{
+    int n = harmonic_row(work, i, row);
+    double slope = 0.0;
+    for (int k = 1, at = 1; k <= work->harmonics && work->f0 > 0; ++k)
+        if (!work->skipped[k - 1]) {
+            slope +=
+                k * (work->radial.coefficient[at + 1] * row[at] - work->radial.coefficient[at] * row[at + 1]);
+            at += 2;
+        }
+    const double c = cos(work->alpha[i]), s = sin(work->alpha[i]);
+    row[n++] = c;
+    row[n++] = s;
+    row[n++] = work->r[i] * (c * c - s * s);
+    row[n++] = work->r[i] * 2 * c * s;
+    row[n++] = FST_TWO_PI * work->t[i] * slope; /* by f0 */
+    return n;
+}
+
+int track_angular_row(const track_work *work, size_t i, double *row)
+{
+    const int n = harmonic_row(work, i, row);
+    row[n] = FST_TWO_PI * work->t[i];
+    return n + 1;
+}
+
+double track_folded(double frequency, double fps)
+{
+    return fabs(frequency - fps * round(frequency / fps));
+}
+
+/* Choose the harmonics: not more than the rows allow, and none that the frame rate maps onto zero or onto
+ * another one.
+ */
+static void choose_harmonics(track_work *work)
+{
+    const double apart = 1.5 / track_duration(work);
+    work->harmonics = TRACK_HARMONICS;
+    while (work->harmonics > 1 && (size_t)(4 * (2 * work->harmonics + 1 + TRACK_GEOMETRY)) > work->count)
+        --work->harmonics;
+    for (int k = 1; k <= work->harmonics; ++k) {
+        const double here = track_folded(k * work->f0, work->fps);
+        work->skipped[k - 1] = here < apart;
+        for (int j = 1; j < k; ++j)
+            work->skipped[k - 1] |= fabs(here - track_folded(j * work->f0, work->fps)) < apart;
+    }
+}
+
+/* ---------------------------------------------------------------- one round */
+
+/* The circle through the places, by least squares of x^2 + y^2 = 2 a x + 2 b y + c (Kasa). */
+static void circle(track_work *work)
+{
+    track_fit fit;
+    double mean[2] = {0, 0};
+    for (size_t i = 0; i < work->count; ++i) {
+        mean[0] += work->x[i] / (double)work->count;
+        mean[1] += work->y[i] / (double)work->count;
+    }
+    track_fit_begin(&fit, 3);
+    for (size_t i = 0; i < work->count; ++i) {
+        const double x = work->x[i] - mean[0], y = work->y[i] - mean[1];
+        const double row[3] = {1.0, 2 * x, 2 * y};
+        track_fit_add(&fit, row, x * x + y * y);
+    }
+    track_fit_solve(&fit);
+    work->centre[0] = mean[0] + fit.coefficient[1];
+    work->centre[1] = mean[1] + fit.coefficient[2];
+}
+
+/* r and alpha of all rows; alpha is unwrapped along the present model of it. */
+static void place_rows(track_work *work)
+{
+    double row[TRACK_MOST_COLUMNS];
+    for (size_t i = 0; i < work->count; ++i) {
+        const double x = work->x[i] - work->centre[0], y = work->y[i] - work->centre[1];
+        const double px = work->stretch[0] * x + work->stretch[1] * y;
+        const double py = work->stretch[1] * x + work->stretch[2] * y;
+        work->r[i] = sqrt(px * px + py * py);
+        const double angle = atan2(py, px);
+        (void)track_angular_row(work, i, row);
+        const double expected = track_fit_value(&work->angular, row);
+        work->alpha[i] = angle + FST_TWO_PI * round((expected - angle) / FST_TWO_PI);
+    }
+}
+
+/* Fit the model of alpha; its slope is the bead's rate. */
+static void fit_angular(track_work *work)
+{
+    double row[TRACK_MOST_COLUMNS];
+    const int columns = track_angular_row(work, 0, row);
+    track_fit_begin(&work->angular, columns);
+    for (size_t i = 0; i < work->count; ++i) {
+        (void)track_angular_row(work, i, row);
+        track_fit_add(&work->angular, row, work->alpha[i]);
+    }
+    track_fit_solve(&work->angular);
+    work->bead = work->angular.coefficient[columns - 1];
+    for (size_t i = 0; i < work->count; ++i) {
+        (void)track_angular_row(work, i, row);
+        work->a_off[i] = work->alpha[i] - track_fit_value(&work->angular, row);
+    }
+}
+
+static void fit_radial(track_work *work)
+{
+    double row[TRACK_MOST_COLUMNS];
+    track_fit fit;
+    track_fit_begin(&fit, track_radial_row(work, 0, row));
+    for (size_t i = 0; i < work->count; ++i) {
+        (void)track_radial_row(work, i, row);
+        track_fit_add(&fit, row, work->r[i]);
+    }
+    track_fit_solve(&fit);
+    for (size_t i = 0; i < work->count; ++i) {
+        (void)track_radial_row(work, i, row);
+        work->r_off[i] = work->r[i] - track_fit_value(&fit, row);
+    }
+    work->radial = fit;
+}
+
+/* Take (I - S) M, S = (u, v; v, -u), as the new matrix; made symmetric by leaving out the rotation that it
+ * holds, and scaled so that the direction that the camera does not shrink keeps its length. */
+static void stretch_by(double m[3], double u, double v)
+{
+    const double a = (1 - u) * m[0] - v * m[1], b = (1 - u) * m[1] - v * m[2];
+    const double c = -v * m[0] + (1 + u) * m[1], d = -v * m[1] + (1 + u) * m[2];
+    const double xx = a * a + c * c, xy = a * b + c * d, yy = b * b + d * d; /* its transpose times itself */
+    const double root = fabs(a * d - b * c), scale = sqrt(xx + yy + 2 * root);
+    const double p = (xx + root) / scale, q = xy / scale, r = (yy + root) / scale; /* the square root of that */
+    const double least = 0.5 * (p + r) - sqrt(0.25 * (p - r) * (p - r) + q * q);
+    m[0] = p / least;
+    m[1] = q / least;
+    m[2] = r / least;
+}
+
+/* Move centre and tilt by what the regression found.  Returns the size of the move, over r. */
+static double move(track_work *work)
+{
+    const int n = work->radial.columns;
+    const double *found = work->radial.coefficient + n - TRACK_GEOMETRY, *m = work->stretch;
+    const double det = m[0] * m[2] - m[1] * m[1], r0 = work->radial.coefficient[0];
+    double dx = found[TRACK_CENTRE_X], dy = found[TRACK_CENTRE_Y];
+    const double far = sqrt(dx * dx + dy * dy) / (0.3 * fabs(r0));
+    if (far > 1.0) { /* too far for a linear step */
+        dx /= far;
+        dy /= far;
+    }
+    work->centre[0] += (m[2] * dx - m[1] * dy) / det;
+    work->centre[1] += (m[0] * dy - m[1] * dx) / det;
+    double u = found[TRACK_TILT_C], v = found[TRACK_TILT_S];
+    const double size = sqrt(u * u + v * v), most = 0.1;
+    if (size > most) {
+        u *= most / size;
+        v *= most / size;
+    }
+    stretch_by(work->stretch, u, v);
+    if (work->f0 > 0)
+        work->f0 += found[TRACK_SLOPE];
+    return fmax(fabs(dx) + fabs(dy), r0 * size) / r0;
+}
+
+int track_has_line(const track_work *work, int k)
+{
+    if (work->skipped[k - 1])
+        return 0;
+    int at = 1;
+    for (int j = 1; j < k; ++j)
+        at += work->skipped[j - 1] ? 0 : 2;
+    double square = 0.0;
+    for (size_t i = 0; i < work->count; ++i)
+        square += work->r_off[i] * work->r_off[i];
+    const double variance = square / (double)(work->count - (size_t)work->radial.columns);
+    const double *c = work->radial.coefficient + at;
+    const double power = c[0] * c[0] + c[1] * c[1];
+    return power > 25.0 * variance * (work->radial.inverse[at][at] + work->radial.inverse[at + 1][at + 1]);
+}
+
+/* ---------------------------------------------------------------- the motion */
+
+/* Start: the centre of the circle, and the strongest line of the places as complex numbers. */
+static fst_status begin_motion(track_work *work, fst_error *error)
+{
+    circle(work);
+    for (size_t i = 0; i < work->count; ++i) {
+        work->r_off[i] = work->x[i] - work->centre[0];
+        work->a_off[i] = work->y[i] - work->centre[1];
+    }
+    const track_series places = {work->t, work->r_off, work->a_off, work->count, work->fps};
+    track_line line;
+    const fst_status status = track_strongest_line(&places, 0.4 / track_duration(work), &line, error);
+    if (status != FST_OK)
+        return status;
+    if (!(line.power > line.limit))
+        return fst_fail(
+            error, FST_NO_CONVERGENCE, "",
+            "the bead does not go round: its places scatter about one point, as those of a resting bead "
+            "do");
+    work->bead = line.frequency;
+    if (fabs(work->bead) * track_duration(work) < 0.9)
+        return fst_fail(
+            error, FST_NO_CONVERGENCE, "",
+            "the bead rests, or makes less than one turn in the film (%.2g turns): film it for at least "
+            "ten turns",
+            fabs(work->bead) * track_duration(work));
+    double re = 0, im = 0;
+    for (size_t i = 0; i < work->count; ++i) {
+        const double angle = FST_TWO_PI * work->bead * work->t[i], c = cos(angle), s = sin(angle);
+        re += work->r_off[i] * c + work->a_off[i] * s;
+        im += work->a_off[i] * c - work->r_off[i] * s;
+    }
+    track_fit_begin(&work->angular, 2);
+    work->angular.coefficient[0] = atan2(im, re);
+    work->angular.coefficient[1] = work->bead;
+    return FST_OK;
+}
+
+/* Rounds until centre and tilt move no more, with the harmonics of work->f0, or without any. */
+static fst_status settle(track_work *work, fst_error *error)
+{
+    work->radial = (track_fit){.columns = 0};
+    if (work->f0 > 0)
+        choose_harmonics(work);
+    double row[TRACK_MOST_COLUMNS];
+    /* The model of alpha so far has other columns: keep its line, drop the rest. */
+    const double phase = work->angular.coefficient[0], rate = work->bead;
+    track_fit_begin(&work->angular, track_angular_row(work, 0, row));
+    work->angular.coefficient[0] = phase;
+    work->angular.coefficient[work->angular.columns - 1] = rate;
+    for (int round = 0; round < MOST_ROUNDS; ++round) {
+        place_rows(work);
+        fit_angular(work);
+        fit_radial(work);
+        const double moved = move(work);
+        const double wide = work->stretch[0] + work->stretch[2];
+        if (!isfinite(moved) || wide > 8.0)
+            return fst_fail(error, FST_NO_CONVERGENCE, "",
+                            "these places lie on no circle, seen straight or aslant: is it one bead that was "
+                            "followed, and does it circle?");
+        if (moved < 1e-9 && round > 2)
+            break;
+    }
+    return FST_OK;
+}
+
+fst_status track_refine_motion(track_work *work, fst_error *error)
+{
+    return settle(work, error);
+}
+
+/* Look for the line of the festoons in what a model without them leaves of r. */
+static fst_status find_peak(track_work *work, fst_error *error)
+{
+    const track_series radii = {work->t, work->r_off, NULL, work->count, work->fps};
+    track_line line;
+    const fst_status status =
+        track_strongest_line(&radii, fmax(0.6 * fabs(work->bead), 2.0 / track_duration(work)), &line, error);
+    work->peak = status == FST_OK && line.power > line.limit ? line.frequency : 0.0;
+    return status;
+}
+
+/* Residuals of r without the festoons, at the centre and tilt that were found with them. */
+static void hide_festoons(track_work *work)
+{
+    const double f0 = work->f0;
+    work->f0 = 0.0;
+    work->radial = (track_fit){.columns = 0};
+    fit_radial(work);
+    work->f0 = f0;
+}
+
+fst_status track_find_motion(track_work *work, fst_error *error)
+{
+    if (work->count < LEAST_ROWS)
+        return fst_fail(error, FST_NO_CONVERGENCE, "", "%zu places of the bead: at least %d are needed",
+                        work->count, LEAST_ROWS);
+    fst_status status = begin_motion(work, error);
+    work->f0 = 0.0;
+    if (status == FST_OK)
+        status = settle(work, error);
+    /* Where the festoons were found, centre and tilt are known better, and show the line better. */
+    for (int again = 0; again < 2 && status == FST_OK; ++again) {
+        if (again > 0)
+            hide_festoons(work);
+        status = find_peak(work, error);
+        work->f0 = 0.5 * work->peak;
+        if (status == FST_OK)
+            status = settle(work, error);
+        work->half = status == FST_OK && work->peak > 0 && track_has_line(work, 1);
+    }
+    return status;
+}

@@ -1,0 +1,190 @@
+/* measure.c - fst_measure_track(): from a track to numbers with errors. */
+#include "track/work.h"
+
+#include <string.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+
+enum { OPTIONS_COOKIE = 0x4d454153 };
+
+static const fst_measured_info rows[] = {
+#define FST_MEASURED(name, unit, doc) {#name, unit, doc, offsetof(fst_measurement, name)},
+#include <festoon/measure.def>
+#undef FST_MEASURED
+};
+
+int fst_measured_count(void)
+{
+    return (int)(sizeof rows / sizeof *rows);
+}
+
+const fst_measured_info *fst_measured_at(int index)
+{
+    return index >= 0 && index < fst_measured_count() ? &rows[index] : NULL;
+}
+
+fst_measure_options fst_default_measure_options(void)
+{
+    return (fst_measure_options){.cookie = OPTIONS_COOKIE, .drive = NAN, .exposure = NAN};
+}
+
+static fst_status check(const fst_measure_options *options, const fst_track *track, fst_error *error)
+{
+    if (options->cookie != OPTIONS_COOKIE)
+        return fst_fail(error, FST_BAD_INPUT, "fst_measure_track",
+                        "the options were not made by fst_default_measure_options()");
+    if (isfinite(options->drive) && options->drive == 0.0)
+        return fst_fail(error, FST_BAD_INPUT, "fst_measure_options.drive",
+                        "a drive of 0 Hz: the magnet must turn");
+    if (isfinite(options->exposure) && !(options->exposure >= 0 && options->exposure < 10))
+        return fst_fail(error, FST_BAD_INPUT, "fst_measure_options.exposure",
+                        "an exposure of %g s: from 0 to the time from frame to frame", options->exposure);
+    if (isfinite(options->exposure) && isfinite(track->fps) && options->exposure * track->fps > 1.0 + 1e-6 &&
+        !isfinite(options->drive))
+        return fst_fail(error, FST_BAD_INPUT, "fst_measure_options.exposure",
+                        "an exposure of %g s is longer than a frame at %g frames a second lasts",
+                        options->exposure, track->fps);
+    return FST_OK;
+}
+
+/* ---------------------------------------------------------------- frames */
+
+static void count_frames(const fst_track *track, fst_measurement *measured)
+{
+    int64_t seen = 0;
+    measured->frames = track->frame[track->rows - 1] - track->frame[0] + 1;
+    for (size_t i = 0; i < track->rows; ++i) {
+        seen += track->flag[i] == FST_FRAME_SEEN;
+        measured->rejected += track->flag[i] == FST_FRAME_REJECTED;
+        measured->repeated += i > 0 && track->flag[i] == FST_FRAME_SEEN && track->x[i] == track->x[i - 1] &&
+                              track->y[i] == track->y[i - 1];
+    }
+    measured->lost = measured->frames - seen;
+}
+
+static void warn_of_frames(fst_measurement *measured)
+{
+    const double frames = (double)measured->frames;
+    if (measured->rejected > 0)
+        track_warn(measured, "%lld places were rejected, because no bead can have been there",
+                   (long long)measured->rejected);
+    if ((double)measured->lost > 0.2 * frames)
+        track_warn(measured,
+                   "%lld of %lld frames are lost: look at the film whether some part of the path is missing",
+                   (long long)measured->lost, (long long)measured->frames);
+    if ((double)measured->repeated > 0.02 * frames)
+        track_warn(
+            measured,
+            "%lld frames repeat the one before exactly: the film was converted to another frame rate, and its "
+            "clock may be wrong",
+            (long long)measured->repeated);
+}
+
+/* ---------------------------------------------------------------- exposure */
+
+static double kept(double frequency, double exposure)
+{
+    const double angle = FST_PI * frequency * exposure;
+    return angle > 1e-9 ? sin(angle) / angle : 1.0;
+}
+
+static void warn_of_exposure(const track_work *work, const track_drive *drive,
+                             const fst_measure_options *options, fst_measurement *measured)
+{
+    if (!(drive->radial > 0) || !isfinite(measured->fps))
+        return;
+    const double whole = 1.0 / work->fps, loss = 1.0 - fmax(0.0, kept(drive->radial, whole));
+    if (isnan(options->exposure) && loss > 0.02)
+        track_warn(measured,
+                   "the exposure is unknown: with one of a whole frame (%.3g ms) std_r would be %.2g %% too "
+                   "small; give "
+                   "it, and film with 1/500 s or less",
+                   1e3 * whole, 100.0 * loss);
+}
+
+/* ---------------------------------------------------------------- the whole */
+
+/* Clean and fit until no more places are rejected. */
+static fst_status find_motion(track_work *work, fst_error *error)
+{
+    /* Beside a wild place another one looks less wild: look again once the first ones are gone. */
+    for (int again = 0; again < 6 && track_reject_jumps(work->track, work) > 0; ++again)
+        track_work_take(work);
+    fst_status status = track_find_motion(work, error);
+    for (int again = 0; again < 4 && status == FST_OK && track_reject_far(work->track, work) > 0; ++again) {
+        track_work_take(work);
+        status = track_find_motion(work, error);
+    }
+    return status;
+}
+
+/* The size of the oscillation of r. */
+static double oscillation(const track_work *work)
+{
+    double square = 0.0;
+    for (int k = 1; k < work->radial.columns - TRACK_GEOMETRY; ++k)
+        square += work->radial.coefficient[k] * work->radial.coefficient[k];
+    return sqrt(square);
+}
+
+static fst_status measure(track_work *work, const fst_measure_options *options, fst_measurement *measured,
+                          fst_error *error)
+{
+    track_drive drive = {FST_MOTION_UNKNOWN, 0, 1, NAN};
+    fst_status status = find_motion(work, error);
+    if (status == FST_OK)
+        status = track_find_drive(work, options, &drive, measured, error);
+    if (status == FST_OK && options->exposure > 0 && isfinite(work->track->fps)) {
+        const double before = oscillation(work);
+        track_sharpen(work, options->exposure, measured);
+        status = track_refine_motion(work, error);
+        work->gain = before > 0 ? fmax(1.0, oscillation(work) / before) : 1.0;
+    }
+    measured->fps = isfinite(work->track->fps) ? work->fps : NAN;
+    measured->motion = drive.motion;
+    measured->symmetry = drive.motion == FST_MOTION_TURNING ? drive.symmetry : 0;
+    if (status == FST_OK)
+        status = track_find_errors(work, &drive, measured, error);
+    if (status == FST_OK)
+        warn_of_exposure(work, &drive, options, measured);
+    return status;
+}
+
+/* Rates of a track without a clock are turns a frame, which is no Hz. */
+static void forget_rates(fst_measurement *measured)
+{
+    measured->bead_frequency_hz = measured->bead_frequency_hz_error = NAN;
+    measured->drive_from_track_hz = measured->drive_from_track_hz_error = NAN;
+    measured->radial_frequency_hz = measured->radial_frequency_hz_error = NAN;
+    track_warn(measured, "the file has no clock: give the frame rate (or the drive, from which it follows)");
+}
+
+fst_status fst_measure_track(fst_track *track, const fst_measure_options *options, fst_measurement *measured,
+                             fst_error *error)
+{
+    track_work work;
+    memset(measured, 0, sizeof *measured);
+    for (int i = 0; i < fst_measured_count(); ++i) {
+        const double unknown = NAN;
+        memcpy((char *)measured + rows[i].offset, &unknown, sizeof unknown);
+    }
+    (void)snprintf(measured->length_unit, sizeof measured->length_unit, "%s", track->length_unit);
+    fst_status status = check(options, track, error);
+    if (status == FST_OK && track->rows < 2)
+        status = fst_fail(error, FST_BAD_INPUT, "", "a track of %zu frames: nothing can be measured of it",
+                          track->rows);
+    if (status == FST_OK)
+        status = track_work_begin(&work, track, error);
+    if (status != FST_OK)
+        return status;
+    status = measure(&work, options, measured, error);
+    if (status == FST_OK) {
+        count_frames(track, measured);
+        warn_of_frames(measured);
+        if (isnan(measured->fps))
+            forget_rates(measured);
+    }
+    track_work_free(&work);
+    return status;
+}

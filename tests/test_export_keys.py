@@ -1,0 +1,81 @@
+"""export --csv --key ... --units ...: chosen columns of a sweep, converted into the units that stand in their names.
+
+Environment: FESTOON is the program, BUILD_DIR the build tree.
+"""
+
+import csv
+import io
+import json
+import os
+import unittest
+
+from sweep_tools import Case, SHORT
+
+KEYS = ["regime", "symmetry", "mean_r", "mean_alpha_dot", "rms_slip", "mean_b", "festoons", "rhs_calls"]
+
+
+class ExportKeys(Case):
+    def sweep(self, *axes, settings=()):
+        path = self.path("a.db")
+        words = [word for axis in axes for word in ("--over", axis)]
+        self.good("sweep", *SHORT, *words, *settings, "-o", path)
+        return path, json.loads(self.good("export", path, "--json"))
+
+    def table(self, *words):
+        rows = list(csv.reader(io.StringIO(self.good("export", *words))))
+        return rows[0], rows[1:]
+
+    def compare(self, rows, known, factors):
+        self.assertEqual(len(rows), len(known))
+        for row, point in zip(rows, known):
+            for key, text in zip(KEYS, row[-len(KEYS):]):
+                value = point[key]
+                if value is None:
+                    self.assertEqual(text, "")
+                elif isinstance(value, str):
+                    self.assertEqual(text, value)
+                else:
+                    expected = value * factors.get(key, lambda at: 1.0)(point)
+                    self.assertLess(abs(float(text) - expected), 1e-14 * abs(expected) + 1e-300, (key, text))
+
+    def test_units_of_the_laboratory(self):
+        """By the definitions of the scaled units, at each point: friction.gamma is varied."""
+        path, known = self.sweep("friction.gamma=250,312.5", "magnet.depth=9mm,16.2mm", "drive.frequency=9Hz,19Hz")
+        head, rows = self.table(path, "--csv", "--key", ",".join(KEYS), "--units", "lab")
+        self.assertEqual(head, ["friction.gamma [1/s]", "magnet.depth [mm]", "drive.frequency [Hz]", "regime", "symmetry",
+                                "mean_r [mm]", "mean_alpha_dot [1/s]", "rms_slip [mm/s]", "mean_b [B0]", "festoons", "rhs_calls"])
+        self.assertEqual([row[:3] for row in rows[:3]], [["250", "9", "9"], ["250", "9", "19"], ["250", "16.2", "9"]])
+        gamma = lambda point: point["friction.gamma"]
+        self.compare(rows, known, {"mean_r": lambda point: 23.0, "mean_alpha_dot": gamma, "rms_slip": lambda at: 23.0 * gamma(at)})
+
+    def test_scaled_and_si(self):
+        path, known = self.sweep("magnet.half_length=20mm,23mm", "model.dynamics=rigid,farago2020")
+        head, rows = self.table(path, "--csv", "--key", ",".join(KEYS), "--units", "scaled")
+        self.assertEqual(head[:2] + head[4:6], ["magnet.half_length [m]", "model.dynamics", "mean_r [l]", "mean_alpha_dot [gamma]"])
+        self.assertEqual(rows[1][:2], ["0.02", "farago2020"])
+        self.compare(rows, known, {})
+        self.assertEqual(self.table(path, "--csv", "--key", ",".join(KEYS)), (head, rows))
+        head, rows = self.table(path, "--csv", "--key", ",".join(KEYS), "--units", "si")
+        self.assertEqual(head[4], "mean_r [m]")
+        length = lambda point: point["magnet.half_length"]
+        self.compare(rows, known, {"mean_r": length, "mean_alpha_dot": lambda at: 312.5, "rms_slip": lambda at: 312.5 * length(at)})
+
+    def test_the_usual_keys_into_a_file(self):
+        path, _ = self.sweep("drive.frequency=9Hz:12Hz:4")
+        self.good("export", path, "--csv", "--units", "lab", "-o", self.path("t.csv"))
+        with open(self.path("t.csv"), encoding="utf-8") as file:
+            self.assertEqual(file.readline(), "drive.frequency [Hz],regime,mean_r [mm],std_r [mm],mean_alpha_dot [1/s]\n")
+            self.assertEqual(len(file.readlines()), 4)
+
+    def test_bad_words(self):
+        path, _ = self.sweep("drive.frequency=9Hz,10Hz")
+        out = self.path("t.csv")
+        self.assertIn("nearest is mean_r", self.refused("export", path, "--csv", "--key", "mean_rr", "-o", out))
+        self.assertIn("a name is missing", self.refused("export", path, "--csv", "--key", "mean_r,,std_r", "-o", out))
+        self.assertIn("nearest is lab", self.refused("export", path, "--csv", "--units", "labs", "-o", out))
+        self.assertIn("belong to --csv", self.refused("export", path, "--json", "--units", "lab", "-o", out))
+        self.assertEqual(os.listdir(self.directory), ["a.db"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,122 @@
+/* The coverage of the errors of a fit: of a hundred tables with known noise about 68 must give each parameter
+ * within one standard deviation, and about 68 within the profile's interval.  A wild number in each changes
+ * nothing of it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#include "fit_tables.h"
+
+enum { FITS = 100, ROWS = 8 };
+
+static const char *const keys[] = {"model.kappa", "friction.gamma"};
+
+/* How often the truth lay within one standard deviation, two, and the interval; for kappa, gamma, kappa
+ * gamma^2. */
+typedef struct coverage {
+    int one[3], two[3], interval[2], outliers, named;
+    double chi2;
+} coverage;
+
+static void count(coverage *c, const fst_fit *fit, const double *truth)
+{
+    const double value[] = {fit->parameters[0].value, fit->parameters[1].value, fit->kappa_gamma2};
+    const double error[] = {fit->parameters[0].error, fit->parameters[1].error, fit->kappa_gamma2_error};
+    for (int i = 0; i < 3; ++i) {
+        c->one[i] += fabs(value[i] - truth[i]) < error[i];
+        c->two[i] += fabs(value[i] - truth[i]) < 2.0 * error[i];
+    }
+    for (int i = 0; i < 2; ++i)
+        c->interval[i] +=
+            fit->parameters[i].interval[0] < truth[i] && truth[i] < fit->parameters[i].interval[1];
+    c->outliers += (int)fit->outlier_count;
+    c->chi2 += fit->chi2 / fit->dof;
+}
+
+static coverage fit_many(const fst_params *truth_params, int wild)
+{
+    const fst_params start = fst_default_params();
+    const double strength = truth_params->model_kappa * pow(truth_params->friction_gamma, 2.0);
+    const double truth[] = {truth_params->model_kappa, truth_params->friction_gamma, strength};
+    coverage c = {0};
+    uint64_t seed = 7;
+    fst_points exact, noisy;
+    assert_true(fit_table(truth_params, 10.5, 19.5, ROWS, &exact));
+    noisy = exact;
+    noisy.rows = calloc(ROWS, sizeof *noisy.rows);
+    fst_fit_options options = fst_default_fit_options();
+    options.free = keys;
+    options.free_count = 2;
+    for (int i = 0; i < FITS; ++i) {
+        fst_fit fit;
+        fst_error error;
+        memcpy(noisy.rows, exact.rows, ROWS * sizeof *exact.rows);
+        fit_add_noise(&noisy, &seed);
+        const int row = i % ROWS, what = i % FST_MEASURED_COUNT;
+        if (wild)
+            noisy.rows[row].value[what] += (i % 2 ? 20.0 : -20.0) * noisy.rows[row].error[what];
+        if (fst_fit_points(&start, &noisy, &options, &fit, &error) != FST_OK)
+            fail_msg("fit %d: %s: %s", i, error.where, error.sentence);
+        count(&c, &fit, truth);
+        for (size_t k = 0; k < fit.outlier_count; ++k)
+            c.named += fit.outliers[k].line == row + 2 && (int)fit.outliers[k].what == what;
+        fst_fit_free(&fit);
+    }
+    free(noisy.rows);
+    free(exact.rows);
+    (void)printf(
+        "within one: %d %d %d, two: %d %d %d, interval: %d %d, outliers %d (wild ones %d), chi^2/dof %.3f\n",
+        c.one[0], c.one[1], c.one[2], c.two[0], c.two[1], c.two[2], c.interval[0], c.interval[1], c.outliers,
+        c.named, c.chi2 / FITS);
+    return c;
+}
+
+/* Of 100 draws of 68.3 %, 54 to 82 come in 998 cases of 1000; of 95.4 %, at least 88. */
+static void check(const coverage *c)
+{
+    for (int i = 0; i < 3; ++i) {
+        assert_in_range(c->one[i], 54, 82);
+        assert_in_range(c->two[i], 88, 100);
+    }
+    for (int i = 0; i < 2; ++i)
+        assert_in_range(c->interval[i], 54, 82);
+}
+
+static void test_coverage(void **state)
+{
+    (void)state;
+    fst_params params = fst_default_params();
+    params.model_kappa = 1.4;
+    params.friction_gamma = 330.0;
+    const coverage c = fit_many(&params, 0);
+    check(&c);
+    assert_in_range(c.outliers, 0, 2);
+    assert_true(c.chi2 / FITS > 0.85 && c.chi2 / FITS < 1.15);
+}
+
+static void test_coverage_beside_a_wild_number(void **state)
+{
+    (void)state;
+    fst_params params = fst_default_params();
+    params.model_kappa = 1.8;
+    params.friction_gamma = 270.0;
+    const coverage c = fit_many(&params, 1);
+    check(&c);
+    assert_int_equal(c.named, FITS);
+    assert_in_range(c.outliers, FITS, FITS + 3);
+}
+
+int main(void)
+{
+    if (!fst_fit_present() || !fst_lapack_present())
+        return 77;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_coverage),
+        cmocka_unit_test(test_coverage_beside_a_wild_number),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
