@@ -60,6 +60,7 @@ static const struct {
     {"fst_track_options.fps", "--fps"},
     {"fst_measure_options.drive", "--drive"},
     {"fst_measure_options.exposure", "--exposure"},
+    {"fst_figure_measurement.compare", "--compare"},
 };
 
 const char *option_of_field(const char *field)

@@ -205,10 +205,10 @@ static fst_status check_distinct(fit_problem *p, const double *u, fst_error *err
 fst_status fit_search_all(fit_problem *p, double *u, double *chi2, int *too_many, fst_error *error)
 {
     fst_status status = fit_find_start(p, u, error);
+    if (status == FST_OK && strangers(p) == 0) /* what cannot be found need not be sought */
+        status = check_distinct(p, u, error);
     if (status == FST_OK)
         status = fit_solve(p, u, chi2, error);
-    if (status == FST_OK)
-        status = check_distinct(p, u, error);
     if (status == FST_OK)
         status = fit_take_frequency_slopes(p, error);
     if (status == FST_OK)

@@ -161,20 +161,35 @@ static void circle(track_work *work)
     work->centre[1] = mean[1] + fit.coefficient[2];
 }
 
-/* r and alpha of all rows; alpha is unwrapped along the present model of it. */
-static void place_rows(track_work *work)
+/* r and alpha of a row; alpha is unwrapped along the present model of it. */
+static void place_row(track_work *work, size_t i)
 {
     double row[TRACK_MOST_COLUMNS];
-    for (size_t i = 0; i < work->count; ++i) {
-        const double x = work->x[i] - work->centre[0], y = work->y[i] - work->centre[1];
-        const double px = work->stretch[0] * x + work->stretch[1] * y;
-        const double py = work->stretch[1] * x + work->stretch[2] * y;
-        work->r[i] = sqrt(px * px + py * py);
-        const double angle = atan2(py, px);
-        (void)track_angular_row(work, i, row);
-        const double expected = track_fit_value(&work->angular, row);
-        work->alpha[i] = angle + FST_TWO_PI * round((expected - angle) / FST_TWO_PI);
-    }
+    const double x = work->x[i] - work->centre[0], y = work->y[i] - work->centre[1];
+    const double px = work->stretch[0] * x + work->stretch[1] * y;
+    const double py = work->stretch[1] * x + work->stretch[2] * y;
+    work->r[i] = sqrt(px * px + py * py);
+    const double angle = atan2(py, px);
+    (void)track_angular_row(work, i, row);
+    const double expected = track_fit_value(&work->angular, row);
+    work->alpha[i] = angle + FST_TWO_PI * round((expected - angle) / FST_TWO_PI);
+}
+
+static void place_rows(track_work *work)
+{
+    for (size_t i = 0; i < work->count; ++i)
+        place_row(work, i);
+}
+
+void track_place_row(track_work *work, size_t at, size_t i)
+{
+    const size_t known = work->row[0]; /* its time here tells where the times of the work begin */
+    const fst_track *track = work->track;
+    work->t[at] = work->t[0] + (isfinite(track->fps) ? track->t[i] - track->t[known]
+                                                     : (double)(track->frame[i] - track->frame[known]));
+    work->x[at] = track->x[i];
+    work->y[at] = track->y[i];
+    place_row(work, at);
 }
 
 /* Fit the model of alpha; its slope is the bead's rate. */

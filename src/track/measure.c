@@ -112,6 +112,11 @@ static fst_status find_motion(track_work *work, fst_error *error)
     for (int again = 0; again < 6 && track_reject_jumps(work->track, work) > 0; ++again)
         track_work_take(work);
     fst_status status = track_find_motion(work, error);
+    /* A wild place makes good ones beside it look wild; the model tells them apart. */
+    if (status == FST_OK && track_take_back(work->track, work) > 0) {
+        track_work_take(work);
+        status = track_find_motion(work, error);
+    }
     for (int again = 0; again < 4 && status == FST_OK && track_reject_far(work->track, work) > 0; ++again) {
         track_work_take(work);
         status = track_find_motion(work, error);
