@@ -27,32 +27,6 @@ fst_status read_size(const char *text, int *width, int *height, fst_error *error
     return FST_OK;
 }
 
-/* A time: "2ms", "0.002 s", "500us", "1/500s" as cameras write it; without a unit it is in seconds. */
-static fst_status read_time(const char *name, const char *text, double *seconds, fst_error *error)
-{
-    static const struct {
-        const char *unit;
-        double worth;
-    } units[] = {{"ms", 1e-3}, {"us", 1e-6}, {"s", 1.0}, {"", 1.0}};
-    char number[64];
-    const int reciprocal = strncmp(text, "1/", 2) == 0;
-    const char *begin = text + (reciprocal ? 2 : 0);
-    for (size_t i = 0; i < sizeof units / sizeof *units; ++i) {
-        const size_t length = strlen(begin), unit = strlen(units[i].unit);
-        if (length <= unit || strcmp(begin + length - unit, units[i].unit) != 0)
-            continue;
-        (void)snprintf(number, sizeof number, "%.*s", (int)(length - unit < 60 ? length - unit : 60), begin);
-        fst_error unheard;
-        double value;
-        if (fst_parse_value(number, FST_UNIT_NUMBER, &value, &unheard) != FST_OK ||
-            (reciprocal && value == 0.0))
-            break;
-        *seconds = units[i].worth * (reciprocal ? 1.0 / value : value);
-        return FST_OK;
-    }
-    return fail(error, FST_BAD_INPUT, name, "\"%.40s\" is no time: write it as 2ms, 0.002s or 1/500s", text);
-}
-
 /* The options that are times, lengths, angles and numbers. */
 static fst_status read_values(const arguments *given, fst_camera_options *camera, fst_error *error)
 {

@@ -82,6 +82,9 @@ enum { KEY_LIMIT = 16, KEYS_SIZE = 512 };
 fst_status read_keys(const char *text, char words[KEYS_SIZE], const char *keys[KEY_LIMIT], int *count,
                      fst_error *error);
 
+/* Read a time with its unit: "2ms", "0.002 s", "500us", or "1/500s" as cameras write it. */
+fst_status read_time(const char *option_name, const char *text, double *seconds, fst_error *error);
+
 /* Read exactly `count` numbers separated by commas. */
 fst_status read_numbers(const char *option_name, const char *text, double *numbers, int count,
                         fst_error *error);

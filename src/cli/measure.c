@@ -22,23 +22,6 @@ static const option options[] = {
     {NULL, '\0', NULL, NULL},
 };
 
-/* A number with a unit of time. */
-static fst_status read_time(const char *name, const char *text, double *seconds, fst_error *error)
-{
-    char *end;
-    *seconds = strtod(text, &end);
-    end += strspn(end, " ");
-    const double unit = strcmp(end, "ms") == 0   ? 1e-3
-                        : strcmp(end, "us") == 0 ? 1e-6
-                        : strcmp(end, "s") == 0  ? 1.0
-                                                 : 0.0;
-    if (end == text || unit == 0.0 || !isfinite(*seconds))
-        return fail(error, FST_BAD_INPUT, name, "\"%.40s\" is no time: a number with s, ms or us was expected",
-                    text);
-    *seconds *= unit;
-    return FST_OK;
-}
-
 /* A value with a unit; errors name the option. */
 static fst_status read_unit(const char *name, const char *text, fst_unit unit, double *value, fst_error *error)
 {

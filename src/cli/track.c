@@ -34,7 +34,7 @@ static fst_status read_options(const arguments *given, fst_film_track_options *t
     return status;
 }
 
-static void print_report(const fst_film_track_report *r, FILE *out)
+static void print_report(const fst_film_track_report *r, int by_bead, FILE *out)
 {
     (void)fprintf(out, "film        %s, %s, %d x %d pixels\n", r->format, r->codec, r->width, r->height);
     (void)fprintf(out, "frames      %d, %.6g a second on average\n", r->frames, r->fps);
@@ -54,6 +54,10 @@ static void print_report(const fst_film_track_report *r, FILE *out)
         (void)fprintf(out, "scatter     %.2f pixels about a smooth path\n", r->jitter);
     if (!isnan(r->scale))
         (void)fprintf(out, "scale       %.5g mm a pixel in the middle of the path\n", r->scale);
+    if (by_bead)
+        (void)fprintf(
+            out, "            by the bead's width, which half a pixel more or less would change by %.1f %%\n",
+            50.0 / r->diameter);
     if (!isnan(r->plate[0]))
         (void)fprintf(out, "plate       %.1f x %.1f pixels; its edge is within %.2f pixels of an ellipse\n",
                       r->plate[0], r->plate[1], r->rim_error);
@@ -100,7 +104,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
     progress_end(&line);
     if (status != FST_OK)
         return status;
-    print_report(&report, out);
+    print_report(&report, film.scale && strncmp(film.scale, "bead", 4) == 0, out);
     warn(&report);
     tell_written(to, "");
     fst_track_free(&track);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/constants.h"
+#include "base/chance.h"
 #include "base/error.h"
 
 enum { MOST_MOMENTS = 64, SUBPIXELS = 3 };
@@ -43,26 +44,17 @@ void fst_camera_motion_at(fst_camera_motion *motion, double seconds, double plac
 
 /* ------------------------------------------------------------------ chance */
 
-/* The next word of a sequence that depends on its start alone (splitmix64). */
-static uint64_t draw(uint64_t *state)
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebULL;
-    return z ^ z >> 31;
-}
-
 /* A number between 0 and 1 that belongs to a node of a grid. */
 static double grain_at(int64_t i, int64_t j)
 {
     uint64_t state = (uint64_t)i * 0x9e3779b97f4a7c15ULL ^ (uint64_t)j * 0xc2b2ae3d27d4eb4fULL;
-    return (double)(draw(&state) >> 11) / 9007199254740992.0;
+    return (double)(fst_draw(&state) >> 11) / 9007199254740992.0;
 }
 
 /* Almost normal, with deviation 1: the sum of four numbers of 16 bits each. */
 static double noise(uint64_t *state)
 {
-    const uint64_t word = draw(state);
+    const uint64_t word = fst_draw(state);
     const double sum = (double)(word & 0xffff) + (double)(word >> 16 & 0xffff) + (double)(word >> 32 & 0xffff) +
                        (double)(word >> 48);
     return (sum - 2.0 * 65535.0) / (65536.0 * sqrt(1.0 / 3.0));
@@ -237,7 +229,7 @@ void fst_camera_paint_frame(const fst_camera_paint *paint, fst_camera_motion *mo
     const int count = moments(paint, motion, seconds);
     int low[2], high[2];
     uint64_t chance = paint->seed * 0xd1342543de82ef95ULL + index;
-    chance = draw(&chance);
+    chance = fst_draw(&chance);
     surround(paint, motion, seconds, low, high);
     for (int row = 0; row < paint->height; ++row) {
         const double bright = lamps(paint, begin_of_row(paint, seconds, row));

@@ -5,7 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/constants.h"
 #include "base/error.h"
+
+#define STEEP 3.0 /* pixels near half cover count in part, so that the area inside that contour is smooth */
 
 enum { FOUND = 1, FIRST_LABEL = 2, NO_LABEL = 255, LEAST_PIXELS = 4, MARGIN = 3, REACH = 2, LEVELS = 256 };
 
@@ -170,7 +173,7 @@ static fst_status make_room(track_blobs *b, size_t window, fst_error *error)
 static void sum_up(const track_blobs *b, const track_box *box, const int window[4], track_cover *cover)
 {
     const int width = window[1] - window[0] + 1;
-    double sum = 0.0, first[2] = {0.0, 0.0}, second[3] = {0.0, 0.0, 0.0};
+    double sum = 0.0, half_covered = 0.0, first[2] = {0.0, 0.0}, second[3] = {0.0, 0.0, 0.0};
     for (int row = window[2]; row <= window[3]; ++row)
         for (int column = window[0]; column <= window[1]; ++column) {
             const double part = (double)b->cover[(row - window[2]) * width + column - window[0]];
@@ -178,6 +181,7 @@ static void sum_up(const track_blobs *b, const track_box *box, const int window[
                 continue;
             const double x = column - box->left, y = row - box->top; /* small numbers keep the moments exact */
             sum += part;
+            half_covered += fmax(0.0, fmin(1.0, STEEP * (part - 0.5) + 0.5));
             first[0] += part * x;
             first[1] += part * y;
             second[0] += part * x * x;
@@ -191,6 +195,7 @@ static void sum_up(const track_blobs *b, const track_box *box, const int window[
     /* A pixel is a square of its own: its second moment, 1/12, is none of the bead's. */
     const double xx = second[0] / sum - x * x - 1.0 / 12.0, yy = second[2] / sum - y * y - 1.0 / 12.0;
     const double xy = second[1] / sum - x * y, half = 0.5 * (xx + yy), spread = hypot(0.5 * (xx - yy), xy);
+    cover->width = 2.0 * sqrt(half_covered / FST_PI);
     cover->column = box->left + x;
     cover->row = box->top + y;
     cover->narrow = 4.0 * sqrt(fmax(0.0, half - spread)); /* a disc's second moment is diameter^2/16 */

@@ -31,6 +31,7 @@ typedef struct track_box {
 /* The cover of a spot, summed. */
 typedef struct track_cover {
     double area, column, row; /* pixels; the centroid */
+    double width;             /* of the disc with the area inside the contour of half cover, pixels */
     double narrow, wide; /* diameters of a disc that has the same second moment, across and along the motion */
     int cut;             /* the spot touches the edge of the picture */
 } track_cover;

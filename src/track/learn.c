@@ -130,7 +130,7 @@ static fst_status measure_size(track_blobs *b, int k, const track_look *look, le
         if (cover.area > best) {
             second = best;
             best = cover.area;
-            width = cover.narrow;
+            width = fmin(cover.width, cover.narrow); /* motion widens the first, soft outlines the second */
             blur = cover.wide / fmax(cover.narrow, 0.1);
         } else if (cover.area > second) {
             second = cover.area;
@@ -182,8 +182,8 @@ static fst_status two_beads(const char *path, int twice, int count, fst_error *e
         twice, count);
 }
 
-/* The width of the bead, by those samples in which it is blurred least: a path that bends within an exposure
- * makes a blurred bead look wider, too. */
+/* The width of the bead, by those samples in which it is blurred least.  Compression and optics make its
+ * outline soft, which does not move the contour of half cover. */
 static double width_of(const learnt *lesson)
 {
     double sorted[TRACK_SAMPLES], widths[TRACK_SAMPLES];

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 
 #include "base/constants.h"
+#include "base/chance.h"
 #include "base/error.h"
 
 enum { RAYS = 360, CANDIDATES = 6, TRIALS = 3000, REPEATS = 4 };
@@ -36,14 +37,6 @@ typedef struct rim {
     ray rays[RAYS];
     uint64_t chance;
 } rim;
-
-static uint64_t draw(uint64_t *state)
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebULL;
-    return z ^ z >> 31;
-}
 
 static double angle_of(int index)
 {
@@ -145,11 +138,11 @@ static int try_five(rim *r, track_ellipse *e)
     double points[10];
     for (int i = 0; i < 5; ++i) {
         /* From each fifth of the circle one, so that they stand well apart. */
-        const int index = (int)(draw(&r->chance) % (RAYS / 5)) + i * (RAYS / 5);
+        const int index = (int)(fst_draw(&r->chance) % (RAYS / 5)) + i * (RAYS / 5);
         const ray *from = &r->rays[index];
         if (from->count == 0)
             return 0;
-        const double way = from->way[draw(&r->chance) % (uint64_t)from->count];
+        const double way = from->way[fst_draw(&r->chance) % (uint64_t)from->count];
         points[2 * i] = r->middle[0] + way * cos(angle_of(index));
         points[2 * i + 1] = r->middle[1] + way * sin(angle_of(index));
     }

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/chance.h"
 #include "base/error.h"
 #include "base/watch.h"
 #include "track/film_decoder.h"
@@ -24,21 +25,13 @@ enum {
 
 /* ------------------------------------------------------------------ which frames */
 
-static uint64_t draw(uint64_t *state)
-{
-    uint64_t z = *state += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebULL;
-    return z ^ z >> 31;
-}
-
 /* Choose `count` of `frames` numbers, each set of them as likely as any other, in rising order. */
 static void choose(int frames, int count, int *chosen)
 {
     uint64_t state = 20200707;
     int left = count;
     for (int i = 0, k = 0; i < frames && left > 0; ++i)
-        if (draw(&state) % (uint64_t)(frames - i) < (uint64_t)left) {
+        if (fst_draw(&state) % (uint64_t)(frames - i) < (uint64_t)left) {
             chosen[k++] = i;
             --left;
         }
