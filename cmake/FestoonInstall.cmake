@@ -29,7 +29,7 @@ if(FESTOON_TOOLS)
     install(TARGETS festoon_program RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
     install(FILES "${PROJECT_BINARY_DIR}/docs/festoon.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
     install(DIRECTORY examples DESTINATION "${CMAKE_INSTALL_DOCDIR}" USE_SOURCE_PERMISSIONS
-        FILES_MATCHING PATTERN "*.yaml" PATTERN "*.c" PATTERN "*.inl" PATTERN "*.def" PATTERN "*.sh" PATTERN "*.sbatch"
+        FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "*.c" PATTERN "*.inl" PATTERN "*.def" PATTERN "*.sh" PATTERN "*.sbatch"
         PATTERN "*.py")
     # Shells look in these folders for what completes the words of a program.
     set(completion_dir "${PROJECT_BINARY_DIR}/completion")

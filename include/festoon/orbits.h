@@ -209,7 +209,9 @@ typedef struct fst_branch {
     fst_branch_end *ends; /* two for each branch */
     size_t end_count;
     int branches;
-    int complete; /* 0: the caller stopped it before its end */
+    int complete;              /* 0: the caller stopped it before its end */
+    double half_length, gamma; /* magnet.half_length (m) and friction.gamma (1/s), by which everything here is
+                                  scaled; NAN: the file from which it was read does not say */
 } fst_branch;
 
 typedef struct fst_branch_options {

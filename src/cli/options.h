@@ -13,7 +13,7 @@ typedef struct option {
 } option;
 
 #define OPTION_LIMIT 256 /* the most options that are accepted */
-#define OPERAND_LIMIT 2
+#define OPERAND_LIMIT 256
 
 typedef struct given_option {
     const option *row;

@@ -8,21 +8,21 @@ static const struct {
     const char *name;
     fst_figure_kind kind;
 } kinds[] = {
-    {"path", FST_FIGURE_PATH},
-    {"local-n", FST_FIGURE_LOCAL_N},
-    {"radius-field", FST_FIGURE_RADIUS_FIELD},
+    {"path", FST_FIGURE_PATH}, {"local-n", FST_FIGURE_LOCAL_N}, {"radius-field", FST_FIGURE_RADIUS_FIELD},
+    {"time", FST_FIGURE_TIME}, {"section", FST_FIGURE_SECTION}, {"ramp", FST_FIGURE_RAMP},
 };
-#define KIND_NAMES "path|local-n|radius-field"
+#define KIND_NAMES "path|local-n|radius-field|time|section|ramp"
 
 static const option options[] = {
     {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
     {"kind", '\0', KIND_NAMES,
-     "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame) or "
-     "radius-field (r and |B| against Phi)"},
-    {"key", '\0', "KEY,...", "of a sweep: the keys of festoon run to draw (regime: a map of regimes)"},
-    {"units", '\0', "lab|scaled",
-     "of a sweep: Hz, mm and seconds, or the drive's omega and lengths in l (without it: the units in which "
-     "the axes were given)"},
+     "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame),\n"
+     "radius-field (r and |B| against Phi), time (columns against time), section (Poincare section: one\n"
+     "column against another where Phi passes 90 degrees) or ramp (columns against the drive of a ramp)"},
+    {"key", '\0', "KEY,...",
+     "of a sweep: the keys of festoon run to draw (regime: a map of regimes); of the kinds time, section and\n"
+     "ramp: the columns of the trajectory (r,n_z)"},
+    UNITS_OPTION,
     {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
     {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
     {"no-arrows", '\0', NULL, "draw no arrows"},
@@ -35,6 +35,8 @@ static const option options[] = {
      "curves\n"
      "over two parameters: second"},
     {"runs", '\0', "FILE", "of a branch: draw dots over it, from documents of festoon run --json"},
+    {"points", '\0', "DATA.csv",
+     "of a sweep or a branch over the drive: lay measured points with errors over it, and tell chi^2"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -96,6 +98,22 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     return status;
 }
 
+/* --key and --units of a trajectory. */
+static fst_status read_columns(const arguments *given, fst_figure_options *figure, char words[KEYS_SIZE],
+                               fst_error *error)
+{
+    const char *keys[KEY_LIMIT], *text = option_value(given, "key");
+    int count = 0;
+    fst_status status = read_units(given, &figure->units, error);
+    if (status == FST_OK && text)
+        status = read_keys(text, words, keys, &count, error);
+    if (status == FST_OK && count > FST_FIGURE_KEYS)
+        status = fail(error, FST_BAD_INPUT, "--key", "a figure shows at most %d columns", FST_FIGURE_KEYS);
+    for (int i = 0; i < count && status == FST_OK; ++i)
+        figure->keys[i] = keys[i];
+    return status;
+}
+
 static int ends_in(const char *path, const char *ending)
 {
     const size_t length = strlen(path), wanted = strlen(ending);
@@ -108,7 +126,10 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     const char *observable = option_value(given, "observable"), *runs = option_value(given, "runs");
     double *dots = NULL;
     size_t dot_count = 0;
-    fst_status status = fst_branch_read(path, &branch, error);
+    fst_shown_units units;
+    fst_status status = read_units(given, &units, error);
+    if (status == FST_OK)
+        status = fst_branch_read(path, &branch, error);
     if (status != FST_OK)
         return status;
     if (!observable)
@@ -116,7 +137,7 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     if (runs)
         status = fst_run_dots_read(runs, branch.key, observable, &dots, &dot_count, error);
     if (status == FST_OK)
-        status = fst_figure_branch(&branch, observable, dots, dot_count, to, error);
+        status = fst_figure_branch(&branch, observable, units, dots, dot_count, to, error);
     if (status == FST_OK)
         tell_written(to, "");
     free(dots);
@@ -146,6 +167,27 @@ static fst_status plot_sweep(const arguments *given, const char *path, const cha
     return status;
 }
 
+static fst_status plot_points(const arguments *given, const char *path, const char *to, fst_error *error)
+{
+    fst_points_fit fit;
+    char remark[96];
+    for (int i = 0; i < given->option_count; ++i) {
+        const char *name = given->options[i].row->name;
+        if (strcmp(name, "points") != 0 && strcmp(name, "output") != 0)
+            return fail(error, FST_BAD_INPUT, "", "--%s does not go with --points", name);
+    }
+    if (!ends_in(path, ".json") && !fst_is_sweep(path) && !ends_in(path, ".db"))
+        return fail(error, FST_BAD_INPUT, path,
+                    "--points belongs to sweeps and branches; this file is neither");
+    const fst_status status = fst_figure_points(path, option_value(given, "points"), to, &fit, error);
+    if (status != FST_OK)
+        return status;
+    (void)snprintf(remark, sizeof remark, ": chi^2 = %.6g of %d measured numbers (%d in the table)", fit.chi2,
+                   fit.counted, fit.all);
+    tell_written(to, remark);
+    return FST_OK;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     (void)out;
@@ -156,13 +198,16 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "a trajectory is missing: make one with festoon run -o FILE.h5");
     if (!to)
         return fail(error, FST_BAD_INPUT, "", "say where the figure goes: -o FIG.svg");
+    if (option_value(given, "points"))
+        return plot_points(given, path, to, error);
     if (ends_in(path, ".json")) /* a branch */
         return plot_branch(given, path, to, error);
     if (fst_is_sweep(path) || ends_in(path, ".db"))
         return plot_sweep(given, path, to, error);
-    if (option_value(given, "key") || option_value(given, "units"))
-        return fail(error, FST_BAD_INPUT, path, "--key and --units belong to sweeps; this file is none");
+    char words[KEYS_SIZE];
     fst_status status = read_figure(given, &figure, error);
+    if (status == FST_OK)
+        status = read_columns(given, &figure, words, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);
     if (status != FST_OK)

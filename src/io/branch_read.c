@@ -141,6 +141,14 @@ static void read_parameter(reader *r, const json_t *object, const char *key, cha
         refuse(r, key, found, "a key of the scene with real values, as \"drive.omega\"");
 }
 
+/* A positive number of the scene; NAN where there is none. */
+static double scale_of(const json_t *document, const char *key)
+{
+    const json_t *found = json_object_get(json_object_get(document, "scene"), key);
+    const double value = json_number_value(found);
+    return value > 0.0 && isfinite(value) ? value : NAN;
+}
+
 /* A text that goes into messages, without control characters. */
 static void read_text(reader *r, const json_t *object, const char *key, char *out, size_t size)
 {
@@ -300,6 +308,8 @@ static void read_head(reader *r, const json_t *document, fst_branch *branch)
     branch->kind = (fst_branch_kind)read_name(r, document, "kind", kind_name, FST_BRANCH_ALL + 1);
     read_parameter(r, document, "parameter", branch->key);
     read_finite(r, document, "from", &branch->from);
+    branch->half_length = scale_of(document, "magnet.half_length");
+    branch->gamma = scale_of(document, "friction.gamma");
     read_finite(r, document, "to", &branch->to);
     if (json_object_get(document, "second_parameter")) {
         read_parameter(r, document, "second_parameter", branch->second_key);

@@ -243,6 +243,8 @@ fst_status fst_branch_follow(const fst_params *params, const fst_branch_options 
     fst_watch_part(&t->watch, 0.0, options->second_key ? 0.5 : 1.0);
     branch->kind = options->kind;
     branch->from = options->from;
+    branch->half_length = params->magnet_half_length;
+    branch->gamma = params->friction_gamma;
     branch->to = options->to;
     (void)snprintf(branch->key, sizeof branch->key, "%s", options->key);
     if (options->second_key) {

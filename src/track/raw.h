@@ -47,6 +47,11 @@ fst_status track_raw_name(track_raw *raw, const char *name, int *index, fst_erro
 /* The readers, a function a format. */
 fst_status track_read_columns(const track_text *text, size_t header, track_raw *raw, fst_error *error);
 
+/* Recognise the format of a text, or take the one that is named, and read all its tracks.  Begins `raw`, which
+ * the caller frees, also after a failure. */
+fst_status track_read_text(const track_text *text, const fst_track_options *options, track_raw *raw,
+                           fst_error *error);
+
 /* Make a track of what was read. */
 fst_status track_choose(const track_raw *raw, const char *path, const fst_track_options *options,
                         fst_track *track, char **understood, fst_error *error);

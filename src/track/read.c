@@ -43,7 +43,7 @@ static const struct {
     [FORMAT_DLTDV5] = {"dltdv5", "DLTdv 5"},
     [FORMAT_DLTDV8] = {"dltdv8", "DLTdv 8"},
     [FORMAT_BLENDER] = {"blender", "Blender, by tools/blender-export.py"},
-    [FORMAT_TRAJECTORY] = {"trajectory", "a trajectory of festoon run"},
+    [FORMAT_TRAJECTORY] = {"trajectory", "a trajectory that festoon made"},
 };
 
 fst_track_options fst_default_track_options(void)
@@ -218,20 +218,21 @@ static int is_trajectory(const track_text *text)
            (text->count > 0 && strcmp(text->lines[0], "# festoon trajectory") == 0);
 }
 
-static fst_status read_text(const track_text *text, const char *path, const fst_track_options *options,
-                            track_raw *raw, fst_error *error)
+fst_status track_read_text(const track_text *text, const fst_track_options *options, track_raw *raw,
+                           fst_error *error)
 {
     const size_t header = first_line(text);
+    track_raw_begin(raw, "");
     format which = is_trajectory(text) ? FORMAT_TRAJECTORY : FORMAT_GENERIC;
     if (header == text->count && which != FORMAT_TRAJECTORY)
-        return fst_fail(error, FST_BAD_INPUT, path, "the file is empty");
+        return fst_fail(error, FST_BAD_INPUT, text->path, "the file is empty");
     fst_status status = options->format              ? named_format(options->format, &which, error)
                         : which == FORMAT_TRAJECTORY ? FST_OK
                                                      : recognise(text, header, &which, error);
     track_raw_begin(raw, formats[which].shown);
     if (status != FST_OK)
         return status;
-    return which == FORMAT_TRAJECTORY ? read_trajectory(path, raw, error)
+    return which == FORMAT_TRAJECTORY ? read_trajectory(text->path, raw, error)
                                       : read_as(which, text, header, raw, error);
 }
 
@@ -247,7 +248,7 @@ fst_status fst_track_read(const char *path, const fst_track_options *options, fs
     track_raw_begin(&raw, "");
     fst_status status = track_text_read(&text, path, error);
     if (status == FST_OK)
-        status = read_text(&text, path, options, &raw, error);
+        status = track_read_text(&text, options, &raw, error);
     if (status == FST_OK)
         status = track_choose(&raw, path, options, track, understood, error);
     track_raw_free(&raw);
