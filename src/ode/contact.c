@@ -267,6 +267,15 @@ static double until_back_at_rest(const fst_flow *flow, const double *state, cons
     return onset_speed(flow, state, p) + captured(flow);
 }
 
+/* Whether the speed falls below 0 at some place.  It begins without a slope, so that between places it does not
+ * dip below those beside. */
+static int falls_back(const fst_flow *flow)
+{
+    double least, greatest;
+    fst_flow_path_range(flow, onset_speed, &least, &greatest);
+    return least < 0;
+}
+
 /* Where the slip hardly grows, its direction is no longer known after some time; *x: that place in the step. */
 static int onset_is_long(fst_flow *flow, double *x)
 {
@@ -300,7 +309,7 @@ static double mode_ends(fst_flow *flow, int *next)
         *next = FST_MODE_SLIP;
         first = x;
     }
-    if (fst_flow_becomes_negative(flow, until_back_at_rest, &x) && x < first) {
+    if (falls_back(flow) && fst_flow_first_negative(flow, until_back_at_rest, 0.0, &x) && x < first) {
         *next = FST_MODE_STICK;
         first = x;
     }
