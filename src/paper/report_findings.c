@@ -147,11 +147,11 @@ static void write_paramagnets(FILE *out, const fst_paper_state *paper)
     if (!is_known(paper, "splitting"))
         return;
     fprintf(out,
-            "<li><b>Paramagnetic beads do not counter-rotate, but the last step of the proof fails.</b> The "
+            "<li><b>Paramagnetic beads do not counter-rotate, but the last step of the argument fails.</b> The "
             "ratio that it takes "
             "for 1 is %s in a settled motion: by the paper's own identities it is ω/⟨α′⟩. Another identity, "
             "a⟨∂B²/∂α⟩ = "
-            "(2/5)⟨(v × V)_z⟩, excludes a rolling bead that circles against the magnet.",
+            "(2/5)⟨(v × V)<sub>z</sub>⟩, excludes a rolling bead that circles against the magnet.",
             show("%.1f", exact(paper, "splitting")).text);
     END("splitting", "rolling-identity", "paramagnet");
 }
@@ -161,7 +161,9 @@ static void write_dry(FILE *out, const fst_paper_state *paper)
     if (!paper->dry || !paper->done[FST_PAPER_STEP_DRY])
         return;
     fprintf(out,
-            "<li><b>Dry friction predicts what the viscous law has to fit.</b> With μ = %g and no rate, a bead "
+            "<li><b>Dry friction needs no fitted rate, and loses the bead where the experiment does.</b> With "
+            "μ = %g, of four coefficients "
+            "the one that agrees best, a bead "
             "goes with the "
             "magnet up to about %s Hz, %s %% of the runs from 7 to 10 Hz end off the plate, and "
             "counter-rotation sets in at "
