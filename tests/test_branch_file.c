@@ -55,6 +55,8 @@ static fst_branch made_up(int over_two)
     b.to = 2.0 / 3.0;
     b.branches = 5;
     b.complete = over_two;
+    b.half_length = fst_default_params().magnet_half_length; /* they stand in the scene */
+    b.gamma = fst_default_params().friction_gamma;
     if (over_two) {
         (void)snprintf(b.second_key, sizeof b.second_key, "model.kappa");
         b.second_from = 1.1;

@@ -143,7 +143,10 @@ class Series(Case):
                 ("nearest is lab", ["--units", "labs"])):
             self.refused(wanted, "plot", track, *words)
         self.refused("never passes", "plot", self.folder / "slow.csv", "--kind", "section")
-        self.refused("lab", "field", "--at", "1,1", "--units", "mm")
+        self.refused("nearest is", "field", "--at", "1,1", "--units", "mm")
+        status, _, messages = run("field", "--at", "1,1", "--units", "lab")
+        self.assertEqual(status, 2)
+        self.assertIn("concerns the map", messages)
 
 
 class Branches(Case):

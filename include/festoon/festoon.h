@@ -384,6 +384,8 @@ typedef struct fst_sample {
     double x, y;              /* position in the laboratory */
     double n_lab[3], w_lab[3], v_lab[2];
     fst_observation seen;
+    int flies;            /* the bead is in the air, */
+    double height, climb; /* at this height over its place on the plate, rising at this speed */
 } fst_sample;
 typedef struct fst_ramp_point {
     double omega, frequency_hz, mean_r, std_r, mean_alpha_dot, mean_phi_dot, mean_nz;

@@ -95,6 +95,8 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "say where with --at X,Y, or draw a map with -o FIG.svg");
     if (option_value(given, "json") && !at)
         return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
+    if (option_value(given, "units") && !figure)
+        return fail(error, FST_BAD_INPUT, "--units", "it concerns the map: give -o FIG.svg");
     fst_shown_units units;
     fst_status status = read_units(given, &units, error);
     if (status == FST_OK)

@@ -49,6 +49,7 @@ static const struct {
     {"fst_paper_options.only", "--only"},
     {"fst_fit_options.free", "--free"},
     {"fst_fit_options.given", "--given"},
+    {"fst_fit_options.drive", "--drive"},
     {"fst_fit", ""},
     {"fst_festoons_find.festoons", "--festoons"},
     {"fst_branch_options.key", "--over"},
@@ -63,6 +64,7 @@ static const struct {
     {"fst_track_options.fps", "--fps"},
     {"fst_measure_options.drive", "--drive"},
     {"fst_measure_options.exposure", "--exposure"},
+    {"fst_figure_measurement.compare", "--compare"},
 };
 
 const char *option_of_field(const char *field)

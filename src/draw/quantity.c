@@ -86,6 +86,7 @@ static const word columns[] = {
     {"friction", "friction |f|"},
     {"friction_use", "|f| over what static friction could take"},
     {"sticking", "contact: 1 rolls, 0 slips"},
+    {"z", "height over the plate"},
     {"friction_power", "power lost to friction"},
     {"drive_power", "power of the drive"},
 };

@@ -24,10 +24,11 @@ static const double diverging_palette[][4] = {{0.0, 0.071, 0.247, 0.549},
                                               {1.0, 0.690, 0.188, 0.0}};
 static const double north[3] = {0.835, 0.369, 0.0}, south[3] = {0.0, 0.447, 0.698};
 
-/* The bead's rim, which tells whether its contact sticks or slips (fst_contact_shown), and the words for it. */
-static const double rims[][3] = {{0.2, 0.2, 0.2}, {0.0, 0.62, 0.45}, {0.90, 0.62, 0.0}};
+/* The bead's rim, which tells whether its contact sticks or slips or it flies (fst_contact_shown), and the
+ * words for it. */
+static const double rims[][3] = {{0.2, 0.2, 0.2}, {0.0, 0.62, 0.45}, {0.90, 0.62, 0.0}, {0.0, 0.45, 0.70}};
 static const char *const contact_words[] = {"from the front", "from the front: it sticks",
-                                            "from the front: it slips"};
+                                            "from the front: it slips", "from the front: it flies"};
 
 static void set_shade(cairo_t *pen, int both_signs, double shade)
 {
@@ -241,7 +242,7 @@ static void paint_side(cairo_t *pen, const fst_film_layout *layout, const fst_fi
     cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);
     cairo_set_line_width(pen, 0.4);
     cairo_stroke(pen);
-    cairo_translate(pen, frame->x, layout->radius);
+    cairo_translate(pen, frame->x, layout->radius + frame->z);
     paint_bead(pen, layout, frame, 1);
     cairo_restore(pen);
     cairo_set_source_rgb(pen, 0.35, 0.35, 0.35);

@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "base/watch.h"
+#include "ode/flight.h"
 
 /* ------------------------------------------------------------------ samples */
 
@@ -36,7 +37,13 @@ static void fill_sample(fst_flow *flow, double x, fst_twofold t, fst_sample *sam
         to[i][1] = s * from[i][0] + c * from[i][1];
         to[i][2] = from[i][2];
     }
+    sample->flies = fst_flight_is_on(flow);
+    if (sample->flies) {
+        fst_flight_at(flow, x, &sample->height, &sample->climb);
+        fst_raise_source_double(&flow->step.context, sample->height);
+    }
     sample->seen = fst_observe_double(&flow->step.context.coefficients, sample->omega, y);
+    sample->seen.energy += fst_flight_energy(flow, x);
 }
 
 /* Every sample that falls into the last step, up to its fraction `until`. */
