@@ -7,6 +7,7 @@
 #define FESTOON_FIT_H
 
 #include <festoon/festoon.h>
+#include <festoon/tracks.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -72,6 +73,10 @@ typedef struct fst_fit_options {
     int bootstrap;    /* how many times the numbers are drawn anew and fitted again; 0: not at all */
     uint64_t seed;    /* of the bootstrap */
     int curve_points; /* frequencies at which the model's curves are computed for a figure; 0: none */
+    /* Of a track only. */
+    double drive; /* Hz, negative where the magnet turns clockwise; NAN: as the track tells it */
+    double exposure,
+        exposure_error; /* s that a frame was exposed; NAN: not at all; its error makes it an unknown */
     const fst_progress *progress; /* NULL: nobody is told */
 } fst_fit_options;
 FST_API fst_fit_options fst_default_fit_options(void);
@@ -148,6 +153,12 @@ typedef struct fst_fit {
 FST_API fst_status fst_fit_points(const fst_params *params, const fst_points *points,
                                   const fst_fit_options *options, fst_fit *fit, fst_error *error);
 FST_API void fst_fit_free(fst_fit *fit);
+
+/* The same from one track, its places against the model's path: centre, phases, the exact drive and, if its
+ * error is given, the exposure are unknowns too.  `points` counts coordinates, and chi^2 says nothing, for the
+ * noise is measured by what is left over.  Rows of the track may become rejected, as by fst_measure_track(). */
+FST_API fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_fit_options *options,
+                                 fst_fit *fit, fst_error *error);
 
 /* One JSON document, as festoon_tools.h says of the others. */
 FST_API char *fst_fit_json(const fst_params *params, const fst_fit *fit);

@@ -15,6 +15,12 @@ static const option options[] = {
     {"compare", '\0', NULL, "fit the other friction law and the other dynamics too, and compare them (AICc)"},
     {"bootstrap", '\0', "N",
      "draw the numbers anew N times, and fit each time: errors from the points themselves"},
+    {"track", '\0', "TRACK.csv", "fit the places of one film instead of a table"},
+    {"drive", '\0', "10.7Hz", "of a track: how often the magnet turned, negative for clockwise"},
+    {"exposure", '\0', "T[+-S]",
+     "of a track: how long a frame was exposed, \"2 ms\", or \"2+-0.5 ms\" to seek it too"},
+    {"fps", '\0', "F", "of a track: frames a second, instead of the file's clock"},
+    {"scale", '\0', "0.123mm", "of a track: the length of one unit of the file"},
     {NULL, '\0', NULL, NULL},
 };
 
@@ -243,6 +249,89 @@ static fst_status fit_table(const arguments *given, const char *table, const fst
     return status;
 }
 
+/* "2 ms" or "2+-0.5 ms"; seconds and milliseconds. */
+static fst_status read_exposure(const char *text, fst_fit_options *how, fst_error *error)
+{
+    char *end, *unit;
+    how->exposure = strtod(text, &end);
+    how->exposure_error = 0.0;
+    if (end != text && strncmp(end, "+-", 2) == 0) {
+        const char *from = end + 2;
+        how->exposure_error = strtod(from, &end);
+        if (end == from || !(how->exposure_error > 0.0))
+            end = (char *)(uintptr_t)text;
+    }
+    unit = end + strspn(end, " ");
+    const double factor = strcmp(unit, "ms") == 0 ? 1e-3 : strcmp(unit, "s") == 0 ? 1.0 : 0.0;
+    if (end == text || factor == 0.0 || !(how->exposure >= 0.0) || !(how->exposure * factor < 1.0))
+        return fail(error, FST_BAD_INPUT, "--exposure",
+                    "\"%.40s\" must be a time such as \"2 ms\" or \"2+-0.5 ms\"", text);
+    how->exposure *= factor;
+    how->exposure_error *= factor;
+    return FST_OK;
+}
+
+static fst_status read_track_wishes(const arguments *given, fst_fit_options *how, fst_track_options *file,
+                                    fst_error *error)
+{
+    const char *drive = option_value(given, "drive"), *exposure = option_value(given, "exposure");
+    const char *fps = option_value(given, "fps"), *scale = option_value(given, "scale");
+    fst_status status = FST_OK;
+    if (drive && (status = fst_parse_value(drive, FST_UNIT_FREQUENCY, &how->drive, error)) != FST_OK)
+        return fail(error, status, "--drive", "\"%.40s\" must be a frequency such as 10.7Hz", drive);
+    if (exposure && (status = read_exposure(exposure, how, error)) != FST_OK)
+        return status;
+    if (fps && (status = read_numbers("--fps", fps, &file->fps, 1, error)) != FST_OK)
+        return status;
+    if (scale && (status = fst_parse_value(scale, FST_UNIT_LENGTH, &file->scale, error)) != FST_OK)
+        return fail(error, status, "--scale", "\"%.40s\" must be a length such as 0.123mm", scale);
+    return FST_OK;
+}
+
+static fst_status fit_film(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
+{
+    static wishes wanted;
+    fst_track track = {0};
+    fst_fit fit;
+    char *understood = NULL;
+    fst_fit_options how = fst_default_fit_options();
+    fst_track_options file = fst_default_track_options();
+    fst_status status = read_wishes(given, &wanted, error);
+    for (int i = 0; i < given->option_count && status == FST_OK; ++i) {
+        const char *name = given->options[i].row->name;
+        if (strcmp(name, "output") == 0 || strcmp(name, "compare") == 0 || strcmp(name, "bootstrap") == 0)
+            status = fail(error, FST_BAD_INPUT, "", "--%s belongs to tables; this is a track", name);
+    }
+    if (status == FST_OK)
+        status = read_track_wishes(given, &how, &file, error);
+    if (status == FST_OK)
+        status = fst_track_read(option_value(given, "track"), &file, &track, &understood, error);
+    if (status == FST_OK && understood)
+        (void)fprintf(stderr, "%s\n", understood);
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    how.free = wanted.keys;
+    how.free_count = wanted.key_count;
+    how.given = wanted.given;
+    how.given_count = wanted.given_count;
+    how.progress = &progress;
+    if (status == FST_OK) {
+        progress_begin(&line);
+        status = fst_fit_track(params, &track, &how, &fit, error);
+        progress_end(&line);
+    }
+    free(understood);
+    fst_track_free(&track);
+    if (status != FST_OK)
+        return status;
+    if (option_value(given, "json"))
+        status = print_and_free(fst_fit_json(params, &fit), out, error);
+    else
+        print_fit(out, &fit);
+    fst_fit_free(&fit);
+    return status;
+}
+
 static int is_scene(const char *path)
 {
     const char *ending = strrchr(path, '.');
@@ -260,16 +349,21 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
                         place == &scene ? "scene" : "table");
         *place = given->operands[i];
     }
-    if (!table)
+    const char *track = option_value(given, "track");
+    if (track && table)
+        return fail(error, FST_BAD_INPUT, "", "fit either a table or, with --track, a track");
+    if (!table && !track)
         return fail(error, FST_BAD_INPUT, "",
                     "a table of points is missing: festoon measure A B ... -o POINTS.csv makes one");
     const fst_status status = read_scene(given, scene, &params, error);
-    return status == FST_OK ? fit_table(given, table, &params, out, error) : status;
+    if (status != FST_OK)
+        return status;
+    return track ? fit_film(given, &params, out, error) : fit_table(given, table, &params, out, error);
 }
 
 const command fit_command = {
     .name = "fit",
-    .synopsis = "DATA.csv [SCENE.yaml] --free KEY,KEY [--given KEY=V+-S]... [options]",
+    .synopsis = "DATA.csv|--track TRACK.csv [SCENE.yaml] --free KEY,KEY [--given KEY=V+-S]... [options]",
     .summary = "Find parameters of the model from measured points, with their errors",
     .details = "The table has a line of column names with units, in any order,\n"
                "  frequency [Hz],mean_r [mm],mean_r_error [mm],std_r [mm],std_r_error [mm],\n"

@@ -18,7 +18,7 @@
 
 fst_fit_options fst_default_fit_options(void)
 {
-    return (fst_fit_options){.cookie = FIT_COOKIE, .seed = 1};
+    return (fst_fit_options){.cookie = FIT_COOKIE, .seed = 1, .drive = NAN, .exposure = NAN};
 }
 
 int fst_fit_present(void)
@@ -248,22 +248,37 @@ static fst_status say_interval(fst_fit *fit, const fst_fit_parameter *p, fst_err
                     : "upper");
 }
 
+double fit_own_value(const fit_problem *p, const fit_estimate *e, int i)
+{
+    double c[FIT_MOST], q = 0.0;
+    fit_space_own(&p->space, i, c);
+    for (int k = 0; k < p->space.count; ++k)
+        q += c[k] * e->u[k];
+    return q;
+}
+
+void fit_report_value(const fit_problem *p, const fit_estimate *e, int i, double deviation,
+                      fst_fit_parameter *out)
+{
+    const fit_key *key = &p->space.keys[i];
+    const double q = fit_own_value(p, e, i);
+    *out = (fst_fit_parameter){.unit = key->info->unit,
+                               .value = fit_space_at(&p->space, i, q),
+                               .interval = {NAN, NAN},
+                               .bootstrap_error = NAN};
+    (void)snprintf(out->key, sizeof out->key, "%s", key->info->key);
+    memcpy(out->prior, key->prior, sizeof out->prior);
+    out->error = deviation < 1.0 || key->scale != 0.0 ? deviation * fit_space_slope(&p->space, i, q) : NAN;
+}
+
 /* Value, error, interval of a parameter; *better where the minimum turned out to be none. */
 static fst_status report_parameter(fit_problem *p, const fit_estimate *e, int i, fst_fit *fit, int *better,
                                    double u_better[FIT_MOST], fst_error *error)
 {
     const fit_key *key = &p->space.keys[i];
     fst_fit_parameter *out = &fit->parameters[i];
-    double c[FIT_MOST], q = 0.0;
-    fit_space_own(&p->space, i, c);
-    for (int k = 0; k < p->space.count; ++k)
-        q += c[k] * e->u[k];
-    *out = (fst_fit_parameter){
-        .unit = key->info->unit, .value = fit_space_at(&p->space, i, q), .bootstrap_error = NAN};
-    (void)snprintf(out->key, sizeof out->key, "%s", key->info->key);
-    memcpy(out->prior, key->prior, sizeof out->prior);
-    const double deviation = fit->error_scale * fit_deviation(p, e, i);
-    out->error = deviation < 1.0 || key->scale != 0.0 ? deviation * fit_space_slope(&p->space, i, q) : NAN;
+    const double q = fit_own_value(p, e, i);
+    fit_report_value(p, e, i, fit->error_scale * fit_deviation(p, e, i), out);
     const double rise = fit->error_scale * fit->error_scale;
     for (int side = -1; side <= 1; side += 2) {
         double end;
@@ -306,7 +321,7 @@ static fst_status report_parameters(fit_problem *p, fit_estimate *e, fst_fit *fi
 }
 
 /* kappa gamma^2, by the change of its logarithm along each coordinate. */
-static void report_kappa_gamma2(const fit_problem *p, const fit_estimate *e, fst_fit *fit)
+void fit_report_kappa_gamma2(const fit_problem *p, const fit_estimate *e, fst_fit *fit)
 {
     const double step = 1e-6;
     double slope[FIT_MOST] = {0.0};
@@ -413,7 +428,7 @@ static fst_status report_all(fit_problem *p, fit_stage *stage, fit_estimate *e, 
     if (status != FST_OK)
         return status;
     (void)fit_space_params(&p->space, e->u, &fit->params);
-    report_kappa_gamma2(p, e, fit);
+    fit_report_kappa_gamma2(p, e, fit);
     status = report_numbers(p, e, points, fit, error);
     fit_stage_begin(stage, "curves", 0.6, 0.7, 4.0);
     if (status == FST_OK)

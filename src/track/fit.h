@@ -2,7 +2,7 @@
 #ifndef FST_TRACK_FIT_H
 #define FST_TRACK_FIT_H
 
-#include "track/fit_problem.h"
+#include "track/fit_errors.h"
 
 /* A stage of the work, whose share of the progress is known. */
 typedef struct fit_stage {
@@ -23,6 +23,12 @@ fst_status fit_search_all(fit_problem *p, double *u, double *chi2, int *too_many
 
 /* Akaike's criterion with the correction for few numbers (Hurvich and Tsai 1989); NAN: too few. */
 double fit_aicc(double chi2, int points, int parameters);
+
+/* The own coordinate of parameter i at the minimum; its key, value and error; kappa gamma^2 with its error. */
+double fit_own_value(const fit_problem *p, const fit_estimate *e, int i);
+void fit_report_value(const fit_problem *p, const fit_estimate *e, int i, double deviation,
+                      fst_fit_parameter *out);
+void fit_report_kappa_gamma2(const fit_problem *p, const fit_estimate *e, fst_fit *fit);
 
 /* Add a line to what the fit says to people. */
 fst_status fit_remark(fst_fit *fit, fst_error *error, const char *format, ...)

@@ -32,12 +32,6 @@ static int draw(fit_problem *p, const int *used, int count, uint64_t *state)
     return different;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The value below which a part of the sorted values lies. */
 static double quantile(const double *sorted, int count, double part)
 {
@@ -52,7 +46,7 @@ static void conclude(const fit_problem *p, double *values, int samples, fst_fit 
     const double tail = 0.15866; /* of a normal distribution beyond one standard deviation */
     for (int i = 0; i < p->space.count; ++i) {
         double *mine = values + (size_t)i * (size_t)samples;
-        qsort(mine, (size_t)fit->bootstrap_count, sizeof *mine, compare);
+        qsort(mine, (size_t)fit->bootstrap_count, sizeof *mine, fit_compare_doubles);
         fit->parameters[i].bootstrap_error = 0.5 * (quantile(mine, fit->bootstrap_count, 1.0 - tail) -
                                                     quantile(mine, fit->bootstrap_count, tail));
     }

@@ -41,12 +41,6 @@ double fit_error_scale(double chi2, int dof)
     return (cbrt(chi2 / dof) - (1.0 - variance)) / sqrt(variance) > 3.09 ? sqrt(chi2 / dof) : 1.0;
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* What is usual for a residual here: from the median, which wild ones do not move; at least 1. */
 static double usual_residual(const fit_problem *p)
 {
@@ -55,7 +49,7 @@ static double usual_residual(const fit_problem *p)
         return 1.0;
     for (int i = 0; i < p->count; ++i)
         size[i] = fabs(fit_plain_residual(p, i));
-    qsort(size, (size_t)p->count, sizeof *size, compare);
+    qsort(size, (size_t)p->count, sizeof *size, fit_compare_doubles);
     const double median = 0.5 * (size[(p->count - 1) / 2] + size[p->count / 2]);
     const int freedom = p->count - fit_unheld(p);
     free(size);

@@ -142,6 +142,17 @@ static void say_other(const fit_problem *p, const double *q, char *text, size_t 
         geometry ? " can be measured by other means and be given with its error." : "", "");
 }
 
+void fit_say_weakest(const fit_problem *p, const fit_estimate *e, double scale, char *text, size_t size)
+{
+    double u[FIT_MOST] = {0.0}, q[FIT_MOST] = {0.0};
+    char direction[400], other[400];
+    find_direction(p, e, u, q);
+    say_direction(p, q, scale, direction, sizeof direction);
+    say_other(p, q, other, sizeof other);
+    (void)snprintf(text, size, "Known least: %s fits nearly as well (one standard deviation).%s", direction,
+                   other);
+}
+
 fst_status fit_weakest(const fit_problem *p, const fit_estimate *e, double scale, char *text, size_t size,
                        fst_error *error)
 {

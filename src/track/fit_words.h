@@ -8,4 +8,7 @@
 fst_status fit_weakest(const fit_problem *p, const fit_estimate *e, double scale, char *text, size_t size,
                        fst_error *error);
 
+/* The direction alone, without asking for further numbers of a table. */
+void fit_say_weakest(const fit_problem *p, const fit_estimate *e, double scale, char *text, size_t size);
+
 #endif

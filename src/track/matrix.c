@@ -84,3 +84,9 @@ double fit_product(const fit_matrix *m, const double *a, const double *b)
             sum += a[i] * m->a[i][j] * b[j];
     return sum;
 }
+
+int fit_compare_doubles(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}

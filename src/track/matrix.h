@@ -17,6 +17,9 @@ void fit_eigen(const fit_matrix *symmetric, double values[FIT_MOST], fit_matrix 
 /* The inverse of a symmetric positive matrix from its eigenvalues and eigenvectors. */
 void fit_inverse(int size, const double values[FIT_MOST], const fit_matrix *vectors, fit_matrix *inverse);
 
+/* For qsort(): rising. */
+int fit_compare_doubles(const void *a, const void *b);
+
 /* sum of a_i m_ij b_j */
 double fit_product(const fit_matrix *m, const double *a, const double *b);
 

@@ -1,0 +1,501 @@
+/* fit_track.c - parameters from one good film: the places of the bead, frame by frame, against the model's
+ * path.
+ *
+ * What a table says of a film in three numbers, the track says in hundreds of places.  Beside the parameters a
+ * few numbers are unknown of which nobody wants to know: the centre of the picture, the angle of the magnet and
+ * the place on the orbit at the beginning, the exact frequency of the drive, the
+ * camera's tilt where there is one, and, if it is known only roughly,
+ * the exposure. They are sought together.
+ *
+ *      track --> measure --> three numbers --> a fit of a table --> start
+ *        |                                                            |
+ *        '--> first quarter, half, all of the frames: <---------------'   phases that drift apart are caught
+ * early least squares of places
+ *
+ * The noise of the places is taken from what is left over; where that is not white (neighbouring frames err
+ * alike), all errors grow accordingly.
+ */
+#include <festoon/festoon_tools.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "track/fit.h"
+#include "track/fit_errors.h"
+#include "track/fit_path.h"
+#include "track/fit_words.h"
+
+/* The unknowns behind the parameters. */
+enum { DRIVE, CENTRE_X, CENTRE_Y, TURN, PHASE, EXPOSURE, TILT_X, TILT_Y, NUISANCES };
+
+/* Lengths of a step of these unknowns; residuals are in units of NOISE. */
+static const double unit_of[NUISANCES] = {1e-3, 1e-3, 1e-3, 1.0, 0.1, 1e-3, 1e-2, 1e-2};
+#define NOISE 1e-4 /* m */
+
+typedef struct track_fit {
+    fit_space space;
+    const fst_minpack *minpack;
+    const fst_progress *progress;
+    int frames, used; /* all; those of the present window */
+    double *t;
+    double complex *z;
+    double *weight; /* 0: left out */
+    double drive, sense, turn, phase;
+    double complex centre;
+    double exposure[2];             /* and its error; 0: exact */
+    double complex tilt;            /* what it does: z becomes (1 + |tilt|) z + tilt conj(z) on the plate */
+    int nuisances, slot[NUISANCES]; /* how many are sought, and which unknown each is; -1: it is held */
+    const double *origin;
+    fst_orbit orbit; /* the latest that was found, its path, and where */
+    fit_path path;
+    double path_at[FIT_MOST], path_drive; /* 0: none yet */
+    fst_status status;
+    fst_error *error;
+} track_fit;
+
+/* ------------------------------------------------------------------ the model's places */
+
+/* The nuisance parameter k at the unknowns. */
+static double nuisance(const track_fit *f, const double *v, int k)
+{
+    const double start[NUISANCES] = {f->drive, creal(f->centre), cimag(f->centre), f->turn,
+                                     f->phase, f->exposure[0],   creal(f->tilt),   cimag(f->tilt)};
+    const double step = f->slot[k] >= 0 ? v[f->space.count + f->slot[k]] * unit_of[k] : 0.0;
+    return k == DRIVE ? start[k] * (1.0 + step) : start[k] + step;
+}
+
+static fst_status find_path(track_fit *f, const double *v, fit_path *path, fst_error *error)
+{
+    fst_params params;
+    fst_orbit orbit;
+    fst_status status = FST_NO_CONVERGENCE;
+    const double drive = nuisance(f, v, DRIVE);
+    const size_t size = (size_t)f->space.count * sizeof *v;
+    if (f->path_drive == drive && memcmp(f->path_at, v, size) == 0) {
+        *path = f->path;
+        return FST_OK;
+    }
+    (void)fit_space_params(&f->space, v, &params);
+    params.drive_frequency = drive;
+    params.drive_omega = NAN;
+    if (f->orbit.means.period > 0.0)
+        status = fst_orbit_near(&params, &f->orbit, 1e-11, f->progress, &orbit, error);
+    if (status != FST_OK && status != FST_INTERRUPTED)
+        status = fst_orbit_find(&params, f->progress, &orbit, error);
+    if (status == FST_OK)
+        status = fit_path_make(&params, &orbit, path, error);
+    if (status != FST_OK)
+        return status;
+    f->orbit = orbit;
+    f->path = *path;
+    f->path_drive = drive;
+    memcpy(f->path_at, v, size);
+    return FST_OK;
+}
+
+static double complex place(const track_fit *f, const fit_path *path, const double *v, int i)
+{
+    const double complex z = fit_path_at(path, nuisance(f, v, DRIVE), nuisance(f, v, TURN),
+                                         nuisance(f, v, PHASE), nuisance(f, v, EXPOSURE), f->t[i]);
+    return (f->sense > 0 ? z : conj(z)) + nuisance(f, v, CENTRE_X) + nuisance(f, v, CENTRE_Y) * I;
+}
+
+/* A place of the film on the plate. */
+static double complex on_plate(double complex tilt, double complex z)
+{
+    return (1.0 + cabs(tilt)) * z + tilt * conj(z);
+}
+
+/* Residuals: two a frame; then the priors of the parameters and of the exposure. */
+static int residual_count(const track_fit *f)
+{
+    return 2 * f->used + f->space.count + 1;
+}
+
+static fst_status residuals(track_fit *f, const double *v, double *r, fst_error *error)
+{
+    fit_path path;
+    const fst_status status = find_path(f, v, &path, error);
+    if (status != FST_OK)
+        return status;
+    const double complex tilt = nuisance(f, v, TILT_X) + nuisance(f, v, TILT_Y) * I;
+    for (int i = 0; i < f->used; ++i) {
+        const double complex miss = (place(f, &path, v, i) - on_plate(tilt, f->z[i])) * (f->weight[i] / NOISE);
+        r[2 * i] = creal(miss);
+        r[2 * i + 1] = cimag(miss);
+    }
+    for (int k = 0; k < f->space.count; ++k) {
+        const fit_key *key = &f->space.keys[k];
+        r[2 * f->used + k] =
+            isnan(key->prior[0]) ? 0.0 : (fit_space_value(&f->space, v, k) - key->prior[0]) / key->prior[1];
+    }
+    r[2 * f->used + f->space.count] =
+        f->slot[EXPOSURE] >= 0 ? (nuisance(f, v, EXPOSURE) - f->exposure[0]) / f->exposure[1] : 0.0;
+    return FST_OK;
+}
+
+static fst_status derivatives(track_fit *f, const double *v, double *jacobian, fst_error *error)
+{
+    const int m = residual_count(f), n = f->space.count + f->nuisances;
+    const double step = 2e-5;
+    double *r = calloc((size_t)m, sizeof *r), moved[FIT_MOST + NUISANCES];
+    fst_status status =
+        r ? residuals(f, v, r, error) : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
+    const fst_orbit here = f->orbit;
+    const fit_path path = f->path;
+    const double drive = f->path_drive;
+    for (int k = 0; k < n && status == FST_OK; ++k) {
+        double *column = jacobian + (size_t)m * (size_t)k;
+        memcpy(moved, v, (size_t)n * sizeof *v);
+        moved[k] += step;
+        status = residuals(f, moved, column, error);
+        for (int i = 0; i < m; ++i)
+            column[i] = (column[i] - r[i]) / step;
+        f->orbit = here;
+        f->path = path;
+        f->path_drive = drive;
+        memcpy(f->path_at, v, (size_t)f->space.count * sizeof *v);
+    }
+    free(r);
+    return status;
+}
+
+static int ask(void *user, int m, int n, const double *x, double *r, double *jacobian, int stride, int task)
+{
+    track_fit *f = user;
+    double v[FIT_MOST + NUISANCES];
+    (void)stride;
+    for (int k = 0; k < n; ++k)
+        v[k] = f->origin[k] + x[k];
+    f->status = task == 1 ? residuals(f, v, r, f->error) : derivatives(f, v, jacobian, f->error);
+    if (f->status == FST_NO_CONVERGENCE && task == 1) { /* no such orbit: the search turns back */
+        f->status = FST_OK;
+        for (int i = 0; i < m; ++i)
+            r[i] = 1e3;
+    }
+    return f->status == FST_OK ? 0 : -1;
+}
+
+static fst_status solve(track_fit *f, double *v, double *sum, fst_error *error)
+{
+    const int m = residual_count(f), n = f->space.count + f->nuisances;
+    double x[FIT_MOST + NUISANCES] = {0.0}, origin[FIT_MOST + NUISANCES];
+    int places[FIT_MOST + NUISANCES];
+    double *r = calloc((size_t)m + FIT_SEARCH_WORK(m, n), sizeof *r);
+    if (!r)
+        return fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
+    memcpy(origin, v, (size_t)n * sizeof *v);
+    f->origin = origin;
+    f->error = error;
+    const fit_search search = {ask, f, m, n, x, r, r + m, places, 0.3, 1e-6, 60};
+    (void)f->minpack->least_squares(&search);
+    for (int k = 0; k < n; ++k)
+        v[k] = origin[k] + x[k];
+    *sum = fit_sum_of_squares(r, m);
+    free(r);
+    return f->status;
+}
+
+/* ------------------------------------------------------------------ the start */
+
+/* The angle of the magnet, the place on the orbit and the centre with which the first frames agree best. */
+static fst_status find_phases(track_fit *f, fst_error *error)
+{
+    enum { PHASES = 96 };
+    const double v[FIT_MOST + NUISANCES] = {0.0};
+    fit_path path;
+    double least = INFINITY;
+    const fst_status status = find_path(f, v, &path, error);
+    for (int k = 0; k < PHASES && status == FST_OK; ++k) {
+        double complex mean_z = 0, mean_w = 0, product = 0;
+        double square = 0;
+        for (int i = 0; i < f->used; ++i) {
+            const double complex seen = on_plate(f->tilt, f->z[i]), z = f->sense > 0 ? seen : conj(seen);
+            const double complex w =
+                fit_path_at(&path, f->drive, 0.0, (double)k / PHASES, f->exposure[0], f->t[i]);
+            mean_z += z / f->used;
+            mean_w += w / f->used;
+            product += z * conj(w);
+            square += creal(z * conj(z)) + creal(w * conj(w));
+        }
+        product -= f->used * mean_z * conj(mean_w);
+        square -= f->used * creal(mean_z * conj(mean_z) + mean_w * conj(mean_w));
+        const double left = square - 2.0 * cabs(product);
+        if (left < least) {
+            const double complex centre = mean_z - cexp(I * carg(product)) * mean_w;
+            least = left;
+            f->turn = carg(product);
+            f->phase = (double)k / PHASES;
+            f->centre = f->sense > 0 ? centre : conj(centre);
+        }
+    }
+    return status;
+}
+
+static fst_status take_frames(track_fit *f, const fst_track *track, const fst_measurement *seen,
+                              fst_error *error)
+{
+    const double *s = seen->stretch;
+    /* A tilt that is not sure is none: correcting for noise would make every radius too great. */
+    if (seen->tilt_deg > 3.0 * seen->tilt_deg_error)
+        f->tilt = 0.5 * (s[0] - s[2]) + s[1] * I;
+    double unit;
+    char one[32];
+    f->t = calloc(track->rows + 1, sizeof *f->t);
+    f->z = calloc(track->rows + 1, sizeof *f->z);
+    f->weight = calloc(track->rows + 1, sizeof *f->weight);
+    if (!f->t || !f->z || !f->weight)
+        return fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
+    (void)snprintf(one, sizeof one, "1 %s", track->length_unit);
+    if (fst_parse_value(one, FST_UNIT_LENGTH, &unit, NULL) != FST_OK)
+        return fst_fail(error, FST_BAD_INPUT, "fst_track.length_unit",
+                        "the track is in pixels: say how long one of them is");
+    for (size_t i = 0; i < track->rows; ++i) {
+        if (track->flag[i] != FST_FRAME_SEEN)
+            continue;
+        const double x = track->x[i] - seen->centre[0], y = track->y[i] - seen->centre[1];
+        f->t[f->frames] = track->t[i] - track->t[0];
+        f->z[f->frames] = unit * (x + y * I);
+        f->weight[f->frames++] = 1.0;
+    }
+    return FST_OK;
+}
+
+/* The three numbers of the film as a table. */
+static fst_points as_points(const fst_measurement *seen, double drive, double unit, fst_point *row)
+{
+    *row = (fst_point){.frequency = drive, .frequency_error = NAN, .line = 1};
+    const double value[] = {seen->mean_r * unit, seen->std_r * unit, seen->bead_frequency_hz};
+    const double error[] = {seen->mean_r_error * unit, seen->std_r_error * unit, seen->bead_frequency_hz_error};
+    for (int q = 0; q < FST_MEASURED_COUNT; ++q) {
+        const int known = isfinite(value[q]) && isfinite(error[q]) && error[q] > 0.0;
+        row->value[q] = known ? value[q] : NAN;
+        row->error[q] = known ? error[q] : NAN;
+    }
+    return (fst_points){.rows = row, .count = 1};
+}
+
+/* ------------------------------------------------------------------ the search */
+
+/* Frames that lie far off, as the median knows it, are left out; returns how many. */
+static int reject_frames(track_fit *f, const double *r)
+{
+    double *size = calloc((size_t)f->frames, sizeof *size);
+    int rejected = 0;
+    for (int i = 0; i < f->frames && size; ++i)
+        size[i] = hypot(r[2 * i], r[2 * i + 1]);
+    double *sorted = size ? malloc((size_t)f->frames * sizeof *sorted) : NULL;
+    if (sorted) {
+        memcpy(sorted, size, (size_t)f->frames * sizeof *sorted);
+        qsort(sorted, (size_t)f->frames, sizeof *sorted, fit_compare_doubles);
+        const double limit = 6.0 * sorted[f->frames / 2] / 1.1774; /* the median of a Rayleigh distribution */
+        for (int i = 0; i < f->frames; ++i)
+            if (size[i] > limit) {
+                f->weight[i] = 0.0;
+                ++rejected;
+            }
+    }
+    free(sorted);
+    free(size);
+    return rejected;
+}
+
+/* Windows that grow, then once more without the frames that lie far off. */
+static fst_status search(track_fit *f, double *v, int *rejected, fst_error *error)
+{
+    static const double windows[] = {0.15, 0.4, 1.0};
+    const double whole = f->t[f->frames - 1] - f->t[0];
+    double sum;
+    fst_status status = FST_OK;
+    for (int w = 0; w < 3 && status == FST_OK; ++w) {
+        for (f->used = 0; f->used < f->frames && f->t[f->used] - f->t[0] <= windows[w] * whole;)
+            f->used += 1;
+        if (w == 0)
+            status = find_phases(f, error);
+        if (status == FST_OK)
+            status = solve(f, v, &sum, error);
+    }
+    double *r = calloc((size_t)residual_count(f), sizeof *r);
+    if (!r)
+        return fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
+    if (status == FST_OK)
+        status = residuals(f, v, r, error);
+    *rejected = status == FST_OK ? reject_frames(f, r) : 0;
+    if (status == FST_OK && *rejected > 0)
+        status = solve(f, v, &sum, error);
+    free(r);
+    return status;
+}
+
+/* ------------------------------------------------------------------ the report */
+
+/* How much the variance of a mean exceeds that of white noise: residuals of neighbouring frames may be alike.
+ */
+static double redness(const track_fit *f, const double *r)
+{
+    enum { LAGS = 60 };
+    double zero = 0.0, sum = 1.0;
+    for (int i = 0; i < 2 * f->used; ++i)
+        zero += r[i] * r[i];
+    for (int lag = 1; lag < LAGS && lag < f->used / 4; ++lag) {
+        double product = 0.0;
+        for (int i = 0; i + 2 * lag < 2 * f->used; ++i)
+            product += r[i] * r[i + 2 * lag];
+        if (product < 2.0 * zero / sqrt(2.0 * f->used)) /* no more than chance */
+            break;
+        sum += 2.0 * product / zero;
+    }
+    return sum;
+}
+
+/* The covariance of the parameters' coordinates among all unknowns, scaled by what is left over. */
+static fst_status estimate(track_fit *f, const double *v, fit_estimate *e, double *left, fst_error *error)
+{
+    const int m = residual_count(f), n = f->space.count + f->nuisances;
+    fit_matrix covariance;
+    double *jacobian = calloc((size_t)m * (size_t)(n + 1), sizeof *jacobian),
+           *r = jacobian + (size_t)m * (size_t)n;
+    fst_status status =
+        jacobian ? residuals(f, v, r, error) : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
+    if (status == FST_OK)
+        status = derivatives(f, v, jacobian, error);
+    int kept = 0;
+    double sum = 0.0;
+    for (int i = 0; i < f->used && status == FST_OK; ++i) {
+        kept += f->weight[i] > 0.0;
+        sum += r[2 * i] * r[2 * i] + r[2 * i + 1] * r[2 * i + 1];
+    }
+    const double variance = sum / fmax(2.0 * kept - n, 1.0);
+    for (int i = 0; i < 2 * f->used && status == FST_OK; ++i)
+        for (int k = 0; k < n; ++k)
+            jacobian[i + m * k] /= sqrt(variance * redness(f, r));
+    if (status == FST_OK && !fit_covariance(jacobian, m, n, &covariance))
+        status = fst_fail(
+            error, FST_BAD_INPUT, "fst_fit",
+            "the track cannot tell the parameters that are sought apart: seek fewer, or give what is known "
+            "otherwise");
+    if (status == FST_OK) {
+        covariance.size = f->space.count;
+        e->covariance = covariance;
+        memcpy(e->u, v, (size_t)f->space.count * sizeof *v);
+    }
+    *left = NOISE * sqrt(variance);
+    free(jacobian);
+    return status;
+}
+
+static fst_status report(track_fit *f, const fit_estimate *e, double left, int rejected, fst_fit *fit,
+                         fst_error *error)
+{
+    fit_problem p;
+    memset(&p, 0, sizeof p);
+    p.space = f->space;
+    fit->count = f->space.count;
+    fit->free_count = f->space.free_count;
+    fit->error_scale = 1.0;
+    fit->points = 2 * (f->frames - rejected);
+    fit->dof = fit->points - fit->free_count;
+    fit->chi2 = fit->points - f->space.count - f->nuisances; /* the noise is measured by it */
+    fit->aicc = NAN;
+    (void)fit_space_params(&f->space, e->u, &fit->params);
+    for (int i = 0; i < fit->count; ++i) {
+        const double deviation = fit_deviation(&p, e, i);
+        fit_report_value(&p, e, i, deviation, &fit->parameters[i]);
+        for (int side = 0; side < 2; ++side)
+            fit->parameters[i].interval[side] =
+                fit_space_at(&f->space, i, fit_own_value(&p, e, i) + (side ? deviation : -deviation));
+        for (int j = 0; j < fit->count; ++j)
+            fit->correlation[i][j] = fit_correlation(&p, e, i, j);
+    }
+    fit_report_kappa_gamma2(&p, e, fit);
+    fit_say_weakest(&p, e, 1.0, fit->weakest, sizeof fit->weakest);
+    return fit_remark(
+        fit, error,
+        "%d frames, %d of them left out; places scatter by %.3g mm about the path (this scatter, with what "
+        "neighbouring frames have in common, makes the errors; the intervals are those of the parabola)",
+        f->frames, rejected, 1e3 * left);
+}
+
+/* The frequency of the drive, the scene's or the film's own, and parameters to begin with. */
+static fst_status begin(track_fit *f, const fst_params *params, const fst_measurement *seen,
+                        const fst_track *track, const fst_fit_options *options, fst_error *error)
+{
+    fst_params start = *params;
+    fst_fit rough;
+    fst_fit_options roughly = *options;
+    fst_point row;
+    double unit = NAN;
+    char one[32];
+    const double drive = isfinite(options->drive) ? options->drive : seen->drive_from_track_hz;
+    if (!isfinite(drive))
+        return fst_fail(error, FST_BAD_INPUT, "fst_fit_options.drive",
+                        "the track does not tell how the magnet turned: say it");
+    (void)snprintf(one, sizeof one, "1 %s", track->length_unit);
+    (void)fst_parse_value(one, FST_UNIT_LENGTH, &unit, NULL);
+    const fst_points points = as_points(seen, drive, unit, &row);
+    roughly.curve_points = roughly.rivals = roughly.bootstrap = 0;
+    fst_status status = fst_fit_points(params, &points, &roughly, &rough, error);
+    if (status == FST_OK)
+        start = rough.params;
+    fst_fit_free(&rough);
+    if (status == FST_INTERRUPTED || status == FST_UNAVAILABLE)
+        return status;
+    f->drive = fabs(drive);
+    f->sense = drive < 0 ? -1.0 : 1.0;
+    f->exposure[0] = isfinite(options->exposure) ? options->exposure : 0.0;
+    f->exposure[1] = options->exposure_error;
+    for (int k = 0; k < NUISANCES; ++k) {
+        const int held = (k == EXPOSURE && !(f->exposure[1] > 0.0)) || (k >= TILT_X && f->tilt == 0.0);
+        f->slot[k] = held ? -1 : f->nuisances++;
+    }
+    f->progress = options->progress;
+    status = fit_space_begin(&f->space, &start, options, error);
+    if (status == FST_OK && f->space.count + f->nuisances > FIT_MOST)
+        status = fst_fail(error, FST_BAD_INPUT, "fst_fit_options.free", "there are more than %d parameters",
+                          FIT_MOST - f->nuisances);
+    return status;
+}
+
+fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_fit_options *options,
+                         fst_fit *fit, fst_error *error)
+{
+    track_fit f;
+    fit_estimate e;
+    fst_measurement seen;
+    fst_measure_options how = fst_default_measure_options();
+    double v[FIT_MOST + NUISANCES] = {0.0}, left = NAN;
+    int rejected = 0;
+    memset(&f, 0, sizeof f);
+    memset(&e, 0, sizeof e);
+    memset(fit, 0, sizeof *fit);
+    fit->params = *params;
+    how.drive = options->drive;
+    fst_status status = fit_remark(fit, error, "%s", "");
+    if (status == FST_OK)
+        status = fst_minpack_load(&f.minpack, error);
+    if (status == FST_OK)
+        status = fst_measure_track(track, &how, &seen, error);
+    if (status == FST_OK)
+        status = take_frames(&f, track, &seen, error);
+    if (status == FST_OK)
+        status = begin(&f, params, &seen, track, options, error);
+    if (status == FST_OK && f.frames < 4 * (f.space.count + f.nuisances))
+        status =
+            fst_fail(error, FST_BAD_INPUT, "fst_track", "it has %d places of the bead, too few for %d unknowns",
+                     f.frames, f.space.count + f.nuisances);
+    if (status == FST_OK)
+        status = search(&f, v, &rejected, error);
+    if (status == FST_OK)
+        status = estimate(&f, v, &e, &left, error);
+    if (status == FST_OK)
+        status = report(&f, &e, left, rejected, fit, error);
+    free(f.t);
+    free(f.z);
+    free(f.weight);
+    if (status != FST_OK)
+        fst_fit_free(fit);
+    return status;
+}
