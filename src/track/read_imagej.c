@@ -75,11 +75,11 @@ fst_status track_read_imagej(const track_text *text, size_t header, track_raw *r
 static fst_status take_point(const track_text *text, size_t line, const track_cells *cells, int track,
                              track_raw *raw, fst_error *error)
 {
-    double values[5]; /* x y z t c */
+    double values[4]; /* x y z t; the channel c is passed over */
     if (cells->count < 6)
         return track_fail_line(text->path, line, error, "a point has %d numbers; ID x y z t c were expected",
                                cells->count - 1);
-    for (int k = 0; k < 5; ++k)
+    for (int k = 0; k < 4; ++k)
         if (track_number(cells->cell[k + 2], &values[k]) != TRACK_NUMBER)
             return track_fail_line(text->path, line, error, "\"%.40s\" is no number", cells->cell[k + 2]);
     if (track < 0)

@@ -165,7 +165,7 @@ static fst_status keep_spot(model *m, const track_xml *xml, fst_error *error)
 static void join(model *m, double id)
 {
     const model_spot wanted = {.id = id};
-    if (!m->sorted)
+    if (!m->sorted && m->count > 0)
         qsort(m->spots, m->count, sizeof *m->spots, by_id);
     m->sorted = 1;
     model_spot *found = m->count > 0 ? bsearch(&wanted, m->spots, m->count, sizeof *m->spots, by_id) : NULL;
