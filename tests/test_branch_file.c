@@ -14,7 +14,7 @@ _Static_assert(sizeof(fst_branch_point) == (13 + 2 * 9 + 10) * sizeof(double) + 
 _Static_assert(sizeof(fst_special) == 2 * sizeof(double) + 6 * sizeof(int) + sizeof(fst_branch_point),
                "a new member");
 _Static_assert(sizeof(fst_branch_end) == 4 * sizeof(int) + sizeof(double) + 192, "a new member");
-_Static_assert(sizeof(fst_branch) == 2 * 64 + 4 * sizeof(double) + 6 * sizeof(int) + 6 * sizeof(void *),
+_Static_assert(sizeof(fst_branch) == 2 * 64 + 6 * sizeof(double) + 6 * sizeof(int) + 6 * sizeof(void *),
                "a new member");
 
 /* All numbers differ from each other and none is zero, so that no member can stand for another. */
@@ -55,6 +55,8 @@ static fst_branch made_up(int over_two)
     b.to = 2.0 / 3.0;
     b.branches = 5;
     b.complete = over_two;
+    b.half_length = fst_default_params().magnet_half_length; /* they stand in the scene */
+    b.gamma = fst_default_params().friction_gamma;
     if (over_two) {
         (void)snprintf(b.second_key, sizeof b.second_key, "model.kappa");
         b.second_from = 1.1;

@@ -181,6 +181,11 @@ class Usage(Case):
         self.bad(["branch", "--kind", "counter", "--over", "drive.freq=9:10"], "the nearest is drive.frequency")
         self.bad(["sweep", "--over", "drive.freq=9:10:3", "-o", self.path("a.db")], "the nearest is drive.frequency ")
         self.bad(["run", "--out=x.h5"], "the nearest is --output")
+        self.bad(["run", "--frequency", "9Hz"], "unknown option --frequency; a parameter is set by --set drive.frequency=VALUE")
+        self.bad(["run", "--radius=2mm"], "unknown option --radius; a parameter is set by --set bead.radius=VALUE")
+        self.bad(["export", "--frequency", "9Hz"], "unknown option --frequency; the nearest is ")
+        self.assertEqual(self.good("help", "help"), self.good("--help"))
+        self.assertEqual(self.good("help", "completion"), self.good("completion", "--help"))
 
     def test_decimal_comma(self):
         self.bad(["run", "--set", "drive.frequency=1,5 Hz"], 'has a decimal comma: write "1.5 Hz", with a point')

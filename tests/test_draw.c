@@ -17,7 +17,10 @@
 #include <unistd.h>
 
 #include "draw/chart.h"
+#include "draw/figure_setup.h"
 #include "draw/gnuplot.h"
+#include "draw/legend.h"
+#include "draw/smooth.h"
 #include "draw/view.h"
 
 #include <festoon/festoon_tools.h>
@@ -125,11 +128,13 @@ static void pretend_gnuplot(const char *body)
 static void every_kind_in_every_format(void **state)
 {
     (void)state;
-    static const fst_figure_kind kinds[] = {FST_FIGURE_PATH, FST_FIGURE_LOCAL_N, FST_FIGURE_RADIUS_FIELD};
+    static const fst_figure_kind kinds[] = {FST_FIGURE_PATH, FST_FIGURE_LOCAL_N, FST_FIGURE_RADIUS_FIELD,
+                                            FST_FIGURE_TIME, FST_FIGURE_SECTION};
+    enum { KINDS = sizeof kinds / sizeof kinds[0] };
     static const char *const endings[] = {"svg", "pdf", "png"}, *const marks[] = {"<?xml", "%PDF", "\x89PNG"};
     fst_table table = make_table();
     fst_error error = {.code = FST_OK};
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < KINDS; k++) {
         for (int e = 0; e < 3; e++) {
             fst_figure_options options = fst_default_figure_options();
             options.kind = kinds[k];
@@ -285,7 +290,7 @@ static void the_field_shows_its_maxima(void **state)
 {
     (void)state;
     fst_params params = fst_default_params();
-    assert_int_equal(fst_figure_field(&params, inside("field.svg"), NULL), FST_OK);
+    assert_int_equal(fst_figure_field(&params, FST_SHOWN_SCALED, inside("field.svg"), NULL), FST_OK);
     size_t size;
     char *data = contents("field.dat", &size), *at = strstr(data, "# maxima");
     assert_non_null(at);
@@ -302,8 +307,7 @@ static void a_curve_breaks_where_it_is_not_a_number(void **state)
     (void)state;
     const double x[] = {0, 1, 2, 3, 4, 5}, y[] = {0, 1, NAN, NAN, 4, 5};
     fst_chart_curve curve = {.title = "curve", .x = x, .y = y, .count = 6, .colour = FST_COLOUR_BLUE};
-    fst_chart_panel panel = {
-        .left_label = "y", .low = NAN, .high = NAN, .key = "top left", .curves = &curve, .curve_count = 1};
+    fst_chart_panel panel = {.left_label = "y", .low = NAN, .high = NAN, .curves = &curve, .curve_count = 1};
     fst_chart chart = {.title = "a chart", .x_label = "x", .x_high = 5.0, .panels = &panel, .panel_count = 1};
     assert_int_equal(fst_figure_chart(inside("chart.svg"), &chart, NULL), FST_OK);
     size_t size;
@@ -346,6 +350,121 @@ static void units_have_their_symbols(void **unused)
     assert_true(strlen(tight) < sizeof tight);
 }
 
+/* A long title takes lines, none of which is longer than the figure is wide, and no word of it is lost; the
+ * panels begin below it. */
+static void long_titles_take_lines(void **state)
+{
+    (void)state;
+    const double x[] = {0, 1}, y[] = {0, 1};
+    fst_chart_curve curve = {.title = "curve", .x = x, .y = y, .count = 2, .colour = FST_COLOUR_BLUE};
+    fst_chart_curve empty = {.title = "nothing", .x = x, .y = y, .count = 0, .colour = FST_COLOUR_GREEN};
+    fst_chart_curve curves[] = {curve, empty, curve};
+    fst_chart_panel panel = {
+        .left_label = "an ordinate", .low = NAN, .high = NAN, .curves = curves, .curve_count = 3};
+    fst_chart chart = {
+        .title = "This is a title that says a great deal about what the figure shows and of which bead",
+        .x_label = "x",
+        .x_high = 1.0,
+        .panels = &panel,
+        .panel_count = 1};
+    assert_int_equal(fst_figure_chart(inside("title.svg"), &chart, NULL), FST_OK);
+    size_t size;
+    char *script = contents("title.gp", &size), joined[512] = "";
+    int lines = 0, keyed = 0;
+    for (char *at = script; (at = strstr(at, "set label '")) != NULL;) {
+        at += strlen("set label '");
+        const size_t length = strcspn(at, "'");
+        assert_true(8.0 * (double)length < FST_FIGURE_WIDTH);
+        if (strstr(at, "font ',15'") && strstr(at, "font ',15'") < strchr(at, '\n')) {
+            (void)snprintf(joined + strlen(joined), sizeof joined - strlen(joined), "%s%.*s",
+                           lines++ ? " " : "", (int)length, at);
+        }
+        keyed += strncmp(at, "curve'", 6) == 0;
+        assert_true(strncmp(at, "nothing'", 8) != 0); /* a curve without a point is not in the key */
+    }
+    assert_string_equal(joined, chart.title);
+    assert_int_equal(lines, 2);
+    assert_int_equal(keyed, 1); /* two curves of one name and style are one entry */
+    free(script);
+}
+
+/* The sketch names every angle that the model speaks of, and has the bar's true size. */
+static void the_sketch_names_its_angles(void **state)
+{
+    (void)state;
+    static const char *const words[] = {"φ", "θ", "Φ", "ω", "56 × 40 × 9 mm", "16.2 mm", "plate", "its model"};
+    const fst_params params = fst_default_params();
+    assert_int_equal(fst_figure_sketch(&params, inside("sketch.svg"), NULL), FST_OK);
+    size_t size;
+    char *picture = contents("sketch.svg", &size);
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++)
+        if (!strstr(picture, words[i]))
+            fail_msg("the sketch lacks %s", words[i]);
+    free(picture);
+    char *data = contents("sketch.dat", &size), *at = strstr(data, "# magnet-above");
+    double corner[4];
+    assert_non_null(at);
+    at = strchr(strchr(at, '\n') + 1, '\n');
+    assert_int_equal(sscanf(at, "%lf %lf %lf %lf", &corner[0], &corner[1], &corner[2], &corner[3]), 4);
+    assert_true(fabs(hypot(corner[2] - corner[0], corner[3] - corner[1]) - 56.0) < 1e-3);
+    free(data);
+}
+
+/* A cubic through points on a circle is ever closer to it, at least as the third power of their distance. */
+static void smooth_curves_converge(void **state)
+{
+    (void)state;
+    double worst[2] = {0.0, 0.0};
+    for (int fine = 0; fine < 2; fine++) {
+        enum { MOST = 33, PARTS = 8 };
+        const size_t count = fine ? 33 : 17;
+        double x[MOST], y[MOST], to_x[MOST * PARTS], to_y[MOST * PARTS];
+        for (size_t i = 0; i < count; i++) {
+            const double turned = 3.0 * pow((double)i / (double)(count - 1), 1.3); /* distances differ */
+            x[i] = 5.0 * cos(turned);
+            y[i] = 0.2 * sin(turned);
+        }
+        const size_t drawn = fst_smooth(x, y, count, PARTS, 5.0, 0.2, to_x, to_y);
+        assert_int_equal(drawn, PARTS * (count - 1) + 1);
+        for (size_t i = 0; i < drawn; i++)
+            worst[fine] = fmax(worst[fine], fabs(hypot(to_x[i] / 5.0, to_y[i] / 0.2) - 1.0));
+        for (size_t i = 0; i < count; i++)
+            assert_true(to_x[PARTS * i] == x[i] && to_y[PARTS * i] == y[i]);
+    }
+    assert_true(worst[0] < 1e-3 && worst[0] > 7.0 * worst[1]);
+}
+
+/* The units of a laboratory: the paper's numbers (l = 23 mm, gamma = 312.5 1/s, 0.5 g). */
+static void units_of_the_laboratory(void **state)
+{
+    (void)state;
+    const fst_params params = fst_default_params();
+    const fst_scales scales = fst_scales_of(&params);
+    static const struct {
+        const char *unit, *lab, *si;
+        double in_lab, in_si;
+    } wanted[] = {{"l", "mm", "m", 23.0, 0.023},
+                  {"1/gamma", "s", "s", 3.2e-3, 3.2e-3},
+                  {"l gamma", "mm/s", "m/s", 7187.5, 7.1875},
+                  {"l gamma^2", "mN", "N", 1123.046875, 1.123046875},
+                  {"l^2 gamma^2", "uJ", "J", 25830.078125, 0.025830078125},
+                  {"l^2 gamma^3", "mW", "W", 8071.8994140625, 8.0718994140625},
+                  {"B0", "B0", "B0", 1.0, 1.0}, /* no moment is given, so B0 is not known in tesla */
+                  {"deg", "deg", "deg", 1.0, 1.0}};
+    assert_true(isnan(scales.field));
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
+        const char *name;
+        assert_true(fabs(fst_unit_shown(wanted[i].unit, FST_SHOWN_LAB, &scales, &name) / wanted[i].in_lab -
+                         1.0) < 1e-12);
+        assert_string_equal(name, wanted[i].lab);
+        assert_true(fabs(fst_unit_shown(wanted[i].unit, FST_SHOWN_SI, &scales, &name) / wanted[i].in_si - 1.0) <
+                    1e-12);
+        assert_string_equal(name, wanted[i].si);
+        assert_true(fst_unit_shown(wanted[i].unit, FST_SHOWN_SCALED, &scales, &name) == 1.0);
+        assert_string_equal(name, wanted[i].unit);
+    }
+}
+
 int main(void)
 {
     if (system("gnuplot --version >/dev/null 2>&1") != 0)
@@ -357,6 +476,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(between_samples_the_path_is_smooth),
         cmocka_unit_test(units_have_their_symbols),
+        cmocka_unit_test(units_of_the_laboratory),
+        cmocka_unit_test(smooth_curves_converge),
+        cmocka_unit_test_teardown(long_titles_take_lines, clear_directory),
+        cmocka_unit_test_teardown(the_sketch_names_its_angles, clear_directory),
         cmocka_unit_test_teardown(every_kind_in_every_format, clear_directory),
         cmocka_unit_test_teardown(only_the_bar_of_lines_is_drawn, clear_directory),
         cmocka_unit_test_teardown(the_script_draws_the_figure_again, clear_directory),

@@ -94,6 +94,26 @@ class Trajectories(Case):
         for i, t in enumerate(times):
             self.assertAlmostEqual(t, i * step, delta=1e-9)
 
+    def test_flights(self):
+        """Heights of a bead that flies, in the trajectory and in its pictures."""
+        name = self.path("fly.csv")
+        self.good("run", *DRY, "--set", "impact.restitution=0.6", "--set", "drive.frequency=80Hz", "--set",
+                  "run.periods=3", "--set", "run.discard=1", "-o", name)
+        with open(name, encoding="utf-8") as file:
+            lines = [line for line in file if not line.startswith("#")]
+        names = [word.split("[")[0].split()[0] for word in lines[0].strip().split(",")]
+        rows = [dict(zip(names, map(float, line.split(",")))) for line in lines[1:]]
+        flown = [row for row in rows if row["flying"] == 1]
+        self.assertGreater(len(flown), 3)
+        self.assertGreater(max(row["z"] for row in flown), 1e-4)
+        for row in rows:
+            self.assertGreaterEqual(row["z"], -1e-12)
+            if row["flying"] == 0:
+                self.assertEqual((row["z"], row["vz"]), (0, 0))
+            else:
+                self.assertEqual((row["load"], row["friction"]), (0, 0))
+        self.good("plot", name, "--colour", "z", "-o", self.path("fly.svg"))
+
     def test_pictures(self):
         name = self.path("dry.h5")
         self.good("run", *DRY, "--set", "run.periods=6", "-o", name)

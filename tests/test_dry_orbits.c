@@ -292,6 +292,40 @@ static void slipping_lock_meets_rolling_ones(void **unused)
     fst_branch_free(&branch);
 }
 
+/* A fold followed over drive and friction at once: at an end of the curve it is the fold of the branch there.
+ */
+static void curve_of_folds(void **unused)
+{
+    (void)unused;
+    const fst_params params = coulomb(7.0, 0.2), there = coulomb(7.0, 0.18);
+    fst_branch_options o = fst_default_branch_options();
+    o.kind = FST_BRANCH_LOCKED;
+    o.key = "drive.frequency";
+    o.from = 7.3;
+    o.to = 7.7;
+    o.second_key = "friction.mu";
+    o.second_from = 0.18;
+    o.second_to = 0.22;
+    o.special = FST_SPECIAL_FOLD;
+    fst_branch curve = followed(&params, &o);
+    o.second_key = NULL;
+    fst_branch branch = followed(&there, &o);
+    double nearest = INFINITY, at = INFINITY;
+    for (size_t i = 0; i < curve.point_count; ++i)
+        if (fabs(curve.points[i].second - 0.18) < nearest) {
+            nearest = fabs(curve.points[i].second - 0.18);
+            at = curve.points[i].value;
+        }
+    CHECK_CLOSE(nearest, 0.0, 1e-12);
+    nearest = INFINITY;
+    for (size_t i = 0; i < branch.special_count; ++i)
+        if (branch.specials[i].type == FST_SPECIAL_FOLD)
+            nearest = fmin(nearest, fabs(branch.specials[i].value - at));
+    CHECK_CLOSE(nearest, 0.0, 1e-7);
+    fst_branch_free(&curve);
+    fst_branch_free(&branch);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(against_another_integrator),
@@ -301,6 +335,7 @@ int main(void)
                                        cmocka_unit_test(rolling_has_no_orbit),
                                        cmocka_unit_test(rolling_locks),
                                        cmocka_unit_test(families_grow_with_friction),
+                                       cmocka_unit_test(curve_of_folds),
                                        cmocka_unit_test(grazing),
                                        cmocka_unit_test(slipping_lock_meets_rolling_ones)};
     return cmocka_run_group_tests(tests, NULL, NULL);

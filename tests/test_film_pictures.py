@@ -15,7 +15,7 @@ import zlib
 from pathlib import Path
 
 FESTOON = os.environ["FESTOON"]
-SIZE, LENGTH, RADIUS = 240, 23.0, 2.5  # pixels; mm
+SIZE, LENGTH, WIDTH, RADIUS = 240, 23.0, 40.0, 2.5  # pixels; mm
 ORANGE, BLUE = (213, 94, 0), (0, 114, 178)
 
 
@@ -69,6 +69,7 @@ class Pictures(unittest.TestCase):
                     "--turn", "1", "--size", f"{SIZE}x{SIZE}")
             shown = [row for row in rows if row["drive_turns"] <= 2 + 1e-9]
             reach = max(1.25 * max(max(abs(r["x"]), abs(r["y"])) for r in shown), 1.35) * LENGTH
+            reach = max(reach, 1.05 * math.hypot(28 / 23 * LENGTH, WIDTH / 2))  # room for the bar as it turns
             scale = 0.84 * SIZE / 2 / reach  # pixels a millimetre
             poles = 0
             for i in range(0, 7):

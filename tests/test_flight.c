@@ -178,6 +178,30 @@ static void test_bad_input(void **unused)
     CHECK_CONTAINS(error.sentence, "0 to 1");
 }
 
+/* At 80 Hz the magnet throws the bead up again and again: it comes down on the plate, never below it. */
+static void test_never_below_the_plate(void **unused)
+{
+    (void)unused;
+    fst_params p = bouncing_bead(0.6);
+    p.drive_omega = NAN;
+    p.drive_frequency = 80;
+    fst_model *model = model_of(&p);
+    double start[FST_STATE_SIZE], height, climb, highest = 0;
+    start_of(&p, model, start);
+    fst_flow *flow = flow_of(model, 1e-10, start);
+    while (flow->t.high < 12) {
+        assert_int_equal(fst_flow_step(flow, 12, NULL), FST_OK);
+        for (int i = 1; i <= 4 && fst_flight_is_on(flow); ++i) {
+            fst_flight_at(flow, 0.25 * i, &height, &climb);
+            CHECK_WITHIN(height, -1e-13, 0.1);
+            highest = fmax(highest, height);
+        }
+    }
+    assert_true(flow->contact.impacts >= 2 && highest > 1e-3);
+    fst_flow_free(flow);
+    fst_model_free(model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -186,6 +210,7 @@ int main(void)
         cmocka_unit_test(test_elastic_bead),
         cmocka_unit_test(test_field_at_a_height),
         cmocka_unit_test(test_energy_through_flights),
+        cmocka_unit_test(test_never_below_the_plate),
         cmocka_unit_test(test_without_restitution_the_run_ends),
         cmocka_unit_test(test_bad_input),
     };

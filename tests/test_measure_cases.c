@@ -249,6 +249,41 @@ static void test_locked(void **state)
     }
 }
 
+static fst_status refuse(void *user, double fraction, const char *what, fst_error *error)
+{
+    double *last = user;
+    (void)what;
+    assert_true(fraction >= last[0] && fraction <= 1.0); /* it never falls */
+    last[0] = fraction;
+    if ((last[1] -= 1.0) > 0)
+        return FST_OK;
+    (void)snprintf(error->sentence, sizeof error->sentence, "enough");
+    return FST_INTERRUPTED;
+}
+
+/* The caller may end the work whenever it is told of the progress. */
+static void test_interruption(void **state)
+{
+    (void)state;
+    made_motion motion = motion_at(10.7, 3.0);
+    const made_film film = {.fps = 240, .seconds = 2.5, .scale = 4.0, .noise = 0.2, .clock = 1.0, .seed = 3};
+    for (int calls = 1; calls < 12; calls += 5) {
+        double user[2] = {0.0, calls};
+        const fst_progress progress = {user, refuse};
+        fst_measure_options options = fst_default_measure_options();
+        fst_measurement m;
+        fst_error error;
+        fst_track track;
+        options.progress = &progress;
+        made_track(&motion, &film, &track);
+        assert_int_equal(fst_measure_track(&track, &options, &m, &error), FST_INTERRUPTED);
+        assert_string_equal(error.sentence, "enough");
+        assert_true(user[1] == 0.0);
+        fst_track_free(&track);
+    }
+    made_motion_free(&motion);
+}
+
 static void test_20_films(void **state)
 {
     (void)state;
@@ -265,6 +300,7 @@ int main(void)
         cmocka_unit_test(test_tilt),
         cmocka_unit_test(test_faults),
         cmocka_unit_test(test_locked),
+        cmocka_unit_test(test_interruption),
         cmocka_unit_test(test_20_films),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

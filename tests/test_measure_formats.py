@@ -170,6 +170,8 @@ class BadFiles(Measure):
     def test_no_motion(self):
         rest = tracks.places(r0=0.0, swing=0.0)
         self.assertIn("rest", self.refused(tracks.own(rest), status=1))
+        trembling = tracks.places(r0=0.3, swing=0.0, noise=0.3, bead=10.7)
+        self.assertIn("rest", self.refused(tracks.own(trembling), "--drive", "10.7Hz", status=1))
         self.assertIn("turn", self.refused(tracks.own(tracks.places(seconds=0.2, bead=1.0)), status=1))
 
 

@@ -89,6 +89,7 @@ class Movie(unittest.TestCase):
         rows = [dict(zip(names, map(float, line.split(",")))) for line in lines[1:]]
         shown = [row for row in rows if row["drive_turns"] <= 4.0 + 1e-9]
         reach = max(1.25 * max(max(abs(r["x"]), abs(r["y"])) for r in shown), 1.35) * 23.0
+        reach = max(reach, 1.05 * math.hypot(28.0, 20.0))  # room for the bar as it turns
         frames = self.frames("place", "--to", "4", "--fps", "1", "--size", "480x480")
         for turn in (2, 3):
             row = min(rows, key=lambda r: abs(r["drive_turns"] - turn))

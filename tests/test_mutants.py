@@ -13,7 +13,7 @@ import entries as listed  # noqa: E402
 
 LEAST = 150
 ROOMS = {"base", "host", "model", "ode", "observe", "lanes", "study", "orbit", "io", "sweep", "draw", "film", "paper",
-         "cli", "tables"}
+         "cli", "tables", "track"}
 PHYSICS = {"model", "ode", "observe", "lanes", "study", "orbit"}
 OTHER_TESTS = {"includes", "headers", "exports", "installed"}
 

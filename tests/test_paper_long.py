@@ -1,8 +1,10 @@
 """`festoon paper`: every command of paper.json, the slow ones too, prints the number that stands beside it."""
 
+import html
 import json
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -33,6 +35,31 @@ class Commands(unittest.TestCase):
                 else:
                     self.assertLessEqual(abs(value - expected), 1e-12 * abs(expected), command)
         self.assertGreater(len(printed), 70)
+
+
+FRAME = """<iframe id="page" src="report.html" style="border:0;width:{0}px;height:900px"></iframe><pre id="said"></pre>
+<script>onload = () => {{
+  const page = document.getElementById("page").contentDocument;
+  const wide = [...page.querySelectorAll("*")].filter(e => e.getBoundingClientRect().right > {0} + 1).map(e => e.outerHTML);
+  document.getElementById("said").textContent = JSON.stringify([page.documentElement.scrollWidth, wide.slice(0, 3)]);
+}}</script>"""
+
+
+class Browser(unittest.TestCase):
+    @unittest.skipUnless(shutil.which("chromium"), "there is no chromium")
+    def test_nothing_is_wider_than_a_phone(self):
+        """In a browser, 390 pixels wide, no part of the report reaches beyond the edge."""
+        with tempfile.TemporaryDirectory() as scratch:
+            subprocess.run([FESTOON, "paper", "--reduced", "-o", scratch], check=True, capture_output=True)
+            for width in (390, 1000):
+                (Path(scratch) / "frame.html").write_text(FRAME.format(width))
+                page = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu",
+                                       "--allow-file-access-from-files", f"--user-data-dir={scratch}/browser",
+                                       "--virtual-time-budget=20000", "--dump-dom", f"file://{scratch}/frame.html"],
+                                      capture_output=True, text=True).stdout
+                said = json.loads(html.unescape(re.search(r'<pre id="said">(.*?)</pre>', page, re.S)[1]))
+                self.assertLessEqual(said[0], width, said)
+                self.assertEqual(said[1], [])
 
 
 class Documentation(unittest.TestCase):

@@ -1,6 +1,8 @@
-/* Figures made small for the report: the same lines in the same colours, in fewer letters. */
+/* Pieces of the report: figures made small, with the same lines in the same colours in fewer letters, and
+ * prose. */
 #include "numeric.h"
 
+#include "paper/report_parts.h"
 #include "paper/svg_small.h"
 
 #include <stdio.h>
@@ -77,6 +79,28 @@ static void the_rest_keeps_its_meaning(void **state)
     becomes("<a b=\"it's\" c='\"'/>", "<a b=\"it's\" c='\"'/>");
 }
 
+/* Subscripts of symbols are set low; what is no symbol, and what a page would take for its own, is safe. */
+static void prose(void **state)
+{
+    (void)state;
+    static const char *const cases[][2] = {
+        {"e_r and V_α", "e<sub>r</sub> and V<sub>α</sub>"},
+        {"BH_max/B_rem", "BH<sub>max</sub>/B<sub>rem</sub>"},
+        {"n_z² <b> & _x a_", "n<sub>z</sub>² &lt;b&gt; &amp; _x a_"},
+        {"film_0215", "film_0215"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        char *text = NULL;
+        size_t size = 0;
+        FILE *out = open_memstream(&text, &size);
+        assert_non_null(out);
+        fst_report_prose(out, cases[i][0]);
+        (void)fclose(out);
+        assert_string_equal(text, cases[i][1]);
+        free(text);
+    }
+}
+
 /* Text that is no figure, or a piece of one, comes to an end too. */
 static void anything_may_come(void **state)
 {
@@ -111,6 +135,7 @@ int main(void)
         cmocka_unit_test(points_on_a_line_go_and_no_error_grows),
         cmocka_unit_test(the_rest_keeps_its_meaning),
         cmocka_unit_test(anything_may_come),
+        cmocka_unit_test(prose),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

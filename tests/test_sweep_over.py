@@ -114,6 +114,8 @@ class Keys(Over):
     def test_strengths_without_effect(self):
         self.says("no effect", "bead.a=1,2")
         self.says("no effect", "bead.b=1,2", sets=["bead.material=paramagnetic"])
+        self.says("choose hertz or pade", "contact.radius=0.1mm,0.2mm", sets=[DRY])
+        self.says("choose coulomb", "impact.restitution=0.5,0.6")
         rows = self.table("bead.material=hard,paramagnetic", "bead.a=1,2")
         self.assertEqual([row["final_state"] for row in rows].count(rows[0]["final_state"]), 2)  # hard: both end alike
         self.assertNotEqual(rows[2]["final_state"], rows[3]["final_state"])

@@ -384,6 +384,8 @@ typedef struct fst_sample {
     double x, y;              /* position in the laboratory */
     double n_lab[3], w_lab[3], v_lab[2];
     fst_observation seen;
+    int flies;            /* the bead is in the air, */
+    double height, climb; /* at this height over its place on the plate, rising at this speed */
 } fst_sample;
 typedef struct fst_ramp_point {
     double omega, frequency_hz, mean_r, std_r, mean_alpha_dot, mean_phi_dot, mean_nz;
@@ -408,6 +410,7 @@ typedef struct fst_run_options {
                          motion has settled; 0: the drive changes steadily */
     double ramp_disturbance; /* the size of the disturbance with which the motion starts there, scaled */
     double sample_from;      /* no sample is taken in the drive periods before this one */
+    double sample_spacing;   /* the time between two samples, 1/gamma; 0: run.samples in each drive period */
     const double *start;     /* FST_STATE_SIZE numbers: the state at the start; NULL: that of start.* */
 } fst_run_options;
 FST_API fst_run_options fst_default_run_options(void);

@@ -98,6 +98,10 @@ FST_API double fst_unit_shown(const char *unit, fst_shown_units units, const fst
 typedef struct fst_trajectory fst_trajectory;
 FST_API fst_status fst_trajectory_create(const char *path, const fst_params *params,
                                          fst_trajectory **trajectory, fst_error *error);
+/* A trajectory for other programs: a .csv whose columns are in laboratory or SI units (`units`), named in its
+ * line of columns.  fst_trajectory_read() refuses it. */
+FST_API fst_status fst_trajectory_create_in(const char *path, const fst_params *params, fst_shown_units units,
+                                            fst_trajectory **trajectory, fst_error *error);
 /* FST_BAD_INPUT: a number of the sample is not finite; such a file could not be read back. */
 FST_API fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *sample,
                                          fst_error *error);
@@ -115,6 +119,10 @@ typedef struct fst_column_info {
 FST_API int fst_column_count(void);
 FST_API const fst_column_info *fst_column_at(int index);
 
+/* As fst_unit_shown(), for a column: angular velocities are in rad/s. */
+FST_API double fst_column_shown(const fst_column_info *column, fst_shown_units units, const fst_scales *scales,
+                                const char **name);
+
 /* A trajectory that was read from .h5 or .csv: columns[i][row], in the order of fst_column_at(). */
 typedef struct fst_table {
     size_t rows;
@@ -131,10 +139,15 @@ FST_API void fst_table_free(fst_table *table);
 
 /* What a figure of a trajectory shows. */
 typedef enum {
-    FST_FIGURE_PATH,        /* the lab path coloured by a quantity, arrows of the horizontal moment */
-    FST_FIGURE_LOCAL_N,     /* the path of n in the local frame (r, alpha, z) */
-    FST_FIGURE_RADIUS_FIELD /* r and |B| against Phi over half a revolution of the magnet */
+    FST_FIGURE_PATH,         /* the lab path coloured by a quantity, arrows of the horizontal moment */
+    FST_FIGURE_LOCAL_N,      /* the path of n in the local frame (r, alpha, z) */
+    FST_FIGURE_RADIUS_FIELD, /* r and |B| against Phi over half a revolution of the magnet */
+    FST_FIGURE_TIME,         /* quantities against time, a panel each */
+    FST_FIGURE_SECTION,      /* the Poincare section: one quantity against another where Phi passes pi/2 */
+    FST_FIGURE_RAMP          /* quantities against the drive's frequency, for a ramp */
 } fst_figure_kind;
+
+#define FST_FIGURE_KEYS 6
 
 typedef struct fst_figure_options {
     uint32_t cookie;
@@ -145,6 +158,10 @@ typedef struct fst_figure_options {
     double from, to;    /* drive periods shown; NAN: from the discard, for as long as makes a good picture */
     double zoom[4];     /* x0 x1 y0 y1 in mm; NAN: everything */
     const char *title;  /* NULL: made from the scene */
+    /* Columns that figures of time, sections and ramps show; NULL ends a shorter list, an empty one is chosen.
+     */
+    const char *keys[FST_FIGURE_KEYS];
+    fst_shown_units units; /* as given: lengths in mm for paths, otherwise scaled */
 } fst_figure_options;
 FST_API fst_figure_options fst_default_figure_options(void);
 
@@ -157,12 +174,14 @@ FST_API fst_status fst_figure_trajectory(const fst_table *table, const char *out
 /* Draw a branch: `observable` ("mean_r", "mean_alpha_dot", "mean_nz", "festoons", "min_r", "period") over the
  * parameter, with stable parts solid, unstable ones dashed, special points labelled, and `dots` (pairs of
  * abscissa and ordinate, may be NULL) on top; or, with "multipliers", the multipliers in the complex plane with
- * the unit circle. */
-FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *observable, const double *dots,
-                                     size_t dot_count, const char *out, fst_error *error);
+ * the unit circle (of locked states: their eigenvalues).  As given: laboratory units where the parameter has
+ * one. FST_BAD_INPUT: the branch has no value of the observable; the sentence names those it has. */
+FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *observable, fst_shown_units units,
+                                     const double *dots, size_t dot_count, const char *out, fst_error *error);
 
 /* The map of the magnet's field on the plane of the bead's centre (the paper's Fig. 5). */
-FST_API fst_status fst_figure_field(const fst_params *params, const char *out, fst_error *error);
+FST_API fst_status fst_figure_field(const fst_params *params, fst_shown_units units, const char *out,
+                                    fst_error *error);
 
 /* ------------------------------------------------------------------ sweeps */
 
@@ -254,7 +273,8 @@ FST_API fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_er
 /* Draw a sweep: over one axis curves of the keys; over two axes a map of one key, or of regimes where the key
  * is `regime`.  With count = 0 the keys are chosen: mean r and its deviation, the mean angular velocity and the
  * regime over one axis; the regime over two.  An axis with logarithmic spacing is drawn logarithmically.
- * FST_BAD_INPUT: more than two axes, more than one key on a map, or units that a varied parameter changes. */
+ * As given: laboratory units where a varied parameter has one (Hz, mm), otherwise scaled ones.  FST_BAD_INPUT:
+ * more than two axes, more than one key on a map, or units that a varied parameter changes. */
 FST_API fst_status fst_figure_sweep(const char *path, const char *const *keys, int count, fst_shown_units units,
                                     const char *out, fst_error *error);
 
@@ -270,15 +290,17 @@ typedef struct fst_film_options {
     double from, to;              /* drive periods shown; NAN: everything */
     double seconds_per_turn;      /* seconds of film for a turn of the magnet */
     const char *colour;           /* the column that colours the trail; NULL: "slip" */
+    fst_shown_units units;        /* of the scale of colours; as given: those in which the drive is given */
     const fst_progress *progress; /* NULL: nobody is told */
 } fst_film_options;
 /* 720 x 720 pixels, 30 frames a second, one second a turn. */
 FST_API fst_film_options fst_default_film_options(void);
 
 /* Make a film of a trajectory: the plate from above with the magnet turning beneath it, the bead with its poles
- * and surface marks, its trail, and a view from the front.  `out` ends in .mp4 or .gif, or is a folder for PNG
- * frames.  FST_BAD_INPUT: an odd size, no samples in the range, an unknown column.  FST_UNAVAILABLE: this build
- * has no Cairo, or there is no ffmpeg; without ffmpeg the frames are kept in a folder that the sentence names.
+ * and surface marks, its trail, a view from the front, and a key of the poles and of the sense of rotation.
+ * `out` ends in .mp4 or .gif, or is a folder for PNG frames.  FST_BAD_INPUT: an odd size, no samples in the
+ * range, an unknown column.  FST_UNAVAILABLE: this build has no Cairo, or there is no ffmpeg; without ffmpeg
+ * the frames are kept in a folder that the sentence names.
  */
 FST_API fst_status fst_film(const fst_table *table, const char *out, const fst_film_options *options,
                             fst_error *error);

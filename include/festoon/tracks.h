@@ -70,12 +70,13 @@ FST_API fst_status fst_track_read(const char *path, const fst_track_options *opt
 
 /* ------------------------------------------------------------------ measuring */
 
-enum { FST_WARNING_LIMIT = 24, FST_WARNING_SIZE = 360 };
+enum { FST_WARNING_LIMIT = 24, FST_WARNING_SIZE = 360, FST_WAVE_LIMIT = 8 };
 
 typedef struct fst_measure_options {
     uint32_t cookie;
-    double drive;    /* Hz; negative where the magnet turns clockwise in the film; NAN: unknown */
-    double exposure; /* s that a frame was exposed; NAN: unknown, nothing is corrected */
+    double drive;                 /* Hz; negative where the magnet turns clockwise in the film; NAN: unknown */
+    double exposure;              /* s that a frame was exposed; NAN: unknown, nothing is corrected */
+    const fst_progress *progress; /* NULL: nobody is told */
 } fst_measure_options;
 FST_API fst_measure_options fst_default_measure_options(void);
 
@@ -96,7 +97,12 @@ typedef struct fst_measurement {
                           the place on the plate */
     int64_t frames, lost; /* frames from the first to the last; how many of them are missing or were rejected */
     int64_t rejected, repeated; /* of these, rejected ones; frames that repeat the one before exactly */
-    int symmetry; /* a: 2 where r oscillates twice in a turn against the magnet (S2), 1 (S1), 0: unknown */
+    /* What was fitted to the distance from the centre: wave_mean and the sum over k = 1, 2, ... of wave_cos[k -
+     * 1] cos + wave_sin[k - 1] sin of 2 pi k wave_hz (t - wave_origin), t being the track's time (its frame
+     * where it has none). */
+    double wave_mean, wave_hz, wave_origin, wave_cos[FST_WAVE_LIMIT], wave_sin[FST_WAVE_LIMIT];
+    int filmed_sense; /* 1: the bead circles counter-clockwise in the film, -1: clockwise */
+    int symmetry;     /* a: 2 where r oscillates twice in a turn against the magnet (S2), 1 (S1), 0: unknown */
     fst_motion motion;
     char length_unit[FST_LENGTH_UNIT_SIZE];
     int warning_count;
@@ -117,6 +123,15 @@ FST_API const fst_measured_info *fst_measured_at(int index);
  * round too little for anything to be measured. */
 FST_API fst_status fst_measure_track(fst_track *track, const fst_measure_options *options,
                                      fst_measurement *measured, fst_error *error);
+
+/* Draw a measured track: the path on the plate, the path in the frame that turns with the magnet, r against
+ * alpha, and what the fit leaves of r over time.  `compare` (NULL: nothing) is a scene whose path, at the drive
+ * of the track, is laid over both paths; of a track in px it is drawn with the same <r>.  FST_BAD_INPUT: the
+ * bead does not turn against or with the magnet, so that no path can be laid over it.  FST_NO_CONVERGENCE: the
+ * scene's bead does not turn. */
+FST_API fst_status fst_figure_measurement(const fst_track *track, const fst_measurement *measured,
+                                          const fst_params *compare, const char *out,
+                                          const fst_progress *progress, fst_error *error);
 
 /* Lay measured points with their errors over the curves of a sweep over the drive (a database) or of a branch
  * over the drive (JSON), in mm and Hz, a panel for each quantity.  chi^2 is the sum over all measured numbers

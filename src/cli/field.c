@@ -9,6 +9,7 @@ static const option options[] = {
     {"at", '\0', "X,Y",
      "the field and its gradient where the bead's centre is: in l, or with units as in 10mm,5mm"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
+    UNITS_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -94,11 +95,17 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "say where with --at X,Y, or draw a map with -o FIG.svg");
     if (option_value(given, "json") && !at)
         return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
-    fst_status status = read_scene(given, operand(given), &params, error);
+    if (option_value(given, "units") && !figure)
+        return fail(error, FST_BAD_INPUT, "--units", "it concerns the map: give -o FIG.svg");
+    fst_shown_units units;
+    fst_status status = read_units(given, &units, error);
+    if (status == FST_OK)
+        status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK && at)
         status = print_point(given, &params, out, error);
     if (status == FST_OK && figure)
-        status = fst_figure_field(&params, figure, error);
+        status =
+            fst_figure_field(&params, units == FST_SHOWN_AS_GIVEN ? FST_SHOWN_SCALED : units, figure, error);
     if (status == FST_OK && figure)
         tell_written(figure, "");
     return status;

@@ -20,6 +20,9 @@ static const struct {
     {"fst_figure_options.colour", "--colour"},
     {"fst_figure_options.from", "--from"},
     {"fst_figure_options.zoom", "--zoom"},
+    {"fst_figure_options.keys", "--key"},
+    {"fst_figure_options.kind", "--kind"},
+    {"fst_figure_branch.units", "--units"},
     {"fst_film_options.width", "--size"},
     {"fst_film_options.fps", "--fps"},
     {"fst_film_options.seconds_per_turn", "--turn"},
@@ -61,6 +64,7 @@ static const struct {
     {"fst_track_options.fps", "--fps"},
     {"fst_measure_options.drive", "--drive"},
     {"fst_measure_options.exposure", "--exposure"},
+    {"fst_figure_measurement.compare", "--compare"},
 };
 
 const char *option_of_field(const char *field)

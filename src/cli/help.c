@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#include "cli/completion.h"
+
 void print_greeting(FILE *out)
 {
     (void)fprintf(
@@ -66,7 +68,9 @@ fst_status unknown_command(const char *name, fst_error *error)
 
 fst_status help(int count, char **words, FILE *out, fst_error *error)
 {
-    if (count == 0) {
+    if (count > 0 && strcmp(words[0], "completion") == 0)
+        return print_completion(1, (char *[]){"--help"}, out, error);
+    if (count == 0 || strcmp(words[0], "help") == 0) {
         print_help(out);
         return FST_OK;
     }

@@ -3,12 +3,17 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/terminal.h"
 
 static const option options[] = {
     JSON_OPTION,
     {"output", 'o', "POINTS.csv", "a table of points for festoon fit, a row a track"},
     {"drive", '\0', "10.7Hz",
      "the magnet's drive, with a minus where it turns clockwise in the film; one for each track: F,F,..."},
+    {"figure", '\0', "FIG", "draw path, r against alpha and residuals to FIG.svg, .pdf or .png (of one track)"},
+    {"compare", '\0', "SCENE.yaml",
+     "lay the path of this scene, at the track's drive, over the track in the figure"},
+    {"set", '\0', "KEY=VALUE", "override one key of that scene (again for more keys)"},
     {"fps", '\0', "F", "frames a second, instead of the file's clock"},
     {"scale", '\0', "0.123mm", "the length of one unit of the file (of a pixel, mostly)"},
     {"format", '\0', "NAME", "the file's format, instead of what its header says"},
@@ -193,6 +198,24 @@ static fst_status print_result(const job *j, int index, const fst_measurement *m
     return status;
 }
 
+static fst_status draw_figure(const job *j, const fst_track *track, const fst_measurement *measured,
+                              fst_error *error)
+{
+    const char *to = option_value(j->given, "figure"), *scene = option_value(j->given, "compare");
+    fst_params params;
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    fst_status status = scene ? read_scene(j->given, scene, &params, error) : FST_OK;
+    if (status != FST_OK)
+        return status;
+    progress_begin(&line);
+    status = fst_figure_measurement(track, measured, scene ? &params : NULL, to, &progress, error);
+    progress_end(&line);
+    if (status == FST_OK)
+        tell_written(to, "");
+    return status;
+}
+
 static fst_status measure_track(job *j, int index, fst_error *error)
 {
     fst_track track = {0};
@@ -204,12 +227,20 @@ static fst_status measure_track(job *j, int index, fst_error *error)
     fst_status status = fst_track_read(path, &j->how, &track, &understood, error);
     if (status == FST_OK && understood)
         (void)fprintf(stderr, "%s: %s\n", shown(path, text), understood);
-    if (status == FST_OK)
+    if (status == FST_OK) {
+        progress_line line;
+        const fst_progress progress = {&line, progress_tell};
+        j->what.progress = &progress;
+        progress_begin(&line);
         status = fst_measure_track(&track, &j->what, &measured, error);
+        progress_end(&line);
+    }
     if (status != FST_OK && !error->where[0])
         (void)snprintf(error->where, sizeof error->where, "%.255s", path);
     if (status == FST_OK)
         status = print_result(j, index, &measured, error);
+    if (status == FST_OK && option_value(j->given, "figure"))
+        status = draw_figure(j, &track, &measured, error);
     if (status == FST_OK && ends_in(to, ".csv"))
         status = take_point(j, index, &measured, error);
     free(understood);
@@ -233,6 +264,14 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "a track is missing: a file with the places of a filmed bead");
     if (to && !ends_in(to, ".csv"))
         return fail(error, FST_BAD_INPUT, "-o", "the table of points is a file that ends in .csv");
+    if (option_value(given, "figure") && given->operand_count > 1)
+        return fail(error, FST_BAD_INPUT, "--figure", "a figure is of one track, not of %d",
+                    given->operand_count);
+    if (option_value(given, "compare") && !option_value(given, "figure"))
+        return fail(error, FST_BAD_INPUT, "--compare",
+                    "a scene is laid over the track in a figure: add --figure FIG.svg");
+    if (option_value(given, "set") && !option_value(given, "compare"))
+        return fail(error, FST_BAD_INPUT, "--set", "it belongs to the scene of --compare");
     job *j = calloc(1, sizeof *j);
     if (!j)
         return fail(error, FST_NO_MEMORY, "", "out of memory");
@@ -264,5 +303,6 @@ const command measure_command = {
         "rolling shutter changes <r>, delta r and frequencies by less than 0.3, 1 and 0.01 %.\n",
     .options = options,
     .most_operands = OPERAND_LIMIT,
+    .has_helpers = 1,
     .perform = perform,
 };

@@ -16,6 +16,7 @@ static const option options[] = {
     {"to", '\0', "P", "last drive period shown (20 after the first; camera: the last)"},
     {"colour", '\0', "COLUMN", "the column that colours the trail: slip, n_z, angle, ..."},
     CAMERA_OPTIONS,
+    UNITS_OPTION,
     {NULL, '\0', NULL, NULL},
 };
 
@@ -29,7 +30,9 @@ static fst_status read_film(const arguments *given, fst_film_options *film, fst_
         double *value;
     } numbers[] = {
         {"fps", &film->fps}, {"turn", &film->seconds_per_turn}, {"from", &film->from}, {"to", &film->to}};
-    fst_status status = size ? read_size(size, &film->width, &film->height, error) : FST_OK;
+    fst_status status = read_units(given, &film->units, error);
+    if (status == FST_OK && size)
+        status = read_size(size, &film->width, &film->height, error);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == FST_OK; ++i) {
         char name[16];
         (void)snprintf(name, sizeof name, "--%s", numbers[i].name);

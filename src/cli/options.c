@@ -23,15 +23,28 @@ static const option *find_letter(const option *table, char letter)
     return NULL;
 }
 
+/* The parameter that has this name without its group: who types --frequency means drive.frequency. */
+static const char *parameter_named(const char *name)
+{
+    for (int i = 0; i < fst_param_count(); ++i)
+        if (strcmp(strchr(fst_param_at(i)->key, '.') + 1, name) == 0)
+            return fst_param_at(i)->key;
+    return NULL;
+}
+
 static fst_status unknown_option(const option *table, const char *word, fst_error *error)
 {
     char names[512] = "--help", nearest[48];
+    char written[64];
+    (void)snprintf(written, sizeof written, "%.*s", (int)strcspn(word, "="), word);
+    const char *meant = word[1] == '-' && find_long(table, "set", 3) ? parameter_named(written + 2) : NULL;
+    if (meant)
+        return fail(error, FST_BAD_INPUT, "", "unknown option %s; a parameter is set by --set %s=VALUE",
+                    written, meant);
     for (; table->name; ++table) {
         size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|--%s", table->name);
     }
-    char written[64];
-    (void)snprintf(written, sizeof written, "%.*s", (int)strcspn(word, "="), word);
     fst_nearest_name(written, names, nearest, sizeof nearest);
     return fail(error, FST_BAD_INPUT, "", "unknown option %s; the nearest is %s", written, nearest);
 }

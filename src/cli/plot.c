@@ -8,21 +8,21 @@ static const struct {
     const char *name;
     fst_figure_kind kind;
 } kinds[] = {
-    {"path", FST_FIGURE_PATH},
-    {"local-n", FST_FIGURE_LOCAL_N},
-    {"radius-field", FST_FIGURE_RADIUS_FIELD},
+    {"path", FST_FIGURE_PATH}, {"local-n", FST_FIGURE_LOCAL_N}, {"radius-field", FST_FIGURE_RADIUS_FIELD},
+    {"time", FST_FIGURE_TIME}, {"section", FST_FIGURE_SECTION}, {"ramp", FST_FIGURE_RAMP},
 };
-#define KIND_NAMES "path|local-n|radius-field"
+#define KIND_NAMES "path|local-n|radius-field|time|section|ramp"
 
 static const option options[] = {
     {"output", 'o', "FIG", "the figure: FIG.svg, .pdf or .png; script and data are left beside it"},
     {"kind", '\0', KIND_NAMES,
-     "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame) or "
-     "radius-field (r and |B| against Phi)"},
-    {"key", '\0', "KEY,...", "of a sweep: the keys of festoon run to draw (regime: a map of regimes)"},
-    {"units", '\0', "lab|scaled",
-     "of a sweep: Hz, mm and seconds, or the drive's omega and lengths in l (without it: the units in which "
-     "the axes were given)"},
+     "of a trajectory: path (of the bead in the laboratory), local-n (of the moment in the local frame),\n"
+     "radius-field (r and |B| against Phi), time (columns against time), section (Poincare section: one\n"
+     "column against another where Phi passes 90 degrees) or ramp (columns against the drive of a ramp)"},
+    {"key", '\0', "KEY,...",
+     "of a sweep: the keys of festoon run to draw (regime: a map of regimes); of the kinds time, section and\n"
+     "ramp: the columns of the trajectory (r,n_z)"},
+    UNITS_OPTION,
     {"colour", '\0', "COLUMN", "the column that colours the path: n_z, slip, angle, ..."},
     {"arrows", '\0', NULL, "draw arrows of the horizontal moment"},
     {"no-arrows", '\0', NULL, "draw no arrows"},
@@ -98,6 +98,22 @@ static fst_status read_figure(const arguments *given, fst_figure_options *figure
     return status;
 }
 
+/* --key and --units of a trajectory. */
+static fst_status read_columns(const arguments *given, fst_figure_options *figure, char words[KEYS_SIZE],
+                               fst_error *error)
+{
+    const char *keys[KEY_LIMIT], *text = option_value(given, "key");
+    int count = 0;
+    fst_status status = read_units(given, &figure->units, error);
+    if (status == FST_OK && text)
+        status = read_keys(text, words, keys, &count, error);
+    if (status == FST_OK && count > FST_FIGURE_KEYS)
+        status = fail(error, FST_BAD_INPUT, "--key", "a figure shows at most %d columns", FST_FIGURE_KEYS);
+    for (int i = 0; i < count && status == FST_OK; ++i)
+        figure->keys[i] = keys[i];
+    return status;
+}
+
 static int ends_in(const char *path, const char *ending)
 {
     const size_t length = strlen(path), wanted = strlen(ending);
@@ -110,7 +126,10 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     const char *observable = option_value(given, "observable"), *runs = option_value(given, "runs");
     double *dots = NULL;
     size_t dot_count = 0;
-    fst_status status = fst_branch_read(path, &branch, error);
+    fst_shown_units units;
+    fst_status status = read_units(given, &units, error);
+    if (status == FST_OK)
+        status = fst_branch_read(path, &branch, error);
     if (status != FST_OK)
         return status;
     if (!observable)
@@ -118,7 +137,7 @@ static fst_status plot_branch(const arguments *given, const char *path, const ch
     if (runs)
         status = fst_run_dots_read(runs, branch.key, observable, &dots, &dot_count, error);
     if (status == FST_OK)
-        status = fst_figure_branch(&branch, observable, dots, dot_count, to, error);
+        status = fst_figure_branch(&branch, observable, units, dots, dot_count, to, error);
     if (status == FST_OK)
         tell_written(to, "");
     free(dots);
@@ -185,9 +204,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return plot_branch(given, path, to, error);
     if (fst_is_sweep(path) || ends_in(path, ".db"))
         return plot_sweep(given, path, to, error);
-    if (option_value(given, "key") || option_value(given, "units"))
-        return fail(error, FST_BAD_INPUT, path, "--key and --units belong to sweeps; this file is none");
+    char words[KEYS_SIZE];
     fst_status status = read_figure(given, &figure, error);
+    if (status == FST_OK)
+        status = read_columns(given, &figure, words, error);
     if (status == FST_OK)
         status = fst_trajectory_read(path, &table, error);
     if (status != FST_OK)

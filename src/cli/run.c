@@ -12,6 +12,12 @@ static const option options[] = {
     JSON_OPTION,
     {"output", 'o', "FILE", "write the trajectory to FILE.h5 (HDF5) or FILE.csv"},
     {"csv", '\0', "FILE", "write the trajectory to FILE.csv too"},
+    {"units", '\0', "scaled|lab|si",
+     "the units of --csv (or of -o FILE.csv alone): scaled (l, 1/gamma, B0), which festoon plot reads; or, "
+     "for\n"
+     "other programs, those of the laboratory (mm, s, mm/s, mT where B0 is known, mN, mW), or SI"},
+    {"fps", '\0', "F",
+     "samples of the trajectory as a camera of F frames a second takes them, not run.samples a turn"},
     {"ramp", '\0', "FROM:TO",
      "slow ramp of the drive after the discard: 7:20 or 420rpm:1200rpm, or omega=0.2:0.4"},
     {"ramp-points", '\0', "N", "pieces of the ramp over which means are taken (64)"},
@@ -123,20 +129,51 @@ static fst_status read_ramp(const arguments *given, double gamma, fst_run_option
 
 /* ---------------------------------------------------------------- files */
 
+static int is_csv(const char *path)
+{
+    const size_t length = path ? strlen(path) : 0;
+    return length > 4 && strcmp(path + length - 4, ".csv") == 0;
+}
+
+/* --fps: the time from sample to sample. */
+static fst_status read_fps(const arguments *given, double gamma, fst_run_options *run, fst_error *error)
+{
+    const char *text = option_value(given, "fps");
+    double fps;
+    if (!text)
+        return FST_OK;
+    if (!option_value(given, "output") && !option_value(given, "csv"))
+        return fail(error, FST_BAD_INPUT, "--fps", "it concerns a trajectory: give -o FILE or --csv FILE");
+    fst_status status = read_numbers("--fps", text, &fps, 1, error);
+    if (status == FST_OK && !(fps >= 0.01 && fps <= 1e7))
+        status = fail(error, FST_BAD_INPUT, "--fps", "\"%.40s\" must be a number from 0.01 to 1e7", text);
+    if (status == FST_OK)
+        run->sample_spacing = gamma / fps;
+    return status;
+}
+
 static fst_status open_files(const arguments *given, const fst_params *params, run_outputs *outputs,
                              fst_error *error)
 {
     const char *csv = option_value(given, "csv");
+    fst_shown_units units;
+    fst_status status = read_units(given, &units, error);
+    if (status != FST_OK)
+        return status;
     outputs->paths[0] = option_value(given, "output");
     outputs->paths[1] = csv;
-    if (csv && (strlen(csv) < 5 || strcmp(csv + strlen(csv) - 4, ".csv") != 0))
+    if (option_value(given, "units") && !csv && !is_csv(outputs->paths[0]))
+        return fail(error, FST_BAD_INPUT, "--units", "it concerns a trajectory as CSV: give --csv FILE.csv");
+    if (csv && !is_csv(csv))
         return fail(error, FST_BAD_INPUT, "--csv", "the name \"%.200s\" must end in .csv", csv);
     if (csv && outputs->paths[0] && strcmp(csv, outputs->paths[0]) == 0)
         return fail(error, FST_BAD_INPUT, "--csv", "-o and --csv name the same file");
-    fst_status status = FST_OK;
     for (int i = 0; i < 2 && status == FST_OK; ++i)
         if (outputs->paths[i])
-            status = fst_trajectory_create(outputs->paths[i], params, &outputs->files[i], error);
+            status = fst_trajectory_create_in(outputs->paths[i], params,
+                                              i == 1 || (!csv && is_csv(outputs->paths[i])) ? units
+                                                                                            : FST_SHOWN_SCALED,
+                                              &outputs->files[i], error);
     return status;
 }
 
@@ -193,6 +230,8 @@ static fst_status run_into(const arguments *given, const fst_params *params, run
     if (status == FST_OK)
         status = read_of_ramp(given, "ramp-disturbance", 1e-2, &run.ramp_disturbance, error);
     if (status == FST_OK)
+        status = read_fps(given, params->friction_gamma, &run, error);
+    if (status == FST_OK)
         status = open_files(given, params, outputs, error);
     if (status == FST_OK) {
         run.sink.user = outputs;
@@ -223,7 +262,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command run_command = {
     .name = "run",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... [--json] [-o FILE.h5] [--csv FILE.csv] [--ramp FROM:TO]",
+    .synopsis =
+        "[SCENE.yaml] [--set KEY=VALUE]... [--json] [-o FILE.h5] [--csv FILE.csv] [--units lab] [--fps F] "
+        "[--ramp FROM:TO]",
     .summary = "Simulate the bead and describe its motion",
     .details =
         "The means are over whole returns of the motion after run.discard drive periods.  A trajectory has\n"

@@ -1,9 +1,31 @@
 /* chart.c - writing a chart (chart.h) as a gnuplot script with its data. */
 #include "draw/chart.h"
 
-#include <math.h>
+#include "draw/legend.h"
 
-enum { USUAL_WIDTH = 720, PANEL_HEIGHT = 260, HEAD_HEIGHT = 112, FOOT_HEIGHT = 62 };
+#include <math.h>
+#include <string.h>
+
+enum {
+    LEFT = 66,    /* pixels about the panels */
+    NUMBERS = 30, /* for an axis' label and gaps, without its numbers */
+    LINE = 16,    /* for one more line of a label */
+    RIGHT = 22,
+    RIGHT_ORDINATE = 64,
+    SECOND_ABSCISSA = 60,
+    FOOT = 54,
+    GAP = 12, /* between panels */
+    USUAL_HEIGHT = 190,
+    LONE_HEIGHT = 270
+};
+
+static const double LETTER = 7.4; /* width of a digit */
+
+/* Lengths of a chart in pixels. */
+typedef struct layout {
+    int left, right, top, panel, height;
+    fst_legend legend;
+} layout;
 
 /* ------------------------------------------------------------------ data */
 
@@ -50,17 +72,6 @@ static void write_data(fst_figure_file *figure, const fst_chart *chart)
 
 /* ------------------------------------------------------------------ script */
 
-static void write_label(fst_figure_file *figure, const char *axis, const char *text, fst_colour colour)
-{
-    if (!text) {
-        (void)fprintf(figure->script, "unset %slabel\n", axis);
-        return;
-    }
-    (void)fprintf(figure->script, "set %slabel ", axis);
-    fst_figure_quote(figure, text);
-    (void)fprintf(figure->script, " textcolor rgb '%s'\n", fst_colour_code(colour));
-}
-
 /* The tics of the abscissa; only the panel at the bottom shows their numbers. */
 static void write_tics(FILE *script, const char *tics, int named)
 {
@@ -74,25 +85,25 @@ static void write_tics(FILE *script, const char *tics, int named)
     (void)fputc('\n', script);
 }
 
-static void write_axes(fst_figure_file *figure, const fst_chart *chart, const fst_chart_panel *panel, int top,
-                       int bottom)
+static void write_ordinates(FILE *script, const fst_chart_panel *panel)
 {
-    FILE *script = figure->script;
-    write_label(figure, "y", panel->left_label, panel->left_colour);
     if (isfinite(panel->low) && isfinite(panel->high))
         (void)fprintf(script, "set yrange [%.9g:%.9g]\n", panel->low, panel->high);
     else
         (void)fputs("set autoscale y\n", script);
-    write_label(figure, "y2", panel->right_label, panel->right_colour);
+    (void)fprintf(script, "set ytics %s\n", panel->tics ? panel->tics : "auto");
     (void)fputs(panel->right_label ? "set y2tics nomirror\nset autoscale y2\n" : "unset y2tics\n", script);
     if (panel->right_low < panel->right_high)
         (void)fprintf(script, "set y2range [%.9g:%.9g]\n", panel->right_low, panel->right_high);
-    write_label(figure, "x", bottom ? chart->x_label : NULL, FST_COLOUR_BLACK);
+}
+
+static void write_abscissas(fst_figure_file *figure, const fst_chart *chart, int top, int bottom)
+{
+    FILE *script = figure->script;
     (void)fputs(bottom ? "set format x '%g'\n" : "set format x ''\n", script);
     if (chart->x_tics)
         write_tics(script, chart->x_tics, bottom);
     int second = top && chart->x2_label;
-    write_label(figure, "x2", second ? chart->x2_label : NULL, FST_COLOUR_BLACK);
     if (second)
         (void)fprintf(script, "set x2range [%.9g:%.9g]\nset x2tics nomirror out\n",
                       chart->x_low * chart->x2_factor, chart->x_high * chart->x2_factor);
@@ -100,61 +111,144 @@ static void write_axes(fst_figure_file *figure, const fst_chart *chart, const fs
         (void)fputs("unset x2tics\n", script);
     if (second && chart->x_logarithmic)
         fst_figure_logarithmic(figure, "x2", chart->x_low * chart->x2_factor, chart->x_high * chart->x2_factor);
-    if (panel->key)
-        (void)fprintf(script, "set key %s samplen 2.5 spacing 1.15\n", panel->key);
-    else
-        (void)fputs("unset key\n", script);
+}
+
+/* The labels of a panel's axes. */
+static void write_labels(fst_figure_file *figure, const fst_chart *chart, const fst_chart_panel *panel,
+                         int height, const double frame[4])
+{
+    fst_figure_axis_label(figure, height, FST_SIDE_LEFT, panel->left_label, panel->left_colour, frame);
+    if (panel->right_label)
+        fst_figure_axis_label(figure, height, FST_SIDE_RIGHT, panel->right_label, panel->right_colour, frame);
+    if (panel == chart->panels && chart->x2_label)
+        fst_figure_axis_label(figure, height, FST_SIDE_ABOVE, chart->x2_label, FST_COLOUR_BLACK, frame);
+    if (panel == chart->panels + chart->panel_count - 1)
+        fst_figure_axis_label(figure, height, FST_SIDE_BELOW, chart->x_label, FST_COLOUR_BLACK, frame);
+}
+
+/* How many marks have a text: where there are several, letters tell them apart. */
+static int texts_of_marks(const fst_chart *chart)
+{
+    int count = 0;
+    for (int m = 0; m < chart->mark_count; ++m)
+        count += chart->marks[m].text != NULL;
+    return count;
 }
 
 static void write_marks(fst_figure_file *figure, const fst_chart *chart, int top)
 {
+    const int lettered = top && texts_of_marks(chart) > 1;
+    char letter = 'a';
     (void)fputs("unset arrow\nunset label\n", figure->script);
     for (int m = 0; m < chart->mark_count; ++m) {
         const fst_chart_mark *mark = &chart->marks[m];
         (void)fprintf(figure->script,
-                      "set arrow from first %.9g,graph 0 to first %.9g,graph 1 nohead lc rgb '#9a9a9a' dt 3 "
-                      "lw 1.2 back\n",
+                      "set arrow from first %.9g,graph 0 to first %.9g,graph 1 nohead lc rgb '#777777' dt 3 "
+                      "lw 1.4 back\n",
                       mark->x, mark->x);
-        if (top && mark->text) {
-            (void)fputs("set label ", figure->script);
-            fst_figure_quote(figure, mark->text);
+        if (lettered && mark->text)
             (void)fprintf(figure->script,
-                          " at first %.9g,graph 0.95 left offset character 0.4,0 noenhanced textcolor rgb "
-                          "'#666666' font ',11'\n",
-                          mark->x);
-        }
+                          "set label '%c' at first %.9g,graph 0.955 left offset character 0.3,0 textcolor rgb "
+                          "'#555555' font ',12'\n",
+                          letter++, mark->x);
     }
+}
+
+static const char *const styles[] = {[FST_CURVE_LINE] = "lines lw 2",
+                                     [FST_CURVE_DASHED] = "lines dt (6,5) lw 2",
+                                     [FST_CURVE_POINTS] = "points ps 0.6 pt",
+                                     [FST_CURVE_OPEN_POINTS] = "points ps 0.7 lw 1.2 pt",
+                                     [FST_CURVE_LINE_POINTS] = "linespoints ps 0.6 lw 2 pt",
+                                     [FST_CURVE_DASHED_POINTS] = "linespoints dt (6,5) ps 0.7 lw 2 pt",
+                                     [FST_CURVE_THIN] = "lines lw 0.8",
+                                     [FST_CURVE_SIGNS] = "points ps 0.95 lw 1.6 pt",
+                                     [FST_CURVE_ERRORS] = "yerrorbars ps 0.6 lw 1.4 pt",
+                                     [FST_CURVE_OPEN_ERRORS] = "yerrorbars ps 0.8 lw 1.4 pt",
+                                     [FST_CURVE_BAND] = "filledcurves fs transparent solid 0.22 noborder",
+                                     [FST_CURVE_DOTS] = "points ps 0.35 pt"};
+
+/* gnuplot's words for a curve, "lines lw 2 lc rgb '#0072b2'". */
+static void style_of(const fst_chart_curve *curve, char *text, size_t size)
+{
+    const int open = curve->style == FST_CURVE_OPEN_POINTS || curve->style == FST_CURVE_DASHED_POINTS ||
+                     curve->style == FST_CURVE_OPEN_ERRORS;
+    char sign[8] = "";
+    if (styles[curve->style][strlen(styles[curve->style]) - 1] == 't') /* "pt", which wants a number */
+        (void)snprintf(sign, sizeof sign, " %d", curve->sign ? curve->sign : open ? 6 : 7);
+    (void)snprintf(text, size, "%s%s lc rgb '%s'", styles[curve->style], sign, fst_colour_code(curve->colour));
 }
 
 static void write_curves(fst_figure_file *figure, const char *name, int number, const fst_chart_curve *curves,
                          int count)
 {
-    static const char *const styles[] = {[FST_CURVE_LINE] = "lines lw 2",
-                                         [FST_CURVE_DASHED] = "lines dt (6,5) lw 2",
-                                         [FST_CURVE_POINTS] = "points pt 7 ps 0.6",
-                                         [FST_CURVE_OPEN_POINTS] = "points pt 6 ps 0.7 lw 1.2",
-                                         [FST_CURVE_LINE_POINTS] = "linespoints pt 7 ps 0.6 lw 2",
-                                         [FST_CURVE_DASHED_POINTS] = "linespoints dt (6,5) pt 6 ps 0.7 lw 2",
-                                         [FST_CURVE_ERRORS] = "yerrorbars pt 7 ps 0.6 lw 1.4",
-                                         [FST_CURVE_OPEN_ERRORS] = "yerrorbars pt 6 ps 0.8 lw 1.4",
-                                         [FST_CURVE_BAND] = "filledcurves fs transparent solid 0.22 noborder"};
     static const char *const columns[] = {"1:2", "1:2:3:4", "1:3:4"};
     for (int c = 0; c < count; ++c) {
         const fst_chart_curve *curve = &curves[c];
-        (void)fprintf(figure->script, "%sdata index '%s%d-curve%d' using %s axes %s with %s lc rgb '%s' ",
-                      c ? ", \\\n     " : "plot ", name, number, c + 1,
-                      columns[!curve->spread                   ? 0
-                              : curve->style == FST_CURVE_BAND ? 2
-                                                               : 1],
-                      curve->right ? "x1y2" : "x1y1", styles[curve->style], fst_colour_code(curve->colour));
-        if (curve->title) {
-            (void)fputs("title ", figure->script);
-            fst_figure_quote(figure, curve->title);
-        } else {
-            (void)fputs("notitle", figure->script);
-        }
+        const int shape = !curve->spread ? 0 : curve->style == FST_CURVE_BAND ? 2 : 1;
+        char style[96];
+        style_of(curve, style, sizeof style);
+        (void)fprintf(figure->script, "%sdata index '%s%d-curve%d' using %s axes %s with %s notitle",
+                      c ? ", \\\n     " : "plot ", name, number, c + 1, columns[shape],
+                      curve->right ? "x1y2" : "x1y1", style);
     }
     (void)fputc('\n', figure->script);
+}
+
+/* ------------------------------------------------------------------ key */
+
+static int has_points(const fst_chart_curve *curve)
+{
+    for (size_t i = 0; i < curve->count; ++i)
+        if (is_shown(curve, i))
+            return 1;
+    return 0;
+}
+
+/* A curve without a point gets no line in the key. */
+static void add_entry(fst_legend *legend, const fst_chart_curve *curve)
+{
+    static const fst_sample_kind samples[] = {
+        [FST_CURVE_LINE] = FST_SAMPLE_LINE,
+        [FST_CURVE_DASHED] = FST_SAMPLE_LINE,
+        [FST_CURVE_POINTS] = FST_SAMPLE_POINT,
+        [FST_CURVE_OPEN_POINTS] = FST_SAMPLE_POINT,
+        [FST_CURVE_LINE_POINTS] = FST_SAMPLE_LINE_POINT,
+        [FST_CURVE_DASHED_POINTS] = FST_SAMPLE_LINE_POINT,
+        [FST_CURVE_THIN] = FST_SAMPLE_LINE,
+        [FST_CURVE_SIGNS] = FST_SAMPLE_POINT,
+        [FST_CURVE_ERRORS] = FST_SAMPLE_POINT,
+        [FST_CURVE_OPEN_ERRORS] = FST_SAMPLE_POINT,
+        [FST_CURVE_BAND] = FST_SAMPLE_BOX,
+        [FST_CURVE_DOTS] = FST_SAMPLE_POINT,
+    };
+    char style[96];
+    if (!curve->title || !has_points(curve))
+        return;
+    style_of(curve, style, sizeof style);
+    fst_legend_add(legend, samples[curve->style], strchr(style, ' ') + 1, curve->title);
+}
+
+static void fill_legend(const fst_chart *chart, fst_legend *legend)
+{
+    (void)snprintf(legend->title, sizeof legend->title, "%s", chart->title);
+    (void)snprintf(legend->about, sizeof legend->about, "%s", chart->about ? chart->about : "");
+    for (int p = 0; p < chart->panel_count; ++p)
+        for (int c = 0; c < chart->panels[p].curve_count; ++c)
+            add_entry(legend, &chart->panels[p].curves[c]);
+    const int several = texts_of_marks(chart) > 1;
+    char letter = 'a';
+    for (int m = 0; m < chart->mark_count; ++m) {
+        char words[128];
+        if (!chart->marks[m].text)
+            continue;
+        if (several)
+            (void)snprintf(words, sizeof words, "%c: %s", letter++, chart->marks[m].text);
+        else
+            (void)snprintf(words, sizeof words, "%s", chart->marks[m].text);
+        fst_legend_add(legend, FST_SAMPLE_LINE, "lc rgb '#777777' dt 3 lw 1.4", words);
+    }
+    if (chart->remark)
+        fst_legend_add(legend, FST_SAMPLE_NONE, "", chart->remark);
 }
 
 /* Write "[low:high]"; NAN leaves an end to the data. */
@@ -165,82 +259,142 @@ static void write_range(FILE *script, const char *axis, double low, double high)
     (void)(isfinite(high) ? fprintf(script, "%.9g]\n", high) : fputs("*]\n", script));
 }
 
-/* Draw the inset of a panel whose frame is given in parts of the screen. */
+/* The range of one coordinate of some curves, where an end of the wanted one is left to them (NAN).  Curves of
+ * the other ordinate do not count. */
+static void range_of(const fst_chart_curve *curves, int count, int abscissa, int right, double *low,
+                     double *high)
+{
+    double least = INFINITY, greatest = -INFINITY;
+    for (int c = 0; c < count; ++c)
+        for (size_t i = 0; i < curves[c].count && curves[c].right == right; ++i) {
+            const double value = abscissa ? curves[c].x[i] : curves[c].y[i];
+            if (isfinite(value)) {
+                least = fmin(least, value);
+                greatest = fmax(greatest, value);
+            }
+        }
+    *low = isfinite(*low) ? *low : least;
+    *high = isfinite(*high) ? *high : greatest;
+}
+
+/* An inset has room for four numbers on an axis. */
+static void write_sparse_tics(FILE *script, const fst_chart_inset *inset, int abscissa)
+{
+    double low = abscissa ? inset->x_low : inset->low, high = abscissa ? inset->x_high : inset->high;
+    range_of(inset->curves, inset->curve_count, abscissa, 0, &low, &high);
+    if (high > low)
+        (void)fprintf(script, "set %ctics %.9g\n", abscissa ? 'x' : 'y', fst_round_step((high - low) / 3.0));
+    else
+        (void)fprintf(script, "set %ctics auto\n", abscissa ? 'x' : 'y');
+}
+
+/* Draw the inset of a panel whose frame is given in pixels.  Its labels stand above and below it. */
 static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, int number,
-                        const double frame[4])
+                        const double frame[4], int height)
 {
     FILE *script = figure->script;
-    double wide = frame[1] - frame[0], tall = frame[3] - frame[2];
-    double left = frame[0] + wide * inset->left, right = frame[0] + wide * inset->right;
-    double bottom = frame[2] + tall * inset->bottom, top = frame[2] + tall * inset->top;
-    (void)fprintf(
-        script,
-        "unset arrow\nunset label\nunset key\nunset x2tics\nunset x2label\nunset y2tics\nunset y2label\n"
-        "set object 99 rectangle from graph 0,0 to graph 1,1 behind fc rgb 'white' fs solid noborder\n"
-        "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"
-        "set bmargin at screen %.4f\nset tmargin at screen %.4f\n"
-        "set tics font ',11'\nset format x '%%g'\nset xtics auto\n",
-        left, right, bottom, top);
+    const double wide = frame[1] - frame[0], tall = frame[3] - frame[2];
+    (void)fputs("unset arrow\nunset label\nunset key\nunset x2tics\nunset y2tics\n"
+                "set object 99 rectangle from graph 0,0 to graph 1,1 behind fc rgb 'white' fs solid noborder\n"
+                "set tics font ',11'\nset format x '%g'\n",
+                script);
+    write_sparse_tics(script, inset, 1);
+    write_sparse_tics(script, inset, 0);
+    fst_figure_place(figure, height,
+                     (const double[4]){frame[0] + wide * inset->left, frame[0] + wide * inset->right,
+                                       frame[3] - tall * inset->top, frame[3] - tall * inset->bottom});
     write_range(script, "x", inset->x_low, inset->x_high);
     write_range(script, "y", inset->low, inset->high);
-    write_label(figure, "x", inset->x_label, FST_COLOUR_BLACK);
-    write_label(figure, "y", inset->label, FST_COLOUR_BLACK);
-    (void)fputs("set xlabel font ',12' offset 0,0.4\nset ylabel font ',12' offset 1,0\n", script);
+    if (inset->label) {
+        (void)fputs("set label ", script);
+        fst_figure_quote(figure, inset->label);
+        (void)fputs(" at graph 0.5,1 center offset character 0,0.7 font ',11'\n", script);
+    }
+    if (inset->x_label) {
+        (void)fputs("set label ", script);
+        fst_figure_quote(figure, inset->x_label);
+        (void)fputs(" at graph 0.5,0 center offset character 0,-1.9 font ',11'\n", script);
+    }
     for (int i = 0; i < inset->label_count; ++i) {
         (void)fputs("set label ", script);
         fst_figure_quote(figure, inset->labels[i].text);
         (void)fprintf(script, " at first %.9g,%.9g font ',12' front\n", inset->labels[i].x, inset->labels[i].y);
     }
     write_curves(figure, "inset", number, inset->curves, inset->curve_count);
-    (void)fputs("unset label\nunset object 99\nset tics font ''\nset xlabel font '' offset 0,0\n"
-                "set ylabel font '' offset 0,0\n",
-                script);
+    (void)fputs("unset label\nunset object 99\nset tics font ',12'\nset xtics auto\n", script);
 }
 
-static void write_panel(fst_figure_file *figure, const fst_chart *chart, int p, const double frame[4])
+static void write_panel(fst_figure_file *figure, const fst_chart *chart, const layout *l, int p)
 {
     const fst_chart_panel *panel = &chart->panels[p];
-    (void)fprintf(figure->script,
-                  "set xrange [%.9g:%.9g]\n"
-                  "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"
-                  "set bmargin at screen %.4f\nset tmargin at screen %.4f\n",
-                  chart->x_low, chart->x_high, frame[0], frame[1], frame[2], frame[3]);
-    write_axes(figure, chart, panel, p == 0, p + 1 == chart->panel_count);
+    const double top = l->top + p * (l->panel + GAP);
+    const double frame[4] = {l->left, FST_FIGURE_WIDTH - l->right, top, top + l->panel};
+    (void)fprintf(figure->script, "set xrange [%.9g:%.9g]\n", chart->x_low, chart->x_high);
+    fst_figure_place(figure, l->height, frame);
+    write_ordinates(figure->script, panel);
+    write_abscissas(figure, chart, p == 0, p + 1 == chart->panel_count);
     write_marks(figure, chart, p == 0);
+    write_labels(figure, chart, panel, l->height, frame);
     write_curves(figure, "panel", p + 1, panel->curves, panel->curve_count);
     if (panel->inset)
-        write_inset(figure, panel->inset, p + 1, frame);
+        write_inset(figure, panel->inset, p + 1, frame, l->height);
+}
+
+/* About how many letters the widest number of an ordinate has. */
+static int number_letters(const fst_chart_panel *panel)
+{
+    double low = panel->low, high = panel->high;
+    range_of(panel->curves, panel->curve_count, 0, 0, &low, &high);
+    const double greatest = fmax(fabs(low), fabs(high));
+    if (!(high > low) || !isfinite(greatest))
+        return 0;
+    const double step = fst_round_step((high - low) / 6.0);
+    const int whole = greatest >= 10.0 ? 1 + (int)floor(log10(greatest)) : 1;
+    const int decimals = step < 1.0 ? 1 + (int)ceil(-log10(step) - 1e-9) : 0;
+    return whole + decimals + (low < 0.0);
+}
+
+static layout lay_out(const fst_chart *chart)
+{
+    layout l = {.left = LEFT, .right = RIGHT};
+    int labels = 1; /* the most lines of a label */
+    fill_legend(chart, &l.legend);
+    l.panel = chart->height ? chart->height : chart->panel_count > 1 ? USUAL_HEIGHT : LONE_HEIGHT;
+    for (int p = 0; p < chart->panel_count; ++p) {
+        const int lines = fst_lines_of(chart->panels[p].left_label, l.panel);
+        labels = lines > labels ? lines : labels;
+        const int beside = NUMBERS + (int)(LETTER * number_letters(&chart->panels[p]));
+        l.left = beside > l.left ? beside : l.left;
+        if (chart->panels[p].right_label)
+            l.right = RIGHT_ORDINATE;
+    }
+    l.left += (labels - 1) * LINE;
+    for (int p = 0; p < chart->panel_count; ++p)
+        if (chart->panels[p].tics) /* these are words */
+            l.left = 2 * LEFT + 8;
+    if (chart->square)
+        l.panel = FST_FIGURE_WIDTH - l.left - l.right;
+    const int foot = FOOT + LINE * (fst_lines_of(chart->x_label, FST_FIGURE_WIDTH - l.left - l.right) - 1);
+    l.top = fst_legend_head(&l.legend) + (chart->x2_label ? SECOND_ABSCISSA : GAP);
+    l.height = l.top + chart->panel_count * (l.panel + GAP) - GAP + foot + fst_legend_foot(&l.legend);
+    return l;
 }
 
 fst_status fst_figure_chart(const char *out, const fst_chart *chart, fst_error *error)
 {
-    int width = chart->width ? chart->width : USUAL_WIDTH;
-    int height = chart->height ? chart->height : HEAD_HEIGHT + FOOT_HEIGHT + PANEL_HEIGHT * chart->panel_count;
+    const layout l = lay_out(chart);
     fst_figure_file figure;
-    fst_status status = fst_figure_begin(&figure, out, width, height, error);
+    fst_status status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, l.height, error);
     if (status != FST_OK)
         return status;
     write_data(&figure, chart);
-
-    int two = 0;
-    for (int p = 0; p < chart->panel_count; ++p)
-        two = two || chart->panels[p].right_label;
-    FILE *script = figure.script;
-    (void)fputs("set multiplot title ", script);
-    fst_figure_quote(&figure, chart->title);
-    (void)fputs(" noenhanced\nset grid ls 101\n", script);
+    fst_figure_panels(&figure);
     if (chart->square)
-        (void)fputs("set size ratio -1\n", script);
+        (void)fputs("set size ratio -1\n", figure.script);
     if (chart->x_logarithmic)
         fst_figure_logarithmic(&figure, "x", chart->x_low, chart->x_high);
-    double head = (chart->x2_label ? HEAD_HEIGHT : HEAD_HEIGHT - 70) / (double)height;
-    double each = (1.0 - head - FOOT_HEIGHT / (double)height) / chart->panel_count;
-    for (int p = 0; p < chart->panel_count; ++p) {
-        double top = 1.0 - head - p * each;
-        const double frame[4] = {104.0 / width, 1.0 - (two ? 108.0 : 24.0) / width,
-                                 top - each + (p + 1 < chart->panel_count ? 16.0 / height : 0.0), top};
-        write_panel(&figure, chart, p, frame);
-    }
-    (void)fputs("unset multiplot\n", script);
+    for (int p = 0; p < chart->panel_count; ++p)
+        write_panel(&figure, chart, &l, p);
+    fst_legend_write(&figure, &l.legend, l.height);
     return fst_figure_finish(&figure, error);
 }

@@ -1,5 +1,5 @@
 /* chart.h - figures of curves: panels one below the other over a common abscissa, each with one or two
- * ordinates. */
+ * ordinates.  The titles of curves make one key below them all. */
 #ifndef FST_DRAW_CHART_H
 #define FST_DRAW_CHART_H
 
@@ -12,6 +12,9 @@ typedef enum {
     FST_CURVE_OPEN_POINTS,
     FST_CURVE_LINE_POINTS, /* few points; the line only guides the eye between them */
     FST_CURVE_DASHED_POINTS,
+    FST_CURVE_THIN,        /* a thin line */
+    FST_CURVE_SIGNS,       /* points of different shapes */
+    FST_CURVE_DOTS,        /* small points, where there are many */
     FST_CURVE_ERRORS,      /* points with error bars, y - spread to y + spread */
     FST_CURVE_OPEN_ERRORS, /* the same with open points */
     FST_CURVE_BAND         /* a pale area from y - spread to y + spread */
@@ -24,6 +27,7 @@ typedef struct fst_chart_curve {
     fst_colour colour;
     fst_curve_style style;
     int right;            /* belongs to the right-hand ordinate */
+    int sign;             /* gnuplot's number of the shape of points; 0: discs */
     const double *spread; /* of the styles with errors and of the band; else NULL */
 } fst_chart_curve;
 
@@ -50,27 +54,30 @@ typedef struct fst_chart_panel {
         right_colour;             /* of the labels, where they say which curves belong to which ordinate */
     double low, high;             /* range of the left ordinate; NAN: from the data */
     double right_low, right_high; /* range of the right ordinate; both 0: from the data */
-    const char *key;              /* where gnuplot puts the key, "top right"; NULL: no key */
+    const char *tics;             /* gnuplot's tics of the left ordinate, "('locked' 1)"; NULL: automatic */
     const fst_chart_curve *curves;
     int curve_count;
     const fst_chart_inset *inset; /* NULL: none */
 } fst_chart_panel;
 
-/* A vertical line through all panels, with its text in the topmost one. */
+/* A vertical line through all panels, with its text in the key.  Several ones with texts are told apart by the
+ * letters a, b, c. */
 typedef struct fst_chart_mark {
     double x;
     const char *text;
 } fst_chart_mark;
 
 typedef struct fst_chart {
-    const char *title, *x_label;
+    const char *title, *about; /* what is shown, and of what (NULL: no more) */
+    const char *x_label;
     double x_low, x_high;
     int x_logarithmic;
     const char *x_tics;   /* gnuplot's tics, "('0' 0, 'π' 3.14159)"; NULL: automatic */
     const char *x2_label; /* a second abscissa on top, x2 = x2_factor x; NULL: none */
     double x2_factor;
-    int width, height; /* pixels; 0: as usual */
-    int square;        /* one unit is equally long on both axes */
+    int height;         /* of each panel in pixels; 0: as usual */
+    int square;         /* one unit is equally long on both axes */
+    const char *remark; /* one more line of the key, without a sample; NULL: none */
     const fst_chart_panel *panels;
     int panel_count;
     const fst_chart_mark *marks;

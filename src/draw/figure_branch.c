@@ -8,25 +8,39 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "draw/chart.h"
+#include "draw/quantity.h"
+#include "draw/smooth.h"
 
-enum { CIRCLE = 181, CIRCLE_SIZE = 680, SPECIAL_TYPES = FST_SPECIAL_GRAZING + 1, CURVES = SPECIAL_TYPES + 4 };
+enum {
+    CIRCLE = 181,
+    SPECIAL_TYPES = FST_SPECIAL_GRAZING + 1,
+    CURVES = SPECIAL_TYPES + 4,
+    PARTS = 8,    /* the most pieces of the smooth curve between two points of a branch */
+    ENOUGH = 1600 /* about as many points as the smooth curves need */
+};
 
 static const struct observable {
-    const char *name, *label;
+    const char *name, *unit;
     size_t offset;
 } OBSERVABLES[] = {
-    {"second", "second parameter", offsetof(fst_branch_point, second)},
-    {"mean_r", "<r> / l", offsetof(fst_branch_point, mean_r)},
-    {"mean_alpha_dot", "<α'> / γ", offsetof(fst_branch_point, mean_alpha_dot)},
-    {"mean_nz", "<n_z>", offsetof(fst_branch_point, mean_nz)},
-    {"festoons", "festoons N", offsetof(fst_branch_point, festoons)},
-    {"min_r", "least r / l", offsetof(fst_branch_point, min_r)},
-    {"period", "period γ", offsetof(fst_branch_point, period)},
-    {"phi_deg", "Φ / degrees", offsetof(fst_branch_point, bead_angle_deg)},
-    {"slip", "slip / (l γ)", offsetof(fst_branch_point, slip)},
-    {"relaxation_time", "relaxation time γ", offsetof(fst_branch_point, relaxation_time)},
-    {"swing_ratio", "p, ratio of swings - 1", offsetof(fst_branch_point, swing_ratio)},
+    {"second", "", offsetof(fst_branch_point, second)},
+    {"mean_r", "l", offsetof(fst_branch_point, mean_r)},
+    {"mean_alpha_dot", "gamma", offsetof(fst_branch_point, mean_alpha_dot)},
+    {"mean_nz", "1", offsetof(fst_branch_point, mean_nz)},
+    {"festoons", "1", offsetof(fst_branch_point, festoons)},
+    {"min_r", "l", offsetof(fst_branch_point, min_r)},
+    {"period", "1/gamma", offsetof(fst_branch_point, period)},
+    {"phi_deg", "deg", offsetof(fst_branch_point, bead_angle_deg)},
+    {"slip", "l gamma", offsetof(fst_branch_point, slip)},
+    {"relaxation_time", "1/gamma", offsetof(fst_branch_point, relaxation_time)},
+    {"swing_ratio", "1", offsetof(fst_branch_point, swing_ratio)},
 };
+
+/* What a figure shows of a branch, and in which units. */
+typedef struct shown {
+    const struct observable *what; /* NULL: multipliers */
+    fst_quantity x, y;
+} shown;
 
 static const struct observable *find_observable(const char *name)
 {
@@ -36,11 +50,23 @@ static const struct observable *find_observable(const char *name)
     return NULL;
 }
 
+static int is_angle(const struct observable *what)
+{
+    return strcmp(what->unit, "deg") == 0;
+}
+
 static double value_of(const fst_branch_point *p, const struct observable *what)
 {
     double value;
     memcpy(&value, (const char *)p + what->offset, sizeof value);
-    return value;
+    /* Angles lie about 0 and 180 degrees, so the gap of their range is best at -90. */
+    return is_angle(what) && value < -90.0 ? value + 360.0 : value;
+}
+
+/* Whether the curve goes on from one value to the next; an angle may jump, through its gap or at r = 0. */
+static int goes_on_to(const struct observable *what, double from, double to)
+{
+    return !is_angle(what) || !(fabs(to - from) > 90.0);
 }
 
 /* Write a curve as two columns of numbers. */
@@ -78,9 +104,10 @@ static void put_border(columns *c, const fst_branch *b, const fst_branch_point *
             fabs(s->at.mean_r - r) < reach_r && (!best || fabs(s->value - x) < fabs(best->value - x)))
             best = s;
     }
-    if (best)
+    if (best && goes_on_to(what, value_of(p, what), value_of(&best->at, what)) &&
+        goes_on_to(what, value_of(q, what), value_of(&best->at, what)))
         put(c, best->value, value_of(&best->at, what));
-    else
+    else if (goes_on_to(what, value_of(p, what), value_of(q, what)))
         put(c, x, 0.5 * (value_of(p, what) + value_of(q, what)));
 }
 
@@ -106,6 +133,8 @@ static void put_pieces(columns *c, const fst_branch *b, const struct observable 
             continue;
         if (joined && p[-1].stable != stable)
             put_border(c, b, p - 1, p, what);
+        if (joined && c->count > 0 && !goes_on_to(what, value_of(p - 1, what), value_of(p, what)))
+            put(c, NAN, NAN);
         put(c, p->value, value_of(p, what));
         if (goes_on && p[1].stable != stable)
             put_border(c, b, p, p + 1, what);
@@ -123,6 +152,55 @@ static void put_multipliers(columns *c, const fst_branch *b, int stable)
                 put(c, b->points[i].multiplier_re[k], b->points[i].multiplier_im[k]);
 }
 
+/* Put a smooth curve through each piece of the columns, whose gaps are NANs. */
+static int smoothen(columns *c)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    columns smooth = {NULL, NULL, 0};
+    if (c->count < 3)
+        return 1;
+    const size_t wanted = 1 + ENOUGH / c->count;
+    const int parts = wanted < PARTS ? (int)wanted : PARTS;
+    if (!make_columns(&smooth, PARTS * c->count)) {
+        free(smooth.x);
+        free(smooth.y);
+        return 0;
+    }
+    for (size_t i = 0; i < c->count; ++i) {
+        low[0] = fmin(low[0], c->x[i]);
+        high[0] = fmax(high[0], c->x[i]);
+        low[1] = fmin(low[1], c->y[i]);
+        high[1] = fmax(high[1], c->y[i]);
+    }
+    const double wide = high[0] - low[0], tall = high[1] - low[1];
+    for (size_t i = 0; i < c->count;) {
+        size_t last = i, kept = i; /* points that are given twice are kept once */
+        for (; last < c->count && isfinite(c->x[last]) && isfinite(c->y[last]); ++last)
+            if (last == i || fabs(c->x[last] - c->x[kept - 1]) > 1e-9 * wide ||
+                fabs(c->y[last] - c->y[kept - 1]) > 1e-9 * tall) {
+                c->x[kept] = c->x[last];
+                c->y[kept++] = c->y[last];
+            }
+        if (kept > i)
+            smooth.count += fst_smooth(c->x + i, c->y + i, kept - i, parts, wide, tall, smooth.x + smooth.count,
+                                       smooth.y + smooth.count);
+        put(&smooth, NAN, NAN);
+        i = last + 1;
+    }
+    free(c->x);
+    free(c->y);
+    *c = smooth;
+    return 1;
+}
+
+static void show_in_units(columns *c, const shown *s)
+{
+    for (size_t i = 0; i < c->count; ++i) {
+        c->x[i] *= s->x.factor;
+        c->y[i] *= s->y.factor;
+    }
+}
+
 static void style_curve(fst_chart_curve *curve, const columns *c, const char *title, fst_colour colour,
                         fst_curve_style style)
 {
@@ -130,15 +208,31 @@ static void style_curve(fst_chart_curve *curve, const columns *c, const char *ti
         .title = title, .x = c->x, .y = c->y, .count = c->count, .colour = colour, .style = style};
 }
 
-static int add_diagram(const fst_branch *b, const struct observable *what, columns *c, fst_chart_curve *curves)
+/* How special points are called and drawn. */
+static const struct {
+    const char *words;
+    fst_colour colour;
+    int sign; /* gnuplot's number of the shape */
+} signs[SPECIAL_TYPES] = {[FST_SPECIAL_FOLD] = {"fold", FST_COLOUR_BLACK, 5},
+                          [FST_SPECIAL_PITCHFORK] = {"pitchfork", FST_COLOUR_VERMILION, 9},
+                          [FST_SPECIAL_PERIOD_DOUBLING] = {"period doubling", FST_COLOUR_GREEN, 13},
+                          [FST_SPECIAL_HOPF] = {"Hopf", FST_COLOUR_PURPLE, 7},
+                          [FST_SPECIAL_NEIMARK_SACKER] = {"Neimark-Sacker", FST_COLOUR_ORANGE, 11},
+                          [FST_SPECIAL_ORIGIN_CROSSING] = {"passes the axis, r = 0", FST_COLOUR_BLACK, 2},
+                          [FST_SPECIAL_TRANSCRITICAL] = {"families cross", FST_COLOUR_GREEN, 1},
+                          [FST_SPECIAL_GRAZING] = {"contact just sticks or slips", FST_COLOUR_ORANGE, 3}};
+
+/* Returns how many curves there are; -1: no memory. */
+static int add_diagram(const fst_branch *b, const shown *s, columns *c, fst_chart_curve *curves)
 {
     const int over_two = b->second_key[0] != 0;
-    static const fst_colour colours[SPECIAL_TYPES] = {FST_COLOUR_BLACK,  FST_COLOUR_VERMILION, FST_COLOUR_GREEN,
-                                                      FST_COLOUR_PURPLE, FST_COLOUR_GREY,      FST_COLOUR_BLUE,
-                                                      FST_COLOUR_ORANGE, FST_COLOUR_SKY};
     int count = 0;
-    put_pieces(&c[0], b, what, 1);
-    put_pieces(&c[1], b, what, 0);
+    for (int k = 0; k < 2; ++k) {
+        put_pieces(&c[k], b, s->what, 1 - k);
+        if (!smoothen(&c[k]))
+            return -1;
+        show_in_units(&c[k], s);
+    }
     style_curve(&curves[count++], &c[0], over_two ? "of a stable state" : "stable", FST_COLOUR_BLUE,
                 FST_CURVE_LINE);
     style_curve(&curves[count++], &c[1], over_two ? "of an unstable state" : "unstable", FST_COLOUR_GREY,
@@ -147,24 +241,36 @@ static int add_diagram(const fst_branch *b, const struct observable *what, colum
         columns *special = &c[2 + type];
         for (size_t i = 0; i < b->special_count; ++i)
             if ((int)b->specials[i].type == type)
-                put(special, b->specials[i].value, value_of(&b->specials[i].at, what));
-        if (special->count > 0)
-            style_curve(&curves[count++], special, fst_special_name((fst_special_type)type), colours[type],
-                        FST_CURVE_POINTS);
+                put(special, b->specials[i].value, value_of(&b->specials[i].at, s->what));
+        if (special->count == 0)
+            continue;
+        show_in_units(special, s);
+        style_curve(&curves[count], special, signs[type].words, signs[type].colour, FST_CURVE_SIGNS);
+        curves[count++].sign = signs[type].sign;
     }
     return count;
 }
 
-static int add_circle(const fst_branch *b, columns *c, fst_chart_curve *curves)
+/* The multipliers of orbits with the unit circle, or the eigenvalues of locked states, whose real part decides.
+ */
+static int add_multipliers(const fst_branch *b, const shown *s, columns *c, fst_chart_curve *curves)
 {
+    int count = 0;
     for (int i = 0; i < CIRCLE && b->kind != FST_BRANCH_LOCKED; ++i)
         put(&c[2], cos(FST_TWO_PI * i / (CIRCLE - 1)), sin(FST_TWO_PI * i / (CIRCLE - 1)));
     put_multipliers(&c[0], b, 1);
     put_multipliers(&c[1], b, 0);
-    style_curve(&curves[0], &c[2], NULL, FST_COLOUR_BLACK, FST_CURVE_LINE);
-    style_curve(&curves[1], &c[0], "stable", FST_COLOUR_BLUE, FST_CURVE_POINTS);
-    style_curve(&curves[2], &c[1], "unstable", FST_COLOUR_VERMILION, FST_CURVE_OPEN_POINTS);
-    return 3;
+    show_in_units(&c[0], s);
+    show_in_units(&c[1], s);
+    if (c[2].count > 0)
+        style_curve(&curves[count++], &c[2], "unit circle: within it disturbances die away", FST_COLOUR_BLACK,
+                    FST_CURVE_LINE);
+    const int many = b->kind == FST_BRANCH_LOCKED; /* nine eigenvalues a point, which lie on curves */
+    style_curve(&curves[count++], &c[1], "of unstable points of the branch", FST_COLOUR_VERMILION,
+                many ? FST_CURVE_DOTS : FST_CURVE_OPEN_POINTS);
+    style_curve(&curves[count++], &c[0], "of stable points", FST_COLOUR_BLUE,
+                many ? FST_CURVE_DOTS : FST_CURVE_POINTS);
+    return count;
 }
 
 static fst_status unknown_observable(const char *name, fst_error *error)
@@ -179,56 +285,155 @@ static fst_status unknown_observable(const char *name, fst_error *error)
                     "unknown observable \"%.60s\"; the nearest is %s (%s)", name, nearest, names);
 }
 
-fst_status fst_figure_branch(const fst_branch *branch, const char *observable, const double *dots,
-                             size_t dot_count, const char *out, fst_error *error)
+static int has_values(const fst_branch *b, const struct observable *what)
 {
-    const int circle = strcmp(observable, "multipliers") == 0;
-    const struct observable *what = find_observable(observable);
-    if (!what && !circle)
+    for (size_t i = 0; i < b->point_count; ++i)
+        if (isfinite(value_of(&b->points[i], what)))
+            return 1;
+    return 0;
+}
+
+/* An observable that belongs to the other kinds of branch would leave the frame empty. */
+static fst_status check_values(const fst_branch *b, const struct observable *what, fst_error *error)
+{
+    char names[256] = "";
+    if (has_values(b, what))
+        return FST_OK;
+    for (size_t i = 0; i < sizeof OBSERVABLES / sizeof *OBSERVABLES; ++i)
+        if (has_values(b, &OBSERVABLES[i])) {
+            const size_t used = strlen(names);
+            (void)snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "", OBSERVABLES[i].name);
+        }
+    return fst_fail(error, FST_BAD_INPUT, "fst_figure_branch.observable",
+                    "no point of this branch (kind: %s) has a value of %s; it has values of %s",
+                    fst_branch_kind_name(b->kind), what->name, names);
+}
+
+static int is_scale(const char *key)
+{
+    return strcmp(key, "friction.gamma") == 0 || strcmp(key, "magnet.half_length") == 0;
+}
+
+/* The axes in their units. */
+static fst_status choose_axes(const fst_branch *b, fst_shown_units units, shown *s, fst_error *error)
+{
+    const fst_scales scales = {b->half_length, 1.0 / b->gamma, NAN, NAN};
+    const char *scale = is_scale(b->key) ? b->key : is_scale(b->second_key) ? b->second_key : NULL;
+    const int known = !scale && isfinite(scales.length) && isfinite(scales.time);
+    if (units != FST_SHOWN_AS_GIVEN && !known)
+        return fst_fail(
+            error, FST_BAD_INPUT, "fst_figure_branch.units",
+            scale ? "the branch varies %s, a unit itself, so it is shown in the units it was made with"
+                  : "%sthis file has no scene, so that its scaled units are not known in others",
+            scale ? scale : "");
+    const fst_shown_units used = units != FST_SHOWN_AS_GIVEN ? units
+                                 : known                     ? fst_units_of_parameter(b->key)
+                                                             : FST_SHOWN_AS_GIVEN;
+    if (s->what)
+        s->x = fst_quantity_of_parameter(b->key, units, &scales);
+    if (!s->what) {
+        const int rates = b->kind == FST_BRANCH_LOCKED;
+        s->x = fst_quantity_of_result("real part", rates ? "gamma" : "1", used, &scales);
+        s->y = fst_quantity_of_result("imaginary part", rates ? "gamma" : "1", used, &scales);
+    } else if (strcmp(s->what->name, "second") == 0 && b->second_key[0]) {
+        s->y = fst_quantity_of_parameter(b->second_key, units, &scales);
+    } else {
+        s->y = fst_quantity_of_result(s->what->name, s->what->unit, used, &scales);
+    }
+    return FST_OK;
+}
+
+static void make_title(const fst_branch *b, const shown *s, char *title, size_t size)
+{
+    static const char *const kinds[] = {[FST_BRANCH_COUNTER] = "Counter-rotating orbits",
+                                        [FST_BRANCH_LOCKED] = "Locked states",
+                                        [FST_BRANCH_ALL] = "Locked states and orbits"};
+    char over[128], second[128];
+    const fst_scales none = {NAN, NAN, NAN, NAN};
+    (void)snprintf(over, sizeof over, "%s", fst_quantity_of_parameter(b->key, FST_SHOWN_AS_GIVEN, &none).label);
+    over[strcspn(over, "(") - (strchr(over, '(') != NULL)] = '\0';
+    if (!s->what && b->kind == FST_BRANCH_LOCKED)
+        (void)snprintf(title, size, "Eigenvalues along the locked states");
+    else if (!s->what)
+        (void)snprintf(title, size, "Multipliers along the branch, those up to 1.2");
+    else if (b->second_key[0]) {
+        (void)snprintf(second, sizeof second, "%s",
+                       fst_quantity_of_parameter(b->second_key, FST_SHOWN_AS_GIVEN, &none).label);
+        second[strcspn(second, "(") - (strchr(second, '(') != NULL)] = '\0';
+        (void)snprintf(title, size, "%s: special points (%s) over %.60s and %.60s", kinds[b->kind],
+                       signs[b->followed].words, over, second);
+    } else
+        (void)snprintf(title, size, "%s over the %.90s", kinds[b->kind], over);
+}
+
+static fst_status draw(const fst_branch *b, const shown *s, const fst_chart_curve *curves, int count,
+                       const char *out, fst_error *error)
+{
+    static const fst_chart_mark axis = {0.0, "left of it disturbances die away"};
+    const int circle = !s->what && b->kind != FST_BRANCH_LOCKED, rates = !s->what && !circle;
+    char title[256];
+    double low = s->x.factor * fmin(b->from, b->to), high = s->x.factor * fmax(b->from, b->to);
+    make_title(b, s, title, sizeof title);
+    if (rates) {
+        low = high = 0.0;
+        for (int c = 0; c < count; ++c)
+            for (size_t i = 0; i < curves[c].count; ++i) {
+                low = fmin(low, 1.05 * curves[c].x[i]);
+                high = fmax(high, 1.05 * curves[c].x[i]);
+            }
+        high = fmax(high, 0.05 * (high - low));
+    }
+    const fst_chart_panel panel = {.left_label = s->y.label,
+                                   .low = circle ? -1.2 : NAN,
+                                   .high = circle ? 1.2 : NAN,
+                                   .curves = curves,
+                                   .curve_count = count};
+    const fst_chart chart = {.title = title,
+                             .x_label = s->x.label,
+                             .x_low = circle ? -1.2 : low,
+                             .x_high = circle ? 1.2 : high,
+                             .square = circle,
+                             .panels = &panel,
+                             .panel_count = 1,
+                             .marks = &axis,
+                             .mark_count = rates};
+    return fst_figure_chart(out, &chart, error);
+}
+
+fst_status fst_figure_branch(const fst_branch *branch, const char *observable, fst_shown_units units,
+                             const double *dots, size_t dot_count, const char *out, fst_error *error)
+{
+    const int multipliers = strcmp(observable, "multipliers") == 0;
+    shown s = {.what = find_observable(observable)};
+    if (!s.what && !multipliers)
         return unknown_observable(observable, error);
     if (branch->point_count == 0)
         return fst_fail(error, FST_BAD_INPUT, branch->key,
                         "this branch has no points, so that there is nothing to draw%s",
                         branch->complete ? "" : ": it was interrupted before the first one; compute it again");
+    fst_status status = s.what ? check_values(branch, s.what, error) : FST_OK;
+    if (status == FST_OK)
+        status = choose_axes(branch, units, &s, error);
+    if (status != FST_OK)
+        return status;
     columns c[CURVES] = {{NULL, NULL, 0}};
     fst_chart_curve curves[CURVES];
     const size_t most =
-        branch->point_count * (circle ? FST_EIGENVALUE_COUNT : 3) + branch->special_count + CIRCLE;
-    fst_status status = FST_OK;
+        branch->point_count * (multipliers ? FST_EIGENVALUE_COUNT : 4) + branch->special_count + CIRCLE;
     for (int i = 0; i < CURVES; ++i)
         if (!make_columns(&c[i], most + dot_count))
             status = fst_fail(error, FST_NO_MEMORY, out, "out of memory");
     if (status == FST_OK) {
-        int count = circle ? add_circle(branch, c, curves) : add_diagram(branch, what, c, curves);
-        for (size_t i = 0; i < dot_count && !circle; ++i)
-            put(&c[CURVES - 1], dots[2 * i], dots[2 * i + 1]);
-        if (c[CURVES - 1].count > 0)
-            style_curve(&curves[count++], &c[CURVES - 1], "simulated", FST_COLOUR_BLACK, FST_CURVE_OPEN_POINTS);
-        const int over_two = branch->second_key[0] != 0;
-        char title[96] = "branches";
-        if (over_two)
-            (void)snprintf(title, sizeof title, "where the %s lies", fst_special_name(branch->followed));
-        const char *label = circle                                          ? "imaginary part"
-                            : over_two && strcmp(what->name, "second") == 0 ? branch->second_key
-                                                                            : what->label;
-        const fst_chart_panel panel = {.left_label = label,
-                                       .left_colour = FST_COLOUR_BLACK,
-                                       .low = circle ? -1.2 : NAN,
-                                       .high = circle ? 1.2 : NAN,
-                                       .key = branch->kind != FST_BRANCH_COUNTER ? "top right" : "bottom right",
-                                       .curves = curves,
-                                       .curve_count = count};
-        const fst_chart chart = {.title = circle ? "multipliers along the branch, where they are less than 1.2"
-                                                 : title,
-                                 .x_label = circle ? "real part" : branch->key,
-                                 .x_low = circle ? -1.2 : fmin(branch->from, branch->to),
-                                 .x_high = circle ? 1.2 : fmax(branch->from, branch->to),
-                                 .square = circle,
-                                 .width = circle ? CIRCLE_SIZE : 0,
-                                 .height = circle ? CIRCLE_SIZE : 0,
-                                 .panels = &panel,
-                                 .panel_count = 1};
-        status = fst_figure_chart(out, &chart, error);
+        int count = multipliers ? add_multipliers(branch, &s, c, curves) : add_diagram(branch, &s, c, curves);
+        columns *simulated = &c[CURVES - 1];
+        for (size_t i = 0; i < dot_count && !multipliers; ++i)
+            put(simulated, dots[2 * i], dots[2 * i + 1]);
+        if (count >= 0 && simulated->count > 0) {
+            show_in_units(simulated, &s);
+            style_curve(&curves[count++], simulated, "simulated", FST_COLOUR_BLACK, FST_CURVE_OPEN_POINTS);
+        }
+        status = count < 0 ? fst_fail(error, FST_NO_MEMORY, out, "out of memory")
+                           : draw(branch, &s, curves, count, out, error);
     }
     for (int i = 0; i < CURVES; ++i) {
         free(c[i].x);

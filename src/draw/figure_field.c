@@ -1,22 +1,24 @@
 /* figure_field.c - the magnet's field on the plane of the bead's centre (the paper's Fig. 5). */
 #include "base/error.h"
-#include "draw/style.h"
+#include "draw/legend.h"
+#include "draw/quantity.h"
 
 #include <festoon/festoon_tools.h>
 
 #include <stdlib.h>
+#include <string.h>
 
 enum {
-    WIDTH = 760,
-    HEIGHT = 590,
-    LEFT = 78, /* margins about the map, in pixels */
-    RIGHT = 132,
-    TOP = 48,
-    BOTTOM = 112,
+    LEFT = 56, /* pixels about the map */
+    RIGHT = 20,
+    AXIS = 54,
+    SCALE = 64,    /* for the scale of colours */
     COLUMNS = 181, /* of the map */
     ROWS = 145,
-    ARROW_STEP = 9, /* map points from one arrow to the next */
-    MAXIMA = 8      /* the most maxima that are marked */
+    ARROW_STEP = 12, /* map points from one arrow to the next */
+    MAXIMA = 8,      /* the most maxima that are marked */
+    LEVELS = 8,      /* about as many lines of equal field */
+    LABEL_GAP = 14   /* pixels between two of their labels */
 };
 
 typedef struct field_map {
@@ -26,6 +28,10 @@ typedef struct field_map {
     double half_width, half_height; /* of the map, in l */
     double maxima[MAXIMA][2];
     int maximum_count;
+    double length, field;                 /* how many of the figure's units make l and B0 */
+    const char *length_unit, *field_unit; /* their names */
+    double strongest;                     /* of the parts in the plane, where arrows are; in B0 */
+    int top, frame, height;               /* where the map begins, how high it is, and the figure; pixels */
 } field_map;
 
 static double strength(const fst_model *model, double x, double y)
@@ -99,114 +105,204 @@ static void find_maxima(field_map *map)
 
 static void write_map(fst_figure_file *figure, const field_map *map)
 {
-    fst_figure_block(figure, "map", "X/l Y/l |B|/B0");
+    fst_figure_block(figure, "map", "X Y |B|");
     for (int row = 0; row < ROWS; ++row) {
         for (int column = 0; column < COLUMNS; ++column) {
             double x = column_x(map, column), y = row_y(map, row);
-            (void)fprintf(figure->data, "%.5g %.5g %.5g\n", x, y, strength(map->model, x, y));
+            (void)fprintf(figure->data, "%.5g %.5g %.5g\n", map->length * x, map->length * y,
+                          map->field * strength(map->model, x, y));
         }
         (void)fputc('\n', figure->data);
     }
 }
 
+/* The length of the longest arrow, in l. */
+static double longest_arrow(const field_map *map)
+{
+    return 1.1 * ARROW_STEP * 2.0 * map->half_width / (COLUMNS - 1);
+}
+
 /* Arrows of the field in the plane.  Their length goes with the square root of the strength, so that weak
  * fields show too. */
-static void write_arrows(fst_figure_file *figure, const field_map *map)
+static void write_arrows(fst_figure_file *figure, field_map *map)
 {
-    double greatest = 0.0;
+    map->strongest = 0.0;
     for (int row = ARROW_STEP / 2; row < ROWS; row += ARROW_STEP)
         for (int column = ARROW_STEP / 2; column < COLUMNS; column += ARROW_STEP) {
             double b[3], gradient[3][3];
             fst_field(map->model, column_x(map, column), row_y(map, row), b, gradient);
-            greatest = fmax(greatest, hypot(b[0], b[1]));
+            map->strongest = fmax(map->strongest, hypot(b[0], b[1]));
         }
-    double longest = 1.1 * ARROW_STEP * 2.0 * map->half_width / (COLUMNS - 1);
-    fst_figure_block(figure, "arrows", "X/l Y/l dX dY: direction of the in-plane field");
+    fst_figure_block(figure, "arrows", "X Y dX dY: the part of the field in the plane");
     for (int row = ARROW_STEP / 2; row < ROWS; row += ARROW_STEP)
         for (int column = ARROW_STEP / 2; column < COLUMNS; column += ARROW_STEP) {
             double b[3], gradient[3][3], x = column_x(map, column), y = row_y(map, row);
             fst_field(map->model, x, y, b, gradient);
             double plane = hypot(b[0], b[1]);
-            double scale = plane > 0.0 ? longest * sqrt(plane / greatest) / plane : 0.0;
-            (void)fprintf(figure->data, "%.5g %.5g %.4g %.4g\n", x - 0.5 * scale * b[0], y - 0.5 * scale * b[1],
-                          scale * b[0], scale * b[1]);
+            double scale = plane > 0.0 ? longest_arrow(map) * sqrt(plane / map->strongest) / plane : 0.0;
+            (void)fprintf(figure->data, "%.5g %.5g %.4g %.4g\n", map->length * (x - 0.5 * scale * b[0]),
+                          map->length * (y - 0.5 * scale * b[1]), map->length * scale * b[0],
+                          map->length * scale * b[1]);
         }
 }
 
 static void write_marks(fst_figure_file *figure, const field_map *map)
 {
     if (map->bar)
-        fst_figure_block(figure, "lines", "X/l Y/l: the magnet's lines");
+        fst_figure_block(figure, "lines", "X Y: the magnet's lines");
     for (int line = 0; map->bar && line < map->groups.lines; ++line) {
         double y = (line - 0.5 * (map->groups.lines - 1)) * map->groups.lambda;
-        (void)fprintf(figure->data, "-1 %.6g\n1 %.6g\n\n", y, y);
+        (void)fprintf(figure->data, "%.6g %.6g\n%.6g %.6g\n\n", -map->length, map->length * y, map->length,
+                      map->length * y);
     }
-    fst_figure_block(figure, "maxima", "X/l Y/l: maxima of |B|");
+    fst_figure_block(figure, "maxima", "X Y: maxima of |B|");
     for (int m = 0; m < map->maximum_count; ++m)
-        (void)fprintf(figure->data, "%.8g %.8g\n", map->maxima[m][0], map->maxima[m][1]);
+        (void)fprintf(figure->data, "%.8g %.8g\n", map->length * map->maxima[m][0],
+                      map->length * map->maxima[m][1]);
+}
+
+/* ------------------------------------------------------------------ lines of equal field */
+
+/* Label lines of equal field where they pass the column of the map beside a maximum, on which the field falls:
+ * between two columns of arrows, and no closer to the label before than letters are high. */
+static void write_levels(fst_figure_file *figure, const field_map *map, double greatest)
+{
+    enum { STEPS = 2000 };
+    const double peak = map->maximum_count ? fabs(map->maxima[0][0]) : 0.0;
+    const double place = (peak / map->half_width + 1.0) / 2.0 * (COLUMNS - 1) / ARROW_STEP;
+    const double x = column_x(map, ARROW_STEP * (int)(place + 0.5));
+    const double step = fst_round_step(greatest / LEVELS);
+    const double pixel = 2.0 * map->half_width / (FST_FIGURE_WIDTH - LEFT - RIGHT);
+    double before = map->field * strength(map->model, x, 0.0), labelled = -INFINITY;
+    (void)fprintf(figure->script, "set cntrparam levels incremental %.9g,%.9g,%.9g\n", step, step, greatest);
+    for (int i = 1; i <= STEPS; ++i) {
+        const double y = 0.95 * map->half_height * i / STEPS;
+        const double here = map->field * strength(map->model, x, y), level = step * floor(before / step);
+        if (here < level && before >= level && level > 0.0 && y - labelled > LABEL_GAP * pixel) {
+            (void)fprintf(figure->script,
+                          "set label '%.4g' at %.6g,%.6g center front font ',11' textcolor rgb '#0b2a4a'\n",
+                          level, map->length * x, map->length * y);
+            labelled = y;
+        }
+        before = here;
+    }
 }
 
 /* ------------------------------------------------------------------ script */
 
-static void write_script(fst_figure_file *figure, const field_map *map)
+static void write_distance(fst_figure_file *figure, const field_map *map)
+{
+    if (map->maximum_count != 2)
+        return;
+    const double(*m)[2] = map->maxima, u = map->length;
+    const double distance = 1e3 * map->groups.length_unit * hypot(m[0][0] - m[1][0], m[0][1] - m[1][1]);
+    (void)fprintf(
+        figure->script,
+        "set label '%.1f mm' at %.6g,%.6g center offset character 0,0.9 front boxed font ',11'\n"
+        "set arrow from %.6g,%.6g to %.6g,%.6g heads size screen 0.010,20 front lc rgb 'black' lw 1.5\n",
+        distance, u * (m[0][0] + m[1][0]) / 2.0, u * (m[0][1] + m[1][1]) / 2.0, u * m[0][0], u * m[0][1],
+        u * m[1][0], u * m[1][1]);
+}
+
+static void write_script(fst_figure_file *figure, const field_map *map, double greatest)
 {
     FILE *script = figure->script;
-    double millimetres = 1e3 * map->groups.length_unit;
-    double left = LEFT / (double)WIDTH, right = 1.0 - RIGHT / (double)WIDTH;
-    double top = 1.0 - TOP / (double)HEIGHT, bottom = BOTTOM / (double)HEIGHT;
-    (void)fprintf(
-        script,
-        "set title 'The magnet''s field at the height of the bead''s centre (unit of length ℓ = %.4g mm)'\n"
-        "set size ratio -1\n"
-        "set xrange [%.6g:%.6g]\n"
-        "set yrange [%.6g:%.6g]\n"
-        "set xlabel 'X (ℓ)%s'\n"
-        "set ylabel 'Y (ℓ)'\n"
-        "set cblabel '|B| (B_0)'\n"
-        "set cbrange [0:*]\n"
-        "set lmargin at screen %.4f\n"
-        "set rmargin at screen %.4f\n"
-        "set tmargin at screen %.4f\n"
-        "set bmargin at screen %.4f\n"
-        "set key at screen %.4f, screen 0.015 left bottom Left reverse maxrows 2 samplen 2 width 2\n",
-        millimetres, -map->half_width, map->half_width, -map->half_height, map->half_height,
-        map->bar ? ", along the magnet''s lines" : "", left, right, top, bottom, left);
-    fst_figure_palette(figure, FST_PALETTE_MAP);
-    if (map->maximum_count == 2) {
-        double distance =
-            millimetres * hypot(map->maxima[0][0] - map->maxima[1][0], map->maxima[0][1] - map->maxima[1][1]);
-        (void)fprintf(
-            script,
-            "set style textbox opaque margins 0.5,0.5 fillcolor rgb 'white' noborder\n"
-            "set label '%.1f mm' at %.6g,%.6g center offset character 0,0.9 front boxed\n"
-            "set arrow from %.6g,%.6g to %.6g,%.6g heads size screen 0.008,20 front lc rgb 'black' lw 1.5\n",
-            distance, (map->maxima[0][0] + map->maxima[1][0]) / 2.0,
-            (map->maxima[0][1] + map->maxima[1][1]) / 2.0, map->maxima[0][0], map->maxima[0][1],
-            map->maxima[1][0], map->maxima[1][1]);
-    }
-    (void)fputs("set contour base\n"
-                "set cntrparam levels auto 12\n"
-                "unset surface\n"
-                "set table $contours\n"
+    const int scale = map->top + map->frame + AXIS;
+    fst_figure_panels(figure);
+    (void)fputs("set style textbox opaque margins 0.4,0.3 fillcolor rgb 'white' noborder\n", script);
+    write_levels(figure, map, greatest);
+    (void)fputs("set contour base\nunset surface\nset table $contours\n"
                 "splot data index 'map' using 1:2:3\n"
-                "unset table\n"
-                "unset contour\n"
-                "set surface\n"
-                "plot data index 'map' using 1:2:3 with image notitle, \\\n"
-                "     $contours using 1:2 with lines lc rgb '#6f8fae' lw 0.8 title 'lines of equal |B|', \\\n",
+                "unset table\nunset contour\nset surface\n",
+                script);
+    const double frame[4] = {LEFT, FST_FIGURE_WIDTH - RIGHT, map->top, map->top + map->frame};
+    char label[96];
+    fst_figure_place(figure, map->height, frame);
+    (void)snprintf(label, sizeof label, "X (%s)%s", map->length_unit,
+                   map->bar ? ", along the magnet's lines" : "");
+    fst_figure_axis_label(figure, map->height, FST_SIDE_BELOW, label, FST_COLOUR_BLACK, frame);
+    (void)snprintf(label, sizeof label, "Y (%s)", map->length_unit);
+    fst_figure_axis_label(figure, map->height, FST_SIDE_LEFT, label, FST_COLOUR_BLACK, frame);
+    (void)snprintf(label, sizeof label, "|B| (%s)", map->field_unit);
+    fst_figure_colour_scale(figure, map->height, label,
+                            (const double[4]){frame[0], frame[1], scale, scale + 12});
+    (void)fprintf(script, "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nset cbrange [0:*]\nunset key\n",
+                  -map->length * map->half_width, map->length * map->half_width,
+                  -map->length * map->half_height, map->length * map->half_height);
+    fst_figure_palette(figure, FST_PALETTE_MAP);
+    write_distance(figure, map);
+    (void)fputs("plot data index 'map' using 1:2:3 with image notitle, \\\n"
+                "     $contours using 1:2 with lines lc rgb '#6f8fae' lw 0.8 notitle, \\\n",
                 script);
     if (map->bar)
-        (void)fputs("     data index 'lines' using 1:2 with lines lc rgb '#50d55e00' lw 3 title 'the magnet''s "
-                    "lines, below', \\\n",
+        (void)fputs("     data index 'lines' using 1:2 with lines lc rgb '#50d55e00' lw 3 notitle, \\\n",
                     script);
-    (void)fputs("     data index 'arrows' using 1:2:3:4 with vectors head filled size screen 0.008,20 lc rgb "
-                "'#333333' lw 1 title 'in-plane direction of B', \\\n"
-                "     data index 'maxima' using 1:2 with points pt 2 ps 1.4 lw 3 lc rgb '#000000' title "
-                "'maxima of |B|'\n",
+    (void)fputs("     data index 'arrows' using 1:2:3:4 with vectors head filled size screen 0.011,20 lc rgb "
+                "'#333333' lw 1 notitle, \\\n"
+                "     data index 'maxima' using 1:2 with points pt 2 ps 1.2 lw 3 lc rgb '#000000' notitle\n",
                 script);
 }
 
-fst_status fst_figure_field(const fst_params *params, const char *out, fst_error *error)
+static fst_legend make_legend(const field_map *map)
+{
+    fst_legend legend = {.title = "The magnet's field at the height of the bead's centre"};
+    char words[128], unit[32];
+    fst_unit_symbols("l", unit, sizeof unit);
+    (void)snprintf(legend.about, sizeof legend.about, "half length of the magnet's lines: %s = %.4g mm%s", unit,
+                   1e3 * map->groups.length_unit, map->bar ? "" : " (a scale only)");
+    fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#6f8fae' lw 0.8", "lines of equal |B|");
+    if (map->maximum_count > 0)
+        fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 2 ps 1.2 lw 3 lc rgb '#000000'", "maxima of |B|");
+    if (map->bar)
+        fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#50d55e00' lw 3",
+                       "the magnet's lines, below the plate");
+    const double shown = map->field * map->strongest;
+    (void)snprintf(words, sizeof words, "in-plane part of B: this length is %.2g %s, others as its square root",
+                   shown, map->field_unit);
+    fst_legend_add(&legend, FST_SAMPLE_ARROW, "lc rgb '#333333' lw 1", words);
+    legend.entries[legend.count - 1].length =
+        longest_arrow(map) / (2.0 * map->half_width) * (FST_FIGURE_WIDTH - LEFT - RIGHT);
+    return legend;
+}
+
+static void choose_units(field_map *map, const fst_params *params, fst_shown_units units)
+{
+    const fst_scales scales = fst_scales_of(params);
+    map->length = fst_unit_shown("l", units, &scales, &map->length_unit);
+    map->field = fst_unit_shown("B0", units, &scales, &map->field_unit);
+    if (strcmp(map->length_unit, "l") == 0)
+        map->length_unit = "ℓ";
+    if (strcmp(map->field_unit, "B0") == 0)
+        map->field_unit = "B_0";
+}
+
+static fst_status draw(field_map *map, const char *out, fst_error *error)
+{
+    fst_figure_file figure;
+    double greatest = 0.0;
+    find_maxima(map);
+    for (int row = 0; row < ROWS; ++row)
+        for (int column = 0; column < COLUMNS; ++column)
+            greatest =
+                fmax(greatest, map->field * strength(map->model, column_x(map, column), row_y(map, row)));
+    map->strongest = 1.0;
+    fst_legend legend = make_legend(map);
+    map->top = fst_legend_head(&legend) + 6;
+    map->frame = (int)((FST_FIGURE_WIDTH - LEFT - RIGHT) * map->half_height / map->half_width);
+    map->height = map->top + map->frame + AXIS + SCALE + fst_legend_foot(&legend);
+    const fst_status status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, map->height, error);
+    if (status != FST_OK)
+        return status;
+    write_map(&figure, map);
+    write_arrows(&figure, map);
+    write_marks(&figure, map);
+    write_script(&figure, map, greatest);
+    legend = make_legend(map); /* the strongest arrow is known now */
+    fst_legend_write(&figure, &legend, map->height);
+    return fst_figure_finish(&figure, error);
+}
+
+fst_status fst_figure_field(const fst_params *params, fst_shown_units units, const char *out, fst_error *error)
 {
     fst_model *model = NULL;
     fst_status status = fst_model_new(params, &model, error);
@@ -214,21 +310,13 @@ fst_status fst_figure_field(const fst_params *params, const char *out, fst_error
         return status;
     field_map map = {
         .model = model, .groups = fst_model_groups(model), .bar = params->magnet_shape == FST_MAGNET_LINES};
+    choose_units(&map, params, units);
     /* The map shows the poles and the corners of the bar of lines, with room about them, whatever its shape; of
      * another source it shows a square of that width. */
     double half_lines = 0.5 * (map.groups.lines - 1) * map.groups.lambda;
     map.half_width = 1.0 + 0.9 * map.groups.h + 0.3;
     map.half_height = map.bar ? half_lines + 0.9 * map.groups.h : map.half_width;
-    fst_figure_file figure;
-    status = fst_figure_begin(&figure, out, WIDTH, HEIGHT, error);
-    if (status == FST_OK) {
-        find_maxima(&map);
-        write_map(&figure, &map);
-        write_arrows(&figure, &map);
-        write_marks(&figure, &map);
-        write_script(&figure, &map);
-        status = fst_figure_finish(&figure, error);
-    }
+    status = draw(&map, out, error);
     fst_model_free(model);
     return status;
 }

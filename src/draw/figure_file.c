@@ -86,21 +86,25 @@ static void quote_name(fst_figure_file *figure, const char *ending)
     (void)fprintf(figure->script, ".'.%s'", ending);
 }
 
-/* Font sizes differ, because SVG counts them in pixels and Cairo in points.  A PNG is drawn at twice the size,
- * for fine screens. */
+/* Each terminal has units of its own for letters, lines, points and dashes: the scales make them look alike.  A
+ * PNG is drawn at twice the size, for fine screens. */
 static void write_terminal(fst_figure_file *figure, int width, int height)
 {
     FILE *script = figure->script;
     if (!strcmp(figure->ending, "svg"))
-        (void)fprintf(script, "set terminal svg size %d,%d enhanced background 'white' font 'sans-serif,14'\n",
+        (void)fprintf(script, "set terminal svg size %d,%d enhanced background 'white' font 'sans-serif,13'\n",
                       width, height);
     else if (!strcmp(figure->ending, "pdf"))
-        (void)fprintf(script, "set terminal pdfcairo size %.4fin,%.4fin enhanced font 'sans,10'\n",
-                      width / 96.0, height / 96.0);
+        (void)fprintf(
+            script,
+            "set terminal pdfcairo size %.4fin,%.4fin enhanced fontscale 0.5625 linewidth 1.5 pointscale 0.8 "
+            "dashlength 1.3 font 'sans,13'\n",
+            width / 96.0, height / 96.0);
     else
         (void)fprintf(script,
-                      "set terminal pngcairo size %d,%d enhanced fontscale 2 linewidth 2 pointscale 2 "
-                      "background 'white' font 'sans,10.5'\n",
+                      "set terminal pngcairo size %d,%d enhanced fontscale 1.5 linewidth 2 pointscale 3.2 "
+                      "dashlength 1.6 "
+                      "background 'white' font 'sans,13'\n",
                       2 * width, 2 * height);
 }
 
@@ -119,7 +123,7 @@ static void write_head(fst_figure_file *figure, int width, int height)
     write_terminal(figure, width, height);
     (void)fputs("if (figure ne '') set output figure\n"
                 "set border lc rgb '#333333' lw 1\n"
-                "set tics textcolor rgb '#333333' nomirror\n"
+                "set tics textcolor rgb '#333333' nomirror font ',12'\n"
                 "set style line 101 lc rgb '#e4e4e4' lw 1\n",
                 script);
 }

@@ -8,32 +8,22 @@
 #include <string.h>
 
 enum {
-    WIDTH = 690, /* width of the figure, and of the square of plate in it, in pixels */
-    HEIGHT = 705,
-    SIDE = 510,
-    LEFT = 70,
-    TOP = 45,
-    ARROWS = 170,        /* about as many arrows as a picture can bear */
+    SIDE = 400, /* of the square of plate in the figure, in pixels */
+    LEFT = 58,
+    AXIS = 54,  /* below the square, for its numbers and label */
+    SCALE = 64, /* for the scale of colours */
+    INSET = 190,
+    ARROWS = 110,        /* about as many arrows as a picture can bear */
     MOST_SAMPLES = 6000, /* more samples would only make the file larger */
     MOST_PARTS = 8       /* pieces of the path between two samples */
 };
 
-/* What a colour means, for the columns that people look at most.  Others are labelled by name and unit. */
-static const struct {
-    const char *column, *label;
-} colour_labels[] = {
-    {"n_z", "n_z"},
-    {"slip", "slip |V| of the contact point (ℓγ), in proportion to friction"},
-    {"sticking", "contact: 1 sticks, 0 slips"},
-    {"friction_use", "friction over what static friction could take, |f|/(μ_s N)"},
-    {"angle", "angle between n and B (degrees)"},
-    {"B", "|B| (B_0)"},
-    {"r", "r (ℓ)"},
-};
+static const double LONGEST_ARROW = 0.07; /* of a horizontal moment, in sides of the square */
 
 typedef struct path_columns {
     const double *t, *x, *y, *vx, *vy, *n_x, *n_y, *n_alpha, *n_z, *alpha, *bead_angle, *colour;
     const fst_column_info *colour_info;
+    fst_quantity shown; /* how the colour is shown */
 } path_columns;
 
 static fst_status find_columns(const fst_view *view, const char *colour, path_columns *columns,
@@ -45,6 +35,8 @@ static fst_status find_columns(const fst_view *view, const char *colour, path_co
                                          "alpha", &columns->alpha, "Phi", &columns->bead_angle, NULL);
     if (status == FST_OK)
         status = fst_view_column(view, colour ? colour : "n_z", &columns->colour, &columns->colour_info, error);
+    if (status == FST_OK)
+        columns->shown = fst_view_quantity(view, columns->colour_info);
     return status;
 }
 
@@ -54,13 +46,14 @@ static fst_status find_columns(const fst_view *view, const char *colour, path_co
 static fst_status check_zoom(const fst_view *view, const path_columns *columns, const double *zoom,
                              fst_error *error)
 {
+    const double millimetres = 1e3 * view->table->params.magnet_half_length;
     double least[2], greatest[2];
     const double *where[2] = {columns->x, columns->y};
     int beside = 0;
     for (int i = 0; i < 2; ++i) {
         fst_view_range(view, where[i], &least[i], &greatest[i]);
-        least[i] *= view->millimetres;
-        greatest[i] *= view->millimetres;
+        least[i] *= millimetres;
+        greatest[i] *= millimetres;
         beside = beside || zoom[2 * i] > greatest[i] || zoom[2 * i + 1] < least[i];
     }
     return beside ? fst_fail(error, FST_BAD_INPUT, "fst_figure_options.zoom",
@@ -69,7 +62,7 @@ static fst_status check_zoom(const fst_view *view, const path_columns *columns, 
                   : FST_OK;
 }
 
-/* The square of the plate that is shown, in mm: the zoom, or everything about the axis. */
+/* The square of the plate that is shown, in the figure's unit: the zoom, or everything about the axis. */
 static fst_status choose_box(const fst_view *view, const path_columns *columns,
                              const fst_figure_options *options, double box[4], fst_error *error)
 {
@@ -78,7 +71,8 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
         if (!(zoom[0] < zoom[1] && zoom[2] < zoom[3]))
             return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.zoom",
                             "an empty zoom: it is x0 x1 y0 y1 in mm");
-        memcpy(box, zoom, 4 * sizeof *box);
+        for (int i = 0; i < 4; ++i)
+            box[i] = zoom[i] / (1e3 * view->table->params.magnet_half_length) * view->length;
         return check_zoom(view, columns, zoom, error);
     }
     double least, greatest, reach = 0.0;
@@ -87,7 +81,7 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
     fst_view_range(view, columns->y, &least, &greatest);
     reach = fmax(reach, fmax(-least, greatest));
     /* Leave room for the magnet's outline too. */
-    reach = fmax(1.12 * reach, 1.12) * view->millimetres;
+    reach = fmax(1.12 * reach, 1.12) * view->length;
     box[0] = box[2] = -reach;
     box[1] = box[3] = reach;
     return FST_OK;
@@ -103,10 +97,11 @@ static int has_outline(const fst_view *view)
 static void draw_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
 {
     double turned = columns->alpha[view->first] - columns->bead_angle[view->first];
-    double length = view->millimetres, width = 1e3 * view->table->params.magnet_width / 2.0;
+    double length = view->length, width = view->length * view->table->params.magnet_width /
+                                          view->table->params.magnet_half_length / 2.0;
     double cosine = cos(turned), sine = sin(turned);
     static const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    fst_figure_block(figure, "magnet", "x/mm y/mm: the magnet when the path begins");
+    fst_figure_block(figure, "magnet", "x y: the outline of the magnet's lines when the path begins");
     for (int i = 0; i <= 4; ++i) {
         double along = corners[i % 4][0] * length, across = corners[i % 4][1] * width;
         (void)fprintf(figure->data, "%.6g %.6g\n", along * cosine - across * sine,
@@ -114,38 +109,47 @@ static void draw_magnet(fst_figure_file *figure, const fst_view *view, const pat
     }
 }
 
-static void write_frame(fst_figure_file *figure, const fst_view *view, const double box[4])
+/* Where the parts of the figure lie, in pixels from above. */
+typedef struct path_layout {
+    int top, scale, inset, height;
+} path_layout;
+
+static path_layout lay_out(const fst_legend *legend, int with_inset)
 {
-    FILE *script = figure->script;
-    (void)fputs("set title ", script);
-    fst_figure_quote(figure, view->title);
-    (void)fprintf(script,
-                  " noenhanced\n"
-                  "set size ratio -1\n"
-                  "set xrange [%.6g:%.6g]\n"
-                  "set yrange [%.6g:%.6g]\n"
-                  "set xlabel 'x (mm)'\n"
-                  "set ylabel 'y (mm)'\n"
-                  "set grid ls 101\n"
-                  "set lmargin at screen %.4f\n"
-                  "set rmargin at screen %.4f\n"
-                  "set tmargin at screen %.4f\n"
-                  "set bmargin at screen %.4f\n"
-                  "set key at screen %.4f, screen %.4f left bottom Left reverse samplen 2 spacing 1.15\n",
-                  box[0], box[1], box[2], box[3], LEFT / (double)WIDTH, (LEFT + SIDE) / (double)WIDTH,
-                  1.0 - TOP / (double)HEIGHT, 1.0 - (TOP + SIDE) / (double)HEIGHT, LEFT / (double)WIDTH,
-                  8.0 / HEIGHT);
+    path_layout l = {.top = fst_legend_head(legend) + 6};
+    l.scale = l.top + SIDE + AXIS;
+    l.inset = l.scale + SCALE;
+    l.height = l.inset + (with_inset ? INSET : 0) + fst_legend_foot(legend);
+    return l;
+}
+
+static void write_frame(fst_figure_file *figure, const fst_view *view, const path_layout *l,
+                        const double box[4])
+{
+    const double frame[4] = {LEFT, LEFT + SIDE, l->top, l->top + SIDE};
+    char unit[16], label[40];
+    fst_figure_place(figure, l->height, frame);
+    (void)fprintf(figure->script,
+                  "set size ratio -1\nset xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nunset key\n", box[0],
+                  box[1], box[2], box[3]);
+    fst_unit_symbols(view->length_unit, unit, sizeof unit);
+    (void)snprintf(label, sizeof label, "x (%s)", unit);
+    fst_figure_axis_label(figure, l->height, FST_SIDE_BELOW, label, FST_COLOUR_BLACK, frame);
+    label[0] = 'y';
+    fst_figure_axis_label(figure, l->height, FST_SIDE_LEFT, label, FST_COLOUR_BLACK, frame);
 }
 
 /* ------------------------------------------------------------------ colour */
 
-static void write_colour(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
+static void write_colour(fst_figure_file *figure, const fst_view *view, const path_columns *columns,
+                         const path_layout *l)
 {
     double least, greatest;
     fst_view_range(view, columns->colour, &least, &greatest);
+    least *= columns->shown.factor;
+    greatest *= columns->shown.factor;
     int both_signs = least < 0.0 && greatest > 0.0;
-    const char *name = columns->colour_info->name;
-    if (!strcmp(name, "n_z")) {
+    if (!strcmp(columns->colour_info->name, "n_z")) {
         both_signs = 1;
         least = -1.0;
         greatest = 1.0;
@@ -161,19 +165,9 @@ static void write_colour(fst_figure_file *figure, const fst_view *view, const pa
         greatest += span;
     }
     fst_figure_palette(figure, both_signs ? FST_PALETTE_DIVERGING : FST_PALETTE_LINE);
-    (void)fprintf(figure->script,
-                  "set cbrange [%.9g:%.9g]\nset colorbox user origin %.4f,%.4f size %.4f,%.4f\n", least,
-                  greatest, (LEFT + SIDE + 14.0) / WIDTH, 1.0 - (TOP + SIDE) / (double)HEIGHT, 16.0 / WIDTH,
-                  SIDE / (double)HEIGHT);
-    for (size_t i = 0; i < sizeof colour_labels / sizeof colour_labels[0]; ++i) {
-        if (!strcmp(name, colour_labels[i].column)) {
-            (void)fprintf(figure->script, "set cblabel '%s'\n", colour_labels[i].label);
-            return;
-        }
-    }
-    char unit[32];
-    fst_unit_symbols(columns->colour_info->unit, unit, sizeof unit);
-    (void)fprintf(figure->script, "set cblabel '%s (%s)' noenhanced\n", name, unit);
+    (void)fprintf(figure->script, "set cbrange [%.9g:%.9g]\n", least, greatest);
+    fst_figure_colour_scale(figure, l->height, columns->shown.label,
+                            (const double[4]){LEFT, LEFT + SIDE, l->scale, l->scale + 12});
 }
 
 /* ------------------------------------------------------------------ data */
@@ -184,7 +178,7 @@ static void write_path(fst_figure_file *figure, const fst_view *view, const path
 {
     size_t rows = view->last - view->first, stride = rows / MOST_SAMPLES + 1, parts = MOST_SAMPLES / rows;
     parts = parts < 1 ? 1 : parts > MOST_PARTS ? MOST_PARTS : parts;
-    fst_figure_block(figure, "path", "x/mm y/mm colour");
+    fst_figure_block(figure, "path", "x y colour");
     for (size_t row = view->first; row < view->last; row += stride) {
         size_t next = row + 1 < view->last ? row + 1 : row;
         double h = columns->t[next] - columns->t[row];
@@ -195,33 +189,37 @@ static void write_path(fst_figure_file *figure, const fst_view *view, const path
             double y = fst_view_between(columns->y[row], columns->vy[row], columns->y[next], columns->vy[next],
                                         h, part);
             double colour = columns->colour[row] + part * (columns->colour[next] - columns->colour[row]);
-            (void)fprintf(figure->data, "%.7g %.7g %.7g\n", x * view->millimetres, y * view->millimetres,
-                          colour);
+            (void)fprintf(figure->data, "%.7g %.7g %.9g\n", x * view->length, y * view->length,
+                          columns->shown.factor * colour);
         }
     }
 }
 
-/* Draw the moment in the local frame, seen from outside along -e_r, in the middle of the picture. */
-static void write_inset(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
+/* Draw the moment in the local frame, seen from outside along -e_r, below the path. */
+static void write_inset(fst_figure_file *figure, const fst_view *view, const path_columns *columns,
+                        const path_layout *l)
 {
-    static const double side = 0.36; /* in parts of the square of plate */
-    double middle_x = (LEFT + 0.5 * SIDE) / WIDTH, middle_y = 1.0 - (TOP + 0.5 * SIDE) / HEIGHT;
-    double wide = 0.5 * side * SIDE / WIDTH, tall = 0.5 * side * SIDE / HEIGHT;
+    const double frame[4] = {LEFT, LEFT + INSET - 50, l->inset + 4, l->inset + INSET - 46};
     fst_figure_block(figure, "local", "n_alpha n_z: the moment in the local frame");
     for (size_t row = view->first; row < view->last; ++row)
         (void)fprintf(figure->data, "%.6g %.6g\n", columns->n_alpha[row], columns->n_z[row]);
+    (void)fputs("unset colorbox\nunset label\n", figure->script);
+    fst_figure_place(figure, l->height, frame);
+    fst_figure_axis_label(figure, l->height, FST_SIDE_BELOW, "n_α", FST_COLOUR_BLACK, frame);
+    fst_figure_axis_label(figure, l->height, FST_SIDE_LEFT, "n_z", FST_COLOUR_BLACK, frame);
     (void)fprintf(figure->script,
-                  "unset title\nunset colorbox\nunset key\n"
-                  "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"
-                  "set bmargin at screen %.4f\nset tmargin at screen %.4f\n"
                   "set xrange [-1.1:1.1]\nset yrange [-1.1:1.1]\nset tics 1 font ',11' format '%%g'\n"
-                  "set xlabel 'n_α' font ',12' offset 0,0.8\nset ylabel 'n_z' font ',12' offset 1.5,0\n"
-                  "set object 1 rectangle from graph 0,0 to graph 1,1 behind fc rgb 'white' fs solid noborder\n"
                   "set object 2 circle at 0,0 size 1 front fs empty border lc rgb '#b8b8b8'\n"
-                  "plot data index 'local' using 1:2 with lines lc rgb '%s' lw 1.6 notitle\n"
-                  "unset multiplot\n",
-                  middle_x - wide, middle_x + wide, middle_y - tall, middle_y + tall,
+                  "set label 'The moment n in the local frame,' at graph 1.15,0.85 font ',12'\n"
+                  "set label 'seen from outside along −e_r.' at graph 1.15,0.72 font ',12'\n"
+                  "set label 'Grey: the unit sphere''s outline.' at graph 1.15,0.59 font ',12'\n"
+                  "plot data index 'local' using 1:2 with lines lc rgb '%s' lw 1.6 notitle\n",
                   fst_colour_code(FST_COLOUR_BLUE));
+}
+
+static int is_within(const double box[4], double x, double y)
+{
+    return x >= box[0] && x <= box[1] && y >= box[2] && y <= box[3];
 }
 
 /* Arrows of the moment's horizontal part, each as long as that part.  A zoom has as many arrows per length of
@@ -231,19 +229,52 @@ static void write_arrows(fst_figure_file *figure, const fst_view *view, const pa
 {
     size_t inside = 0;
     for (size_t row = view->first; row < view->last; ++row) {
-        double x = columns->x[row] * view->millimetres, y = columns->y[row] * view->millimetres;
-        inside += x >= box[0] && x <= box[1] && y >= box[2] && y <= box[3];
+        double x = columns->x[row] * view->length, y = columns->y[row] * view->length;
+        inside += is_within(box, x, y) ? 1 : 0;
     }
     size_t stride = inside / ARROWS + 1;
-    double scale = 0.07 * (box[1] - box[0]);
-    fst_figure_block(figure, "moment", "x/mm y/mm dx dy: the horizontal part of n");
+    double scale = LONGEST_ARROW * (box[1] - box[0]);
+    fst_figure_block(figure, "moment", "x y dx dy: the horizontal part of n");
     for (size_t row = view->first; row < view->last; row += stride)
-        (void)fprintf(figure->data, "%.6g %.6g %.5g %.5g\n", columns->x[row] * view->millimetres,
-                      columns->y[row] * view->millimetres, scale * columns->n_x[row],
-                      scale * columns->n_y[row]);
+        (void)fprintf(figure->data, "%.6g %.6g %.5g %.5g\n", columns->x[row] * view->length,
+                      columns->y[row] * view->length, scale * columns->n_x[row], scale * columns->n_y[row]);
 }
 
 /* ------------------------------------------------------------------ the figure */
+
+static fst_legend make_legend(const fst_view *view, const fst_figure_options *options,
+                              const path_columns *columns, const double box[4])
+{
+    fst_legend legend = fst_view_legend(view, "Path of the bead over the plate, from above");
+    if (has_outline(view))
+        fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#b4b4b4' lw 1",
+                       "outline of the magnet's lines at the beginning; it turns anticlockwise");
+    if (is_within(box, view->length * columns->x[view->first], view->length * columns->y[view->first]))
+        fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 6 ps 1 lw 2 lc rgb '#222222'",
+                       "the bead at the beginning");
+    if (options->arrows) {
+        fst_legend_add(&legend, FST_SAMPLE_ARROW, "lc rgb '#8a8a8a' lw 0.8",
+                       "horizontal part of the moment n; so long where n is horizontal");
+        legend.entries[legend.count - 1].length = LONGEST_ARROW * SIDE;
+    }
+    return legend;
+}
+
+static void write_plots(fst_figure_file *figure, const fst_view *view, const fst_figure_options *options)
+{
+    fputs("plot \\\n", figure->script);
+    if (has_outline(view))
+        fputs("     data index 'magnet' using 1:2 with filledcurves closed fc rgb '#f4f4f4' notitle, \\\n"
+              "     data index 'magnet' using 1:2 with lines lc rgb '#b4b4b4' lw 1 notitle, \\\n",
+              figure->script);
+    if (options->arrows)
+        fputs("     data index 'moment' using 1:2:3:4 with vectors head filled size screen 0.010,18 lc rgb "
+              "'#8a8a8a' lw 0.8 notitle, \\\n",
+              figure->script);
+    fputs("     data index 'path' using 1:2:3 with lines lc palette lw 2.2 notitle, \\\n"
+          "     data index 'path' using 1:2 every ::0::0 with points pt 6 ps 1 lw 2 lc rgb '#222222' notitle\n",
+          figure->script);
+}
 
 fst_status fst_figure_path(const fst_table *table, const char *out, const fst_figure_options *options,
                            fst_error *error)
@@ -251,41 +282,33 @@ fst_status fst_figure_path(const fst_table *table, const char *out, const fst_fi
     fst_view view;
     path_columns columns = {0};
     double box[4] = {0};
-    fst_status status = fst_view_of(&view, table, options, 2.0, 30.0, error);
+    fst_figure_options asked = *options;
+    if (asked.units == FST_SHOWN_AS_GIVEN)
+        asked.units = FST_SHOWN_LAB;
+    fst_status status = fst_view_of(&view, table, &asked, 2.0, 30.0, error);
     if (status == FST_OK)
         status = find_columns(&view, options->colour, &columns, error);
     if (status == FST_OK)
         status = choose_box(&view, &columns, options, box, error);
-    fst_figure_file figure;
-    if (status == FST_OK)
-        status = fst_figure_begin(&figure, out, WIDTH, HEIGHT, error);
     if (status != FST_OK)
         return status;
-
+    const fst_legend legend = make_legend(&view, options, &columns, box);
+    const path_layout l = lay_out(&legend, options->inset);
+    fst_figure_file figure;
+    status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, l.height, error);
+    if (status != FST_OK)
+        return status;
     if (has_outline(&view))
         draw_magnet(&figure, &view, &columns);
     write_path(&figure, &view, &columns);
-    if (options->inset)
-        (void)fputs("set multiplot\n", figure.script);
-    write_frame(&figure, &view, box);
-    write_colour(&figure, &view, &columns);
-    fputs("plot \\\n", figure.script);
-    if (has_outline(&view))
-        fputs("     data index 'magnet' using 1:2 with filledcurves closed fc rgb '#f4f4f4' notitle, \\\n"
-              "     data index 'magnet' using 1:2 with lines lc rgb '#c4c4c4' lw 1 title 'magnet when the path "
-              "begins (turns anticlockwise)', \\\n",
-              figure.script);
-    if (options->arrows) {
+    fst_figure_panels(&figure);
+    write_frame(&figure, &view, &l, box);
+    write_colour(&figure, &view, &columns, &l);
+    if (options->arrows)
         write_arrows(&figure, &view, &columns, box);
-        fputs("     data index 'moment' using 1:2:3:4 with vectors head filled size screen 0.007,18 lc rgb "
-              "'#8a8a8a' lw 0.8 title 'horizontal part of the moment n', \\\n",
-              figure.script);
-    }
-    fputs("     data index 'path' using 1:2:3 with lines lc palette lw 2.2 notitle, \\\n"
-          "     data index 'path' using 1:2 every ::0::0 with points pt 6 ps 1 lw 2 lc rgb '#222222' title "
-          "'the bead then'\n",
-          figure.script);
+    write_plots(&figure, &view, options);
     if (options->inset)
-        write_inset(&figure, &view, &columns);
+        write_inset(&figure, &view, &columns, &l);
+    fst_legend_write(&figure, &legend, l.height);
     return fst_figure_finish(&figure, error);
 }

@@ -34,30 +34,60 @@ static void fold(const fst_view *view, const double *bead_angle, const double *r
     }
 }
 
+/* The label of an axis with the colour of its curve in words. */
+static void with_colour(const fst_quantity *quantity, const char *colour, char label[160])
+{
+    (void)snprintf(label, 160, "%s, %s", quantity->label, colour);
+}
+
+static void scale(double *values, size_t count, double factor)
+{
+    for (size_t i = 0; i < count; ++i)
+        values[i] *= factor;
+}
+
 static fst_status draw(const fst_view *view, const char *out, const folded *curve, fst_error *error)
 {
+    const fst_column_info *columns[2];
+    const double *unused;
+    char labels[2][160];
+    fst_status status = fst_view_column(view, "r", &unused, &columns[0], error);
+    if (status == FST_OK)
+        status = fst_view_column(view, "B", &unused, &columns[1], error);
+    if (status != FST_OK)
+        return status;
+    for (int i = 0; i < 2; ++i) {
+        const fst_quantity quantity = fst_view_quantity(view, columns[i]);
+        scale(i ? curve->b : curve->r, curve->count, quantity.factor);
+        with_colour(&quantity, i ? "orange" : "blue", labels[i]);
+    }
     fst_chart_curve curves[] = {
-        {NULL, curve->bead_angle, curve->r, curve->count, FST_COLOUR_BLUE, FST_CURVE_LINE, 0, NULL},
-        {NULL, curve->bead_angle, curve->b, curve->count, FST_COLOUR_VERMILION, FST_CURVE_LINE, 1, NULL},
+        {.x = curve->bead_angle, .y = curve->r, .count = curve->count, .colour = FST_COLOUR_BLUE},
+        {.x = curve->bead_angle,
+         .y = curve->b,
+         .count = curve->count,
+         .colour = FST_COLOUR_VERMILION,
+         .right = 1},
     };
-    fst_chart_panel panel = {.left_label = "r (ℓ), blue",
-                             .right_label = "|B| (B_0), orange",
+    fst_chart_panel panel = {.left_label = labels[0],
+                             .right_label = labels[1],
                              .low = NAN,
                              .high = NAN,
                              .left_colour = FST_COLOUR_BLUE,
                              .right_colour = FST_COLOUR_VERMILION,
                              .curves = curves,
                              .curve_count = 2};
-    fst_chart chart = {.title = view->title,
+    fst_chart chart = {.title = view->title ? view->title : "Radius and field while the magnet passes the bead",
+                       .about = view->about,
                        .x_label =
                            view->table->params.magnet_shape == FST_MAGNET_LINES
-                               ? "Φ = α − ωt, the bead's angle against the magnet (0: over its lines' ends)"
+                               ? "Φ = α − ωt, the bead's angle against the magnet (0: over the ends of its "
+                                 "lines)"
                                : "Φ = α − ωt, the bead's angle against the magnet",
                        .x_low = 0.0,
                        .x_high = FST_PI,
                        .x_tics = "('0' 0, 'π/4' 0.785398163, 'π/2' 1.570796327, '3π/4' 2.35619449, 'π' "
                                  "3.141592654)",
-                       .height = 420,
                        .panels = &panel,
                        .panel_count = 1};
     return fst_figure_chart(out, &chart, error);

@@ -4,7 +4,8 @@
 
 #include <festoon/festoon.h>
 
-/* Plate, bead and magnet to scale, from above and from the side (the paper's Fig. 1). */
+/* Plate, bead and magnet to scale, from above and from the side, and the angles of the moment (the paper's
+ * Fig. 1). */
 fst_status fst_figure_sketch(const fst_params *params, const char *out, fst_error *error);
 
 /* The bead's path as a camera of 200 frames a second sees it: a point a frame, for two seconds (the paper's

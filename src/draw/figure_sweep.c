@@ -35,6 +35,8 @@ fst_status fst_figure_sweep(const char *path, const char *const *keys, int count
     fst_status status = fst_sweep_read_grid(path, &grid, error);
     if (status != FST_OK)
         return status;
+    if (units == FST_SHOWN_AS_GIVEN)
+        units = fst_sweep_units(grid);
     status = axes_of(grid, path, units, axes, &varied, error);
     if (status == FST_OK && varied == 2 && count > 1)
         status = fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.keys", "a map shows one key, not %d", count);

@@ -1,71 +1,56 @@
 /* figure_sweep_axes.c - axes and keys of a sweep, converted into the units that the figure shows. */
 #include "draw/figure_sweep_axes.h"
 
-#include "base/constants.h"
 #include "base/error.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* ------------------------------------------------------------------ units */
 
-/* "drive.frequency" -> "drive frequency" */
-static void words_of(const char *key, char *words, size_t size)
+static int varies(const fst_grid *grid, const char *key)
 {
-    (void)snprintf(words, size, "%s", key);
-    for (char *c = words; *c; ++c)
-        if (*c == '.' || *c == '_')
-            *c = ' ';
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
+        if (fst_grid_axis_points(grid, i) > 1 && strcmp(fst_grid_key(grid, i), key) == 0)
+            return 1;
+    return 0;
 }
 
-/* The scaled units' length in metres and time in seconds, which must be the same at all points. */
-static fst_status units_of(const fst_grid *grid, const char *what, double *length, double *time,
-                           fst_error *error)
+fst_shown_units fst_sweep_units(const fst_grid *grid)
 {
-    for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
-        const char *key = fst_grid_key(grid, i);
-        if (fst_grid_axis_points(grid, i) > 1 && ((length && strcmp(key, "magnet.half_length") == 0) ||
-                                                  (time && strcmp(key, "friction.gamma") == 0)))
-            return fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.units",
-                            "the sweep varies %s, a unit itself, so %s is shown in the units it was made with",
-                            key, what);
-    }
-    const fst_params *base = fst_grid_base(grid);
-    if (length)
-        *length = base->magnet_half_length;
-    if (time)
-        *time = 1.0 / base->friction_gamma;
-    return FST_OK;
+    fst_shown_units units = FST_SHOWN_SCALED;
+    if (varies(grid, "magnet.half_length") || varies(grid, "friction.gamma"))
+        return FST_SHOWN_AS_GIVEN;
+    for (int i = 0; i < fst_grid_axis_count(grid); ++i)
+        if (fst_grid_axis_points(grid, i) > 1 && fst_units_of_parameter(fst_grid_key(grid, i)) == FST_SHOWN_LAB)
+            units = FST_SHOWN_LAB;
+    return units;
 }
 
-/* The drive, by its frequency in Hz or by its scaled angular velocity. */
-static fst_status drive_axis(const fst_grid *grid, fst_shown_units units, fst_sweep_axis *axis,
-                             fst_error *error)
+/* The scales of the points; a scale that differs from point to point is NAN. */
+static fst_scales scales_of(const fst_grid *grid)
 {
-    const char *key = fst_grid_key(grid, axis->index);
-    const int in_hertz = strcmp(key, "drive.frequency") == 0;
-    const int to_hertz = units == FST_SHOWN_LAB || (units == FST_SHOWN_AS_GIVEN && in_hertz);
-    double time = 1.0;
-    const fst_status status = in_hertz == to_hertz ? FST_OK : units_of(grid, key, NULL, &time, error);
-    axis->factor = in_hertz == to_hertz ? 1.0 : in_hertz ? FST_TWO_PI * time : 1.0 / (FST_TWO_PI * time);
-    (void)snprintf(axis->label, sizeof axis->label, "%s",
-                   to_hertz ? "drive frequency (Hz)" : "drive ω (scaled)");
-    return status;
+    fst_scales scales = fst_scales_of(fst_grid_base(grid));
+    if (varies(grid, "magnet.half_length"))
+        scales.length = NAN;
+    if (varies(grid, "friction.gamma"))
+        scales.time = NAN;
+    if (varies(grid, "bead.mass"))
+        scales.mass = NAN;
+    if (varies(grid, "magnet.b0") || varies(grid, "bead.moment") || varies(grid, "model.kappa"))
+        scales.field = NAN;
+    return scales;
 }
 
-/* A length, given in metres or (start.r) in l. */
-static fst_status length_axis(const fst_grid *grid, fst_shown_units units, int in_metres, fst_sweep_axis *axis,
-                              fst_error *error)
+/* Refuse units that would need a scale which is not the same at all points. */
+static fst_status check_scale(const fst_grid *grid, const char *what, int same, fst_error *error)
 {
-    const char *key = fst_grid_key(grid, axis->index);
-    const int to_mm = units == FST_SHOWN_LAB || (units == FST_SHOWN_AS_GIVEN && in_metres);
-    double length = 1.0;
-    char words[64];
-    const fst_status status = in_metres == to_mm ? FST_OK : units_of(grid, key, &length, NULL, error);
-    axis->factor = (in_metres ? 1.0 : length) * (to_mm ? 1e3 : 1.0 / length);
-    words_of(key, words, sizeof words);
-    (void)snprintf(axis->label, sizeof axis->label, "%s (%s)", words, to_mm ? "mm" : "l");
-    return status;
+    const char *key = varies(grid, "friction.gamma") ? "friction.gamma" : "magnet.half_length";
+    return same ? FST_OK
+                : fst_fail(error, FST_BAD_INPUT, "fst_figure_sweep.units",
+                           "the sweep varies %s, a unit itself, so %s is shown in the units it was made with",
+                           key, what);
 }
 
 fst_status fst_sweep_axis_of(const fst_grid *grid, int index, fst_shown_units units, fst_sweep_axis *axis,
@@ -73,22 +58,36 @@ fst_status fst_sweep_axis_of(const fst_grid *grid, int index, fst_shown_units un
 {
     const char *key = fst_grid_key(grid, index);
     const fst_param_info *info = fst_param_at(fst_param_find(key));
+    const fst_scales scales = scales_of(grid);
+    const fst_quantity quantity = fst_quantity_of_parameter(key, units, &scales);
     *axis = (fst_sweep_axis){.index = index,
                              .count = fst_grid_axis_points(grid, index),
-                             .factor = 1.0,
+                             .factor = quantity.factor,
                              .logarithmic = fst_grid_axis_spacing(grid, index) == FST_SPACING_LOG,
                              .choice = info->kind == FST_KIND_CHOICE ? info : NULL};
-    if (strncmp(key, "drive.", 6) == 0)
-        return drive_axis(grid, units, axis, error);
-    if (info->unit == FST_UNIT_LENGTH || strcmp(key, "start.r") == 0)
-        return length_axis(grid, units, info->unit == FST_UNIT_LENGTH, axis, error);
-    char words[64];
-    words_of(key, words, sizeof words);
-    if (info->kind != FST_KIND_REAL || info->unit == FST_UNIT_NUMBER)
-        (void)snprintf(axis->label, sizeof axis->label, "%s", words);
-    else
-        (void)snprintf(axis->label, sizeof axis->label, "%s (%s)", words, fst_unit_name(info->unit));
-    return FST_OK;
+    memcpy(axis->label, quantity.label, sizeof axis->label);
+    return check_scale(grid, key, isfinite(quantity.factor), error);
+}
+
+void fst_sweep_words(const char *label, char words[128])
+{
+    (void)snprintf(words, 128, "%s", label);
+    char *unit = strstr(words, " (");
+    if (unit)
+        *unit = '\0';
+}
+
+void fst_sweep_about(const fst_grid *grid, char *about, size_t size)
+{
+    const fst_params *base = fst_grid_base(grid);
+    const size_t used = strlen(about);
+    (void)snprintf(about + used, size - used, "%s%s", used ? "; " : "",
+                   varies(grid, "model.dynamics") ? "" : "dynamics ");
+    if (!varies(grid, "model.dynamics"))
+        (void)snprintf(about + strlen(about), size - strlen(about), "%s, ",
+                       fst_dynamics_name((fst_dynamics)base->model_dynamics));
+    (void)snprintf(about + strlen(about), size - strlen(about), "%lld runs of %g turns of the magnet",
+                   (long long)fst_grid_points(grid), base->run_periods);
 }
 
 double fst_sweep_axis_value(const fst_grid *grid, const fst_sweep_axis *axis, int64_t point)
@@ -109,38 +108,37 @@ void fst_sweep_choice_tics(const fst_param_info *choice, char *tics, size_t size
     (void)snprintf(tics + used, size - used, ")");
 }
 
+int fst_sweep_result_tics(const char *key, char *tics, size_t size)
+{
+    const int regimes = strcmp(key, "regime") == 0;
+    if (!regimes && strcmp(key, "symmetry") != 0)
+        return 0;
+    const int count = regimes ? FST_REGIME_LIFTED + 1 : FST_SYMMETRY_S2 + 1;
+    (void)snprintf(tics, size, "(");
+    for (int i = 0; i < count; ++i) {
+        const char *name = regimes ? fst_regime_name((fst_regime)i) : fst_symmetry_name((fst_symmetry)i);
+        const size_t used = strlen(tics);
+        (void)snprintf(tics + used, size - used, "%s'%s' %d", i ? ", " : "", name ? name : "none", i);
+    }
+    (void)snprintf(tics + strlen(tics), size - strlen(tics), ")");
+    return 1;
+}
+
 fst_status fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units,
                                  fst_sweep_quantity *quantity, fst_error *error)
 {
-    /* Units of results that have a counterpart in the laboratory, as powers of l and of gamma. */
-    static const struct {
-        const char *scaled, *lab;
-        int length, time;
-    } table[] = {
-        {"l", "mm", 1, 0}, {"gamma", "1/s", 0, -1}, {"1/gamma", "s", 0, 1}, {"l gamma", "mm/s", 1, -1}};
-    const char *unit = "";
-    fst_status status = FST_OK;
-    *quantity = (fst_sweep_quantity){.key = key, .factor = 1.0};
+    const fst_scales scales = scales_of(grid), base = fst_scales_of(fst_grid_base(grid));
+    const char *unit = "", *name, *base_name;
     for (int i = 0; i < fst_result_count(); ++i)
         if (strcmp(fst_result_at(i)->name, key) == 0)
             unit = fst_result_at(i)->unit;
-    for (size_t i = 0; units == FST_SHOWN_LAB && i < sizeof table / sizeof *table; ++i)
-        if (strcmp(unit, table[i].scaled) == 0) {
-            double length = 1e-3, time = 1.0;
-            status = units_of(grid, key, table[i].length ? &length : NULL, table[i].time ? &time : NULL, error);
-            quantity->factor = (table[i].length ? 1e3 * length : 1.0) * (table[i].time < 0   ? 1.0 / time
-                                                                         : table[i].time > 0 ? time
-                                                                                             : 1.0);
-            unit = table[i].lab;
-            break;
-        }
-    char words[64];
-    words_of(key, words, sizeof words);
-    if (unit[0] && strcmp(unit, "1") != 0)
-        (void)snprintf(quantity->label, sizeof quantity->label, "%s (%s)", words, unit);
-    else
-        (void)snprintf(quantity->label, sizeof quantity->label, "%s", words);
-    return status;
+    (void)fst_unit_shown(unit, units, &scales, &name);
+    (void)fst_unit_shown(unit, units, &base, &base_name);
+    const int field_only = strcmp(unit, "B0") == 0; /* it then stays in B0 */
+    const fst_quantity shown = fst_quantity_of_result(key, unit, units, &scales);
+    *quantity = (fst_sweep_quantity){.key = key, .factor = shown.factor};
+    memcpy(quantity->label, shown.label, sizeof quantity->label);
+    return check_scale(grid, key, field_only || strcmp(name, base_name) == 0, error);
 }
 
 fst_colour fst_regime_colour(int regime)

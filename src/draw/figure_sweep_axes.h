@@ -3,6 +3,7 @@
 #ifndef FST_DRAW_FIGURE_SWEEP_AXES_H
 #define FST_DRAW_FIGURE_SWEEP_AXES_H
 
+#include "draw/quantity.h"
 #include "draw/style.h"
 
 #include <festoon/festoon_tools.h>
@@ -14,8 +15,18 @@ typedef struct fst_sweep_axis {
     double factor;                /* from the grid's unit to the wanted one */
     int logarithmic;              /* its values are spaced logarithmically */
     const fst_param_info *choice; /* set for a choice, whose values have names; NULL: its values are numbers */
-    char label[96];               /* "drive frequency (Hz)" */
+    char label[128];              /* "drive frequency (Hz)" */
 } fst_sweep_axis;
+
+/* The units of a figure for which nobody asked for any: those of the laboratory where a varied parameter has
+ * one, else scaled ones; as given where a varied parameter is a unit itself. */
+fst_shown_units fst_sweep_units(const fst_grid *grid);
+
+/* A label without its unit, "drive frequency". */
+void fst_sweep_words(const char *label, char words[128]);
+
+/* Add to `about` what is the same at all points. */
+void fst_sweep_about(const fst_grid *grid, char *about, size_t size);
 
 /* FST_BAD_INPUT: a varied parameter changes the wanted units. */
 fst_status fst_sweep_axis_of(const fst_grid *grid, int index, fst_shown_units units, fst_sweep_axis *axis,
@@ -27,14 +38,17 @@ double fst_sweep_axis_value(const fst_grid *grid, const fst_sweep_axis *axis, in
 /* gnuplot's tics for an axis that is a choice, "('rigid' 0, 'farago2020' 1)". */
 void fst_sweep_choice_tics(const fst_param_info *choice, char *tics, size_t size);
 
+/* gnuplot's tics for values that are names: those of regimes or symmetries; 0: `key` is neither. */
+int fst_sweep_result_tics(const char *key, char *tics, size_t size);
+
 /* The colour of a regime in all figures. */
 fst_colour fst_regime_colour(int regime);
 
-/* A key of a run as the figure shows it: its values times `factor`, with the label "mean r (l)". */
+/* A key of a run as the figure shows it: its values times `factor`, with the label "mean radius ⟨r⟩ (mm)". */
 typedef struct fst_sweep_quantity {
     const char *key;
     double factor;
-    char label[96];
+    char label[128];
 } fst_sweep_quantity;
 fst_status fst_sweep_quantity_of(const fst_grid *grid, const char *key, fst_shown_units units,
                                  fst_sweep_quantity *quantity, fst_error *error);

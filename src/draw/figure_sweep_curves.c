@@ -16,7 +16,8 @@ typedef struct drawing {
     fst_chart_panel panels[MOST_KEYS];
     int curve_count, panel_count;
     size_t points, step; /* how many are drawn: every `step`-th point of the sweep */
-    char title[256];
+    char title[192], about[256];
+    char tics[MOST_KEYS][256]; /* of panels whose values are names */
 } drawing;
 
 static int any_value(const double *values, size_t count)
@@ -27,12 +28,12 @@ static int any_value(const double *values, size_t count)
     return 0;
 }
 
-/* A key without any value gets no panel; the title says so. */
+/* A key without any value gets no panel; the line below the title says so. */
 static void mention_empty(drawing *d, const char *label)
 {
-    const size_t used = strlen(d->title);
-    (void)snprintf(d->title + used, sizeof d->title - used, "%s%s",
-                   strchr(d->title, ':') ? ", " : "; no value of: ", label);
+    const size_t used = strlen(d->about);
+    (void)snprintf(d->about + used, sizeof d->about - used, "%s%s",
+                   strstr(d->about, "no value of: ") ? ", " : "; no value of: ", label);
 }
 
 /* Add a curve to a panel for each regime that occurs, at the heights `values`, so that the points show their
@@ -83,6 +84,11 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep
         fst_chart_panel *panel = &d->panels[d->panel_count++];
         *panel = (fst_chart_panel){
             .left_label = quantities[k].label, .low = NAN, .high = NAN, .curves = &d->curves[d->curve_count]};
+        if (fst_sweep_result_tics(quantities[k].key, d->tics[d->panel_count - 1], sizeof d->tics[0])) {
+            panel->tics = d->tics[d->panel_count - 1];
+            panel->low = -0.5;
+            panel->high = (strcmp(quantities[k].key, "regime") == 0 ? REGIMES : FST_SYMMETRY_S2 + 1) - 0.5;
+        }
         const int first = d->curve_count;
         if (regime)
             add_regimes(d, d->panel_count - 1, regime, values);
@@ -94,8 +100,6 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep
                                                             .style = FST_CURVE_POINTS};
         panel->curve_count = d->curve_count - first;
     }
-    if (regime && d->panel_count > 0)
-        d->panels[d->panel_count - 1].key = "top right";
 }
 
 /* Set the abscissa and its range: from the least value to the greatest, or half a unit beyond for a choice. */
@@ -143,21 +147,26 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
     d->by_regime = memory + points;
     double low, high;
     lay_abscissa(d, table->grid, axis, &low, &high);
-    (void)snprintf(d->title, sizeof d->title, "Sweep over one parameter");
+    char words[128];
+    fst_sweep_words(axis->label, words);
+    (void)snprintf(d->title, sizeof d->title, "Sweep over the %s", words);
+    fst_sweep_about(table->grid, d->about, sizeof d->about);
     if (step > 1)
-        (void)snprintf(d->title, sizeof d->title, "Sweep over one parameter, one point of %zu", step);
+        (void)snprintf(d->about + strlen(d->about), sizeof d->about - strlen(d->about),
+                       "; drawn: one point of %zu", step);
     add_panels(d, table, quantities, count);
     char tics[512] = "";
     if (axis->choice)
         fst_sweep_choice_tics(axis->choice, tics, sizeof tics);
     const double scale = scale_of_drive(table->grid, axis);
     const fst_chart chart = {.title = d->title,
+                             .about = d->about,
                              .x_label = axis->label,
                              .x_low = low,
                              .x_high = high,
                              .x_logarithmic = axis->logarithmic,
                              .x_tics = axis->choice ? tics : NULL,
-                             .x2_label = scale > 0 ? "drive ω (scaled)" : NULL,
+                             .x2_label = scale > 0 ? "drive ω (γ)" : NULL,
                              .x2_factor = scale,
                              .panels = d->panels,
                              .panel_count = d->panel_count};

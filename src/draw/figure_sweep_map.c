@@ -2,11 +2,22 @@
 #include "draw/figure_sweep.h"
 
 #include "base/error.h"
+#include "draw/legend.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 780, HEIGHT = 620, REGIMES = FST_REGIME_LIFTED + 1, MOST_CELLS = 1024 };
+enum {
+    REGIMES = FST_REGIME_LIFTED + 1,
+    MOST_CELLS = 1024,
+    LEFT = 62, /* pixels about the map */
+    NAMES = 108,
+    RIGHT = 22,
+    FRAME = 320,
+    AXIS = 54,
+    SCALE = 72, /* for the scale of colours */
+    TICS = 7    /* that point outwards */
+};
 
 /* A value of an axis and the points that have it. */
 typedef struct place {
@@ -140,34 +151,27 @@ static void write_axis(fst_figure_file *figure, const fst_sweep_axis *axis, cons
         fst_sweep_choice_tics(axis->choice, tics, sizeof tics);
         (void)fprintf(figure->script, "set %stics %s\n", letter, tics);
     }
-    (void)fprintf(figure->script, "set %srange [%.9g:%.9g]\nset %slabel ", letter, s->edges[0],
-                  s->edges[s->count], letter);
-    fst_figure_quote(figure, axis->label);
-    (void)fputs(" noenhanced\n", figure->script);
+    (void)fprintf(figure->script, "set %srange [%.9g:%.9g]\n", letter, s->edges[0], s->edges[s->count]);
 }
 
-static void write_regimes(fst_figure_file *figure, const map *m)
+static void write_regimes(fst_figure_file *figure, const map *m, const int occurs[REGIMES])
 {
-    int occurs[REGIMES] = {0};
-    for (int64_t row = 0; row < m->up.count; ++row)
-        for (int64_t column = 0; column < m->right.count; ++column)
-            if (isfinite(value_at(m, row, column)))
-                occurs[(int)value_at(m, row, column)] = 1;
-    (void)fputs("set key outside below horizontal height 1\nplot ", figure->script);
+    (void)fputs("plot ", figure->script);
     for (int r = 0; r < REGIMES; ++r)
         if (occurs[r]) {
             write_cells(figure, m, r);
             (void)fprintf(
                 figure->script,
                 "data index 'cells-%d' using 1:2:3:4:5:6 with boxxyerror fillstyle solid 1.0 noborder lc rgb "
-                "'%s' title '%s', \\\n     ",
-                r, fst_colour_code(fst_regime_colour(r)), fst_regime_name((fst_regime)r));
+                "'%s' notitle, \\\n     ",
+                r, fst_colour_code(fst_regime_colour(r)));
         }
     (void)fputs("NaN notitle\n", figure->script);
 }
 
 /* A quantity of both signs gets a palette whose middle is zero. */
-static void write_heat(fst_figure_file *figure, const map *m, const char *label)
+static void write_heat(fst_figure_file *figure, const map *m, const char *label, int left, int scale,
+                       int height)
 {
     double least = INFINITY, greatest = -INFINITY;
     for (int64_t i = 0; i < fst_grid_points(m->table->grid); ++i)
@@ -180,9 +184,10 @@ static void write_heat(fst_figure_file *figure, const map *m, const char *label)
     if (least < 0 && greatest > 0)
         (void)fprintf(figure->script, "set cbrange [%.9g:%.9g]\n", -both, both);
     write_cells(figure, m, -1);
-    (void)fputs("set cblabel ", figure->script);
-    fst_figure_quote(figure, label);
-    (void)fputs(" noenhanced\nplot data index 'cells' using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid "
+    (void)fputs("set cbtics in\n", figure->script);
+    fst_figure_colour_scale(figure, height, label,
+                            (const double[4]){left, FST_FIGURE_WIDTH - RIGHT, scale + TICS, scale + TICS + 12});
+    (void)fputs("plot data index 'cells' using 1:2:3:4:5:6:7 with boxxyerror fillstyle solid "
                 "1.0 noborder lc palette notitle, NaN notitle\n",
                 figure->script);
 }
@@ -196,24 +201,36 @@ static int64_t blank_points(const map *m)
     return blank;
 }
 
-/* Write what is shown, and how many points have no value. */
-static void write_title(fst_figure_file *figure, const map *m)
+/* What is shown, and how many points have no value. */
+static fst_legend make_legend(const map *m, const fst_sweep_quantity *quantity, const int occurs[REGIMES])
 {
-    const int64_t points = fst_grid_points(m->table->grid);
-    const int64_t blank = blank_points(m);
-    char title[192];
-    int used =
-        snprintf(title, sizeof title, "%s", m->regimes ? "Regimes of motion" : "Sweep over two parameters");
+    fst_legend legend = {.count = 0};
+    const int64_t points = fst_grid_points(m->table->grid), blank = blank_points(m);
+    char words[3][128];
+    fst_sweep_words(m->regimes ? "Regimes of motion" : quantity->label, words[0]);
+    fst_sweep_words(m->axes[1].label, words[1]);
+    fst_sweep_words(m->axes[0].label, words[2]);
+    (void)snprintf(legend.title, sizeof legend.title, "%.80s over %.80s and %.80s", words[0], words[1],
+                   words[2]);
+    if (legend.title[0] >= 'a' && legend.title[0] <= 'z')
+        legend.title[0] = (char)(legend.title[0] - 'a' + 'A');
+    fst_sweep_about(m->table->grid, legend.about, sizeof legend.about);
+    size_t used = strlen(legend.about);
     if (m->up.step * m->right.step > 1)
-        used = snprintf(title, sizeof title, "%s, one point of %lld x %lld",
-                        m->regimes ? "Regimes of motion" : "Sweep over two parameters", (long long)m->up.step,
-                        (long long)m->right.step);
-    if (blank > 0 && used > 0 && (size_t)used < sizeof title)
-        (void)snprintf(title + used, sizeof title - (size_t)used,
+        (void)snprintf(legend.about + used, sizeof legend.about - used, "; drawn: one point of %lld x %lld",
+                       (long long)m->up.step, (long long)m->right.step);
+    used = strlen(legend.about);
+    if (blank > 0)
+        (void)snprintf(legend.about + used, sizeof legend.about - used,
                        "; white: %lld of %lld points without a value", (long long)blank, (long long)points);
-    (void)fputs("set title ", figure->script);
-    fst_figure_quote(figure, title);
-    (void)fputs(" noenhanced\nset tics out nomirror\n", figure->script);
+    for (int r = 0; r < REGIMES; ++r)
+        if (occurs[r]) {
+            char style[64];
+            (void)snprintf(style, sizeof style, "fs solid 1.0 noborder lc rgb '%s'",
+                           fst_colour_code(fst_regime_colour(r)));
+            fst_legend_add(&legend, FST_SAMPLE_BOX, style, fst_regime_name((fst_regime)r));
+        }
+    return legend;
 }
 
 static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *out, fst_error *error)
@@ -225,17 +242,33 @@ static fst_status draw(map *m, const fst_sweep_quantity *quantity, const char *o
     fst_status status = lay_side(&m->up, grid, &m->axes[0], error);
     if (status == FST_OK)
         status = lay_side(&m->right, grid, &m->axes[1], error);
-    if (status == FST_OK)
-        status = fst_figure_begin(&figure, out, WIDTH, HEIGHT, error);
     if (status != FST_OK)
         return status;
-    write_title(&figure, m);
+    int occurs[REGIMES] = {0};
+    for (int64_t i = 0; m->regimes && i < fst_grid_points(grid); ++i)
+        if (isfinite(m->table->values[i]))
+            occurs[(int)m->table->values[i]] = 1;
+    const fst_legend legend = make_legend(m, quantity, occurs);
+    const int left = m->axes[0].choice ? NAMES : LEFT, top = fst_legend_head(&legend) + 8;
+    const int scale = top + FRAME + AXIS;
+    const int height = scale + (m->regimes ? 0 : SCALE) + fst_legend_foot(&legend);
+    status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, height, error);
+    if (status != FST_OK)
+        return status;
+    fst_figure_panels(&figure);
+    const double frame[4] = {left, FST_FIGURE_WIDTH - RIGHT, top, top + FRAME};
+    fst_figure_place(&figure, height, frame);
+    const double below[4] = {frame[0], frame[1], frame[2], frame[3] + TICS};
+    fst_figure_axis_label(&figure, height, FST_SIDE_BELOW, m->axes[1].label, FST_COLOUR_BLACK, below);
+    fst_figure_axis_label(&figure, height, FST_SIDE_LEFT, m->axes[0].label, FST_COLOUR_BLACK, frame);
+    (void)fputs("set tics out nomirror\nunset key\n", figure.script);
     write_axis(&figure, &m->axes[1], &m->right, "x");
     write_axis(&figure, &m->axes[0], &m->up, "y");
     if (m->regimes)
-        write_regimes(&figure, m);
+        write_regimes(&figure, m, occurs);
     else
-        write_heat(&figure, m, quantity->label);
+        write_heat(&figure, m, quantity->label, left, scale, height);
+    fst_legend_write(&figure, &legend, height);
     return fst_figure_finish(&figure, error);
 }
 

@@ -24,6 +24,11 @@ fst_status fst_figure_trajectory(const fst_table *table, const char *out, const 
     if (options->cookie != OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_figure_trajectory",
                         "the options were not made by fst_default_figure_options()");
+    const int chooses = options->kind == FST_FIGURE_TIME || options->kind == FST_FIGURE_SECTION ||
+                        options->kind == FST_FIGURE_RAMP;
+    if (options->keys[0] && !chooses)
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.keys",
+                        "only figures of time, sections and ramps show columns of choice");
     switch (options->kind) {
     case FST_FIGURE_PATH:
         return fst_figure_path(table, out, options, error);
@@ -31,6 +36,12 @@ fst_status fst_figure_trajectory(const fst_table *table, const char *out, const 
         return fst_figure_local_n(table, out, options, error);
     case FST_FIGURE_RADIUS_FIELD:
         return fst_figure_radius_field(table, out, options, error);
+    case FST_FIGURE_TIME:
+        return fst_figure_time(table, out, options, error);
+    case FST_FIGURE_SECTION:
+        return fst_figure_section(table, out, options, error);
+    case FST_FIGURE_RAMP:
+        return fst_figure_ramp(table, out, options, error);
     }
     return fst_fail(error, FST_BAD_INPUT, "fst_figure_trajectory", "no such kind of figure");
 }

@@ -10,5 +10,11 @@ fst_status fst_figure_local_n(const fst_table *table, const char *out, const fst
                               fst_error *error);
 fst_status fst_figure_radius_field(const fst_table *table, const char *out, const fst_figure_options *options,
                                    fst_error *error);
+fst_status fst_figure_time(const fst_table *table, const char *out, const fst_figure_options *options,
+                           fst_error *error);
+fst_status fst_figure_section(const fst_table *table, const char *out, const fst_figure_options *options,
+                              fst_error *error);
+fst_status fst_figure_ramp(const fst_table *table, const char *out, const fst_figure_options *options,
+                           fst_error *error);
 
 #endif

@@ -18,10 +18,15 @@ void fst_unit_symbols(const char *unit, char *text, size_t size)
 {
     static const struct {
         const char *word, *symbol;
-    } symbols[] = {{"gamma", "γ"}, {"deg", "°"}, {"B0", "B₀"}, {"l", "ℓ"}, {"^2", "²"}, {"^3", "³"}, {" ", ""}};
+    } symbols[] = {{"gamma", "γ"}, {"deg", "°"}, {"B0", "B₀"}, {"l", "ℓ"},
+                   {"^2", "²"},    {"^3", "³"},  {"uJ", "µJ"}, {" ", ""}};
     enum { COUNT = sizeof symbols / sizeof symbols[0] };
     size_t used = 0;
     text[0] = '\0';
+    if (strcmp(unit, "m g") == 0 || strcmp(unit, "weights of the bead") == 0) {
+        (void)snprintf(text, size, "weights of the bead");
+        return;
+    }
     while (*unit && used + 1 < size) {
         int i = 0;
         while (i < COUNT && strncmp(unit, symbols[i].word, strlen(symbols[i].word)) != 0)
@@ -41,6 +46,12 @@ void fst_figure_palette(fst_figure_file *figure, fst_palette palette)
             "0 '#a8db34', 0.2 '#4ac16d', 0.4 '#1fa187', 0.6 '#2d708e', 0.8 '#414487', 1 '#440154'",
         [FST_PALETTE_MAP] = "0 '#fbfdff', 0.35 '#d3e3f2', 0.7 '#8fbfe0', 1 '#4292c6'"};
     (void)fprintf(figure->script, "set palette defined (%s)\n", definitions[palette]);
+}
+
+double fst_round_step(double rough)
+{
+    const double ten = pow(10.0, floor(log10(rough)));
+    return rough < 1.5 * ten ? ten : rough < 3.5 * ten ? 2.0 * ten : rough < 7.5 * ten ? 5.0 * ten : 10.0 * ten;
 }
 
 void fst_figure_logarithmic(fst_figure_file *figure, const char *axis, double low, double high)

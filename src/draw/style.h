@@ -28,6 +28,9 @@ void fst_unit_symbols(const char *unit, char *text, size_t size);
 typedef enum { FST_PALETTE_DIVERGING, FST_PALETTE_LINE, FST_PALETTE_MAP } fst_palette;
 void fst_figure_palette(fst_figure_file *figure, fst_palette palette);
 
+/* A round number, 1, 2 or 5 times a power of ten, near `rough`. */
+double fst_round_step(double rough);
+
 /* Make an axis ("x", "x2", "y") logarithmic, with tics at 1, 2 and 5 times powers of ten. */
 void fst_figure_logarithmic(fst_figure_file *figure, const char *axis, double low, double high);
 

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static fst_status no_such_column(const char *name, fst_error *error)
+static fst_status no_such_column(const char *option, const char *name, fst_error *error)
 {
     size_t room = 1;
     for (int i = 0; i < fst_column_count(); ++i)
@@ -22,12 +22,12 @@ static fst_status no_such_column(const char *name, fst_error *error)
     char nearest[64] = "";
     (void)fst_nearest_name(name, names, nearest, sizeof nearest);
     free(names);
-    return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.colour",
+    return fst_fail(error, FST_BAD_INPUT, option,
                     "a trajectory has no column \"%.60s\"; the nearest name is \"%s\"", name, nearest);
 }
 
-fst_status fst_view_column(const fst_view *view, const char *name, const double **column,
-                           const fst_column_info **info, fst_error *error)
+fst_status fst_view_column_for(const fst_view *view, const char *option, const char *name,
+                               const double **column, const fst_column_info **info, fst_error *error)
 {
     for (int i = 0; i < fst_column_count(); ++i) {
         if (strcmp(fst_column_at(i)->name, name) != 0)
@@ -37,7 +37,13 @@ fst_status fst_view_column(const fst_view *view, const char *name, const double 
             *info = fst_column_at(i);
         return FST_OK;
     }
-    return no_such_column(name, error);
+    return no_such_column(option, name, error);
+}
+
+fst_status fst_view_column(const fst_view *view, const char *name, const double **column,
+                           const fst_column_info **info, fst_error *error)
+{
+    return fst_view_column_for(view, "fst_figure_options.colour", name, column, info, error);
 }
 
 fst_status fst_view_columns(const fst_view *view, fst_error *error, ...)
@@ -107,30 +113,60 @@ static fst_status choose_rows(fst_view *view, const fst_figure_options *options,
     return FST_OK;
 }
 
-static void make_title(fst_view *view, const char *title)
+static void describe(fst_view *view)
 {
-    if (title) {
-        (void)snprintf(view->title, sizeof view->title, "%s", title);
-        return;
-    }
-    (void)snprintf(view->title, sizeof view->title, "ω = %.4g (%.4g Hz), dynamics %s", view->omega,
-                   view->omega * view->gamma / (2.0 * FST_PI), view->dynamics);
+    const fst_params *p = &view->table->params;
+    const double hertz = view->gamma / (2.0 * FST_PI);
+    const char *dynamics = fst_dynamics_name((fst_dynamics)p->model_dynamics);
+    int used;
+    if (fabs(view->omega - view->first_omega) > 1e-9 * view->omega)
+        used =
+            snprintf(view->about, sizeof view->about, "ω = %.4g to %.4g (%.4g to %.4g Hz), dynamics %s",
+                     view->first_omega, view->omega, view->first_omega * hertz, view->omega * hertz, dynamics);
+    else
+        used = snprintf(view->about, sizeof view->about, "ω = %.4g (%.4g Hz), dynamics %s", view->omega,
+                        view->omega * hertz, dynamics);
+    if (p->friction_law == FST_FRICTION_COULOMB && used > 0 && (size_t)used < sizeof view->about)
+        (void)snprintf(view->about + used, sizeof view->about - (size_t)used, ", dry friction μ = %.3g",
+                       p->friction_mu);
+}
+
+fst_legend fst_view_legend(const fst_view *view, const char *what)
+{
+    fst_legend legend = {.count = 0};
+    (void)snprintf(legend.title, sizeof legend.title, "%s", view->title ? view->title : what);
+    (void)snprintf(legend.about, sizeof legend.about, "%s", view->about);
+    return legend;
+}
+
+fst_quantity fst_view_quantity(const fst_view *view, const fst_column_info *column)
+{
+    return fst_quantity_of_column(column, view->units, &view->table->params);
+}
+
+static void choose_units(fst_view *view, fst_shown_units units)
+{
+    const fst_params *p = &view->table->params;
+    const fst_scales scales = {p->magnet_half_length, 1.0 / p->friction_gamma, p->bead_mass, NAN};
+    if (units == FST_SHOWN_AS_GIVEN)
+        units = isfinite(p->drive_omega) ? FST_SHOWN_SCALED : FST_SHOWN_LAB;
+    view->units = units;
+    view->length = fst_unit_shown("l", units, &scales, &view->length_unit);
 }
 
 fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options, double turns,
                        double periods, fst_error *error)
 {
-    *view = (fst_view){.table = table,
-                       .gamma = table->params.friction_gamma,
-                       .millimetres = 1e3 * table->params.magnet_half_length,
-                       .dynamics = fst_dynamics_name((fst_dynamics)table->params.model_dynamics)};
+    *view = (fst_view){.table = table, .gamma = table->params.friction_gamma, .title = options->title};
+    choose_units(view, options->units);
     fst_status status = choose_rows(view, options, turns, periods, error);
     const double *omega;
     if (status == FST_OK)
         status = fst_view_columns(view, error, "omega", &omega, NULL);
     if (status != FST_OK)
         return status;
+    view->first_omega = omega[view->first];
     view->omega = omega[view->last - 1];
-    make_title(view, options->title);
+    describe(view);
     return FST_OK;
 }

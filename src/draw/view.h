@@ -2,18 +2,21 @@
 #ifndef FST_DRAW_VIEW_H
 #define FST_DRAW_VIEW_H
 
-#include "draw/figure_file.h"
+#include "draw/legend.h"
+#include "draw/quantity.h"
 
 #include <festoon/festoon_tools.h>
 
 typedef struct fst_view {
     const fst_table *table;
-    size_t first, last; /* rows shown: first <= row < last */
-    double omega;       /* the drive at the last row */
-    double gamma;       /* 1/s */
-    double millimetres; /* of a unit of length */
-    const char *dynamics;
-    char title[256];
+    size_t first, last;        /* rows shown: first <= row < last */
+    double omega, first_omega; /* the drive at the last row and at the first */
+    double gamma;              /* 1/s */
+    fst_shown_units units;
+    double length;           /* of a unit of length in the wanted unit */
+    const char *length_unit; /* its name, "mm" */
+    const char *title;       /* what the caller wants above the figure; NULL: nothing of his own */
+    char about[256];         /* "ω = 0.215 (10.7 Hz), dynamics rigid" */
 } fst_view;
 
 /* Find the rows from options->from to options->to drive periods.  Open ends: the view begins at the discard,
@@ -22,9 +25,19 @@ typedef struct fst_view {
 fst_status fst_view_of(fst_view *view, const fst_table *table, const fst_figure_options *options, double turns,
                        double periods, fst_error *error);
 
+/* A legend with the title options->title or, without one, `what`. */
+fst_legend fst_view_legend(const fst_view *view, const char *what);
+
+/* How a column is shown. */
+fst_quantity fst_view_quantity(const fst_view *view, const fst_column_info *column);
+
 /* The column called `name`.  FST_BAD_INPUT: there is none; the sentence names the nearest one. */
 fst_status fst_view_column(const fst_view *view, const char *name, const double **column,
                            const fst_column_info **info, fst_error *error);
+
+/* The same, for an option that the sentence shall name. */
+fst_status fst_view_column_for(const fst_view *view, const char *option, const char *name,
+                               const double **column, const fst_column_info **info, fst_error *error);
 
 /* Several columns at once, by names that are known to exist; a NULL ends the list: fst_view_columns(view,
  * error, "t", &t, "r", &r, NULL). */

@@ -24,10 +24,11 @@ static const double diverging_palette[][4] = {{0.0, 0.071, 0.247, 0.549},
                                               {1.0, 0.690, 0.188, 0.0}};
 static const double north[3] = {0.835, 0.369, 0.0}, south[3] = {0.0, 0.447, 0.698};
 
-/* The bead's rim, which tells whether its contact sticks or slips (fst_contact_shown), and the words for it. */
-static const double rims[][3] = {{0.2, 0.2, 0.2}, {0.0, 0.62, 0.45}, {0.90, 0.62, 0.0}};
+/* The bead's rim, which tells whether its contact sticks or slips or it flies (fst_contact_shown), and the
+ * words for it. */
+static const double rims[][3] = {{0.2, 0.2, 0.2}, {0.0, 0.62, 0.45}, {0.90, 0.62, 0.0}, {0.0, 0.45, 0.70}};
 static const char *const contact_words[] = {"from the front", "from the front: it sticks",
-                                            "from the front: it slips"};
+                                            "from the front: it slips", "from the front: it flies"};
 
 static void set_shade(cairo_t *pen, int both_signs, double shade)
 {
@@ -164,13 +165,32 @@ static void paint_bead(cairo_t *pen, const fst_film_layout *layout, const fst_fi
     cairo_stroke(pen);
 }
 
+/* An arrow along an arc about the middle: the sense in which the magnet turns, anticlockwise. */
+static void paint_sense(cairo_t *pen, double radius, double from, double to, double head)
+{
+    const double x = radius * cos(to), y = radius * sin(to);
+    cairo_new_path(pen);
+    cairo_arc(pen, 0.0, 0.0, radius, from, to);
+    cairo_stroke(pen);
+    cairo_move_to(pen, x - head * sin(to), y + head * cos(to));
+    cairo_line_to(pen, x + 0.5 * head * cos(to), y + 0.5 * head * sin(to));
+    cairo_line_to(pen, x - 0.5 * head * cos(to), y - 0.5 * head * sin(to));
+    cairo_close_path(pen);
+    cairo_fill(pen);
+}
+
 static void paint_plate(cairo_t *pen, const fst_film_layout *layout, const fst_film_frame *frame, double scale)
 {
     cairo_save(pen);
     cairo_translate(pen, 0.5 * layout->width, 0.5 * layout->height);
     cairo_scale(pen, scale, -scale);
-    if (layout->bar)
+    if (layout->bar) {
         paint_magnet(pen, layout, frame->magnet_angle);
+        cairo_set_source_rgb(pen, 0.35, 0.35, 0.35);
+        cairo_set_line_width(pen, layout->reach / 110.0);
+        paint_sense(pen, 0.97 * layout->reach, 0.15 * FST_PI, 0.32 * FST_PI, layout->reach / 18.0);
+    }
+    cairo_new_path(pen);
     cairo_arc(pen, 0.0, 0.0, layout->reach / 120.0, 0.0, 2.0 * FST_PI);
     cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);
     cairo_fill(pen);
@@ -222,11 +242,11 @@ static void paint_side(cairo_t *pen, const fst_film_layout *layout, const fst_fi
     cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);
     cairo_set_line_width(pen, 0.4);
     cairo_stroke(pen);
-    cairo_translate(pen, frame->x, layout->radius);
+    cairo_translate(pen, frame->x, layout->radius + frame->z);
     paint_bead(pen, layout, frame, 1);
     cairo_restore(pen);
     cairo_set_source_rgb(pen, 0.35, 0.35, 0.35);
-    write_at(pen, left + 6.0, top - 6.0, 0.018 * layout->height, contact_words[frame->contact]);
+    write_at(pen, left + 2.0, top - 6.0, 0.024 * layout->height, contact_words[frame->contact]);
 }
 
 static void paint_scale_bar(cairo_t *pen, const fst_film_layout *layout, double scale)
@@ -237,14 +257,36 @@ static void paint_scale_bar(cairo_t *pen, const fst_film_layout *layout, double 
     cairo_move_to(pen, x, y);
     cairo_line_to(pen, x + length, y);
     cairo_stroke(pen);
-    write_at(pen, x, y - 8.0, 0.022 * layout->height, "10 mm");
+    write_at(pen, x, y - 8.0, 0.026 * layout->height, "10 mm");
+}
+
+/* What the colours of the poles mean, and the arrow. */
+static void paint_key(cairo_t *pen, const fst_film_layout *layout)
+{
+    const double size = 0.024 * layout->height, x = 0.34 * layout->width, dot = 0.38 * size;
+    const char *const words[2] = {"north pole", "south pole"};
+    double y = layout->height - 14.0 - (layout->bar ? 1.5 * size : 0.0), at = x;
+    for (int i = 0; i < 2; ++i) {
+        const double *colour = i == 0 ? north : south;
+        cairo_text_extents_t extents;
+        cairo_arc(pen, at + dot, y - 0.36 * size, dot, 0.0, 2.0 * FST_PI);
+        cairo_set_source_rgb(pen, colour[0], colour[1], colour[2]);
+        cairo_fill(pen);
+        cairo_set_source_rgb(pen, 0.35, 0.35, 0.35);
+        write_at(pen, at + 3.0 * dot, y, size, words[i]);
+        cairo_text_extents(pen, words[i], &extents);
+        at += 4.5 * dot + extents.x_advance;
+    }
+    if (!layout->bar)
+        return;
+    write_at(pen, x, y + 1.5 * size, size, "arrow: the magnet turns so");
 }
 
 static void paint_colour_bar(cairo_t *pen, const fst_film_layout *layout)
 {
     enum { STEPS = 64 };
     double width = 0.3 * layout->width, x = layout->width - width - 24.0, y = 16.0,
-           size = 0.020 * layout->height;
+           size = 0.024 * layout->height;
     for (int i = 0; i < STEPS; ++i) {
         set_shade(pen, layout->both_signs, (i + 0.5) / STEPS);
         cairo_rectangle(pen, x + i * width / STEPS, y, width / STEPS + 1.0, 10.0);
@@ -259,7 +301,7 @@ static void paint_colour_bar(cairo_t *pen, const fst_film_layout *layout)
     cairo_text_extents(pen, high, &extents);
     write_at(pen, x + width - extents.x_advance, y + 14.0 + size, size, high);
     cairo_text_extents(pen, layout->colour_label, &extents);
-    write_at(pen, x + 0.5 * (width - extents.x_advance), y + 14.0 + size, size, layout->colour_label);
+    write_at(pen, x + width - extents.x_advance, y + 17.0 + 2.0 * size, size, layout->colour_label);
 }
 
 /* ------------------------------------------------------------------ the table */
@@ -302,9 +344,11 @@ static void paint(fst_film_canvas *canvas, const fst_film_layout *layout, const 
     paint_side(pen, layout, frame);
     paint_scale_bar(pen, layout, scale);
     paint_colour_bar(pen, layout);
+    paint_key(pen, layout);
     cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
-    write_at(pen, 16.0, 14.0 + 0.026 * layout->height, 0.026 * layout->height, layout->title);
-    write_at(pen, 16.0, 22.0 + 0.050 * layout->height, 0.022 * layout->height, frame->clock);
+    write_at(pen, 16.0, 14.0 + 0.028 * layout->height, 0.028 * layout->height, layout->title);
+    write_at(pen, 16.0, 22.0 + 0.054 * layout->height, 0.026 * layout->height, frame->clock);
+    write_at(pen, 16.0, 27.0 + 0.080 * layout->height, 0.026 * layout->height, layout->slower);
 }
 
 static const unsigned char *pixels(fst_film_canvas *canvas, int *stride)

@@ -13,7 +13,8 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "base/watch.h"
-#include "draw/style.h"
+#include "draw/bar.h"
+#include "draw/quantity.h"
 #include "io/ffmpeg.h"
 #include "io/film_file.h"
 #include "film/motion.h"
@@ -27,8 +28,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#define MAGNET_THICKNESS 9.0 /* mm, of the paper's magnet (section II); the model's lines have no thickness */
 
 enum {
     OPTIONS_COOKIE = 0x46494c4d,
@@ -62,8 +61,8 @@ typedef struct film {
     char folder[4096]; /* the folder for the frames; "": they go to ffmpeg */
     double *trail;     /* the x of all its points, then their y, then their shades */
     size_t trail_room;
-    char title[192], label[64];
-    double slower; /* how many times slower than the motion the film is */
+    char title[192], label[128];
+    char slower[48]; /* "10.7 times slower" than the motion */
     int frames;
 } film;
 
@@ -116,22 +115,27 @@ static void set_layout(film *f, const fst_table *table)
     double hertz = omega * p->friction_gamma / FST_TWO_PI;
     (void)snprintf(f->title, sizeof f->title, "%.3g Hz (ω = %.4g), %s", hertz, omega,
                    fst_dynamics_name((fst_dynamics)p->model_dynamics));
-    f->slower = hertz * f->options->seconds_per_turn;
-    char unit[32];
-    fst_unit_symbols(m->colour_info->unit, unit, sizeof unit);
-    (void)snprintf(f->label, sizeof f->label, "%s (%s)", m->colour_info->name, unit);
+    (void)snprintf(f->slower, sizeof f->slower, "%.3g times slower", hertz * f->options->seconds_per_turn);
+    fst_shown_units units = f->options->units;
+    if (units == FST_SHOWN_AS_GIVEN)
+        units = isfinite(p->drive_omega) ? FST_SHOWN_SCALED : FST_SHOWN_LAB;
+    const fst_quantity colour = fst_quantity_of_column(m->colour_info, units, p);
+    (void)snprintf(f->label, sizeof f->label, "%s", colour.label);
+    const int bar = p->magnet_shape == FST_MAGNET_LINES;
+    const double half = m->millimetres * FST_BAR_OVER_LINES, across = 0.5e3 * p->magnet_width;
     f->layout = (fst_film_layout){
         .width = f->options->width,
         .height = f->options->height,
-        .reach = fmax(1.25 * reach, 1.35) * m->millimetres,
-        .bar = p->magnet_shape == FST_MAGNET_LINES,
-        .magnet = {2e3 * p->magnet_half_length, 1e3 * p->magnet_width, MAGNET_THICKNESS},
+        .reach = fmax(fmax(1.25 * reach, 1.35) * m->millimetres, bar ? 1.05 * hypot(half, across) : 0.0),
+        .bar = bar,
+        .magnet = {2.0 * half, 2.0 * across, FST_BAR_THICKNESS},
         .depth = 1e3 * p->magnet_depth,
         .radius = 1e3 * p->bead_radius,
         .title = f->title,
+        .slower = f->slower,
         .colour_label = f->label,
-        .colour_low = m->low,
-        .colour_high = m->high,
+        .colour_low = colour.factor * m->low,
+        .colour_high = colour.factor * m->high,
         .both_signs = m->both_signs,
     };
 }
@@ -216,8 +220,7 @@ static fst_status make_frames(film *f, fst_error *error)
         fst_film_motion_frame(m, &frame);
         set_trail(f, &frame);
         double t = m->t[m->row] + m->part * (m->t[m->row + 1] - m->t[m->row]);
-        (void)snprintf(clock, sizeof clock, "t = %.1f ms, turn %.2f, %.3g times slower",
-                       1e3 * t / m->table->params.friction_gamma, now, f->slower);
+        (void)snprintf(clock, sizeof clock, "t = %.4f s, turn %.2f", t / m->table->params.friction_gamma, now);
         frame.clock = clock;
         f->module->paint(f->canvas, &f->layout, &frame);
         fst_status status = give_frame(f, i, error);

@@ -16,21 +16,22 @@ typedef struct fst_film_layout {
     double depth;             /* of the magnet's middle plane below the plate */
     double radius;            /* of the bead */
     const char *title;        /* frequency and dynamics */
+    const char *slower;       /* "10.7 times slower" */
     const char *colour_label; /* of the trail */
     double colour_low, colour_high;
     int both_signs; /* use the palette for both signs */
 } fst_film_layout;
 
-/* Whether the contact slips; under a law by which it may do both. */
-typedef enum { FST_CONTACT_UNTOLD, FST_CONTACT_STICKS, FST_CONTACT_SLIPS } fst_contact_shown;
+/* Whether the contact slips; under a law by which it may do both, and by which the bead may leave the plate. */
+typedef enum { FST_CONTACT_UNTOLD, FST_CONTACT_STICKS, FST_CONTACT_SLIPS, FST_CONTACT_FLIES } fst_contact_shown;
 
 /* What changes from frame to frame.  The trail runs from its oldest point to the bead; `shade`, from 0 to 1,
  * picks a colour of the palette. */
 typedef struct fst_film_frame {
-    double x, y;         /* the bead */
+    double x, y, z;      /* the bead, and its height over the plate */
     double magnet_angle; /* rad */
     double turn[3][3]; /* rotation of the bead, from body to laboratory; the moment is the body's third axis */
-    const char *clock; /* "t = 12.3 ms" */
+    const char *clock; /* "t = 0.0123 s" */
     fst_contact_shown contact;
     const double *trail_x, *trail_y, *trail_shade;
     int trail;

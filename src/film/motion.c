@@ -117,6 +117,8 @@ fst_status fst_film_motion_begin(fst_film_motion *motion, const fst_table *table
     motion->drive_turns = fst_collected(table, "drive_turns");
     motion->x = fst_collected(table, "x");
     motion->y = fst_collected(table, "y");
+    motion->z = fst_collected(table, "z");
+    motion->flying = fst_collected(table, "flying");
     static const char *const names[6] = {"n_x", "n_y", "n_z", "w_x", "w_y", "w_z"};
     for (int i = 0; i < 6; ++i)
         *(i < 3 ? &motion->n[i] : &motion->w[i - 3]) = fst_collected(table, names[i]);
@@ -166,9 +168,12 @@ void fst_film_motion_frame(const fst_film_motion *motion, fst_film_frame *frame)
     double turns = motion->drive_turns[row] + part * (motion->drive_turns[row + 1] - motion->drive_turns[row]);
     frame->magnet_angle = 2.0 * FST_PI * fmod(turns, 1.0);
     const size_t nearest = part < 0.5 ? row : row + 1;
-    frame->contact = !motion->sticking                 ? FST_CONTACT_UNTOLD
-                     : motion->sticking[nearest] > 0.5 ? FST_CONTACT_STICKS
-                                                       : FST_CONTACT_SLIPS;
+    frame->z = motion->z ? motion->millimetres * (motion->z[row] + part * (motion->z[row + 1] - motion->z[row]))
+                         : 0.0; /* files of before have no heights */
+    frame->contact = !motion->sticking                                 ? FST_CONTACT_UNTOLD
+                     : motion->flying && motion->flying[nearest] > 0.5 ? FST_CONTACT_FLIES
+                     : motion->sticking[nearest] > 0.5                 ? FST_CONTACT_STICKS
+                                                                       : FST_CONTACT_SLIPS;
     memcpy(frame->turn, motion->turn, sizeof frame->turn);
     roll(motion, row, part, frame->turn);
 }

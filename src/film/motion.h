@@ -10,7 +10,8 @@ typedef struct fst_film_motion {
     const fst_table *table;
     const double *t, *drive_turns, *x, *y, *colour, *n[3], *w[3];
     const double *sticking; /* NULL: the contact only slips */
-    size_t first, last;     /* rows shown: first <= row <= last */
+    const double *flying, *z;
+    size_t first, last; /* rows shown: first <= row <= last */
     double millimetres;
     double low, high; /* the range of the colour */
     int both_signs;

@@ -10,15 +10,17 @@
 
 /* The lines that the reader recognises. */
 #define FIRST_LINE "# festoon trajectory"
+#define OTHER_UNITS_LINE "# festoon trajectory for other programs, in the units of its columns"
 #define SCENE_LINE "# scene:"
 #define SCENE_INDENT "#   "
 #define COMPLETE_LINE "# complete = "
 
 /* ---------------------------------------------------------------- writing */
 
-void fst_csv_begin(FILE *out, const char *scene)
+static void write_head(FILE *out, const char *first_line, const char *scene,
+                       const char *const units[FST_COLUMN_COUNT])
 {
-    (void)fprintf(out, "%s\n# version = %s\n%s\n", FIRST_LINE, fst_version(), SCENE_LINE);
+    (void)fprintf(out, "%s\n# version = %s\n%s\n", first_line, fst_version(), SCENE_LINE);
     while (*scene) {
         size_t length = strcspn(scene, "\n");
         (void)fprintf(out, "%s%.*s\n", SCENE_INDENT, (int)length, scene);
@@ -27,9 +29,19 @@ void fst_csv_begin(FILE *out, const char *scene)
     }
     for (int i = 0; i < fst_column_count(); ++i) {
         const fst_column_info *info = fst_column_at(i);
-        (void)fprintf(out, "%s%s [%s]", i ? "," : "", info->name, info->unit);
+        (void)fprintf(out, "%s%s [%s]", i ? "," : "", info->name, units ? units[i] : info->unit);
     }
     (void)fputc('\n', out);
+}
+
+void fst_csv_begin(FILE *out, const char *scene)
+{
+    write_head(out, FIRST_LINE, scene, NULL);
+}
+
+void fst_csv_begin_in(FILE *out, const char *scene, const char *const units[FST_COLUMN_COUNT])
+{
+    write_head(out, OTHER_UNITS_LINE, scene, units);
 }
 
 void fst_csv_row(FILE *out, const double values[FST_COLUMN_COUNT])
@@ -104,7 +116,13 @@ static fst_status keep_scene_line(csv_reader *reader)
 /* The commented lines before the column names. */
 static fst_status read_head(csv_reader *reader)
 {
-    if (!next_line(reader) || strcmp(reader->line, FIRST_LINE) != 0)
+    const int is_text = next_line(reader);
+    if (is_text && strcmp(reader->line, OTHER_UNITS_LINE) == 0)
+        return fst_fail(
+            reader->error, FST_BAD_INPUT, reader->path,
+            "this trajectory was written for other programs, in units of the laboratory or SI; one in "
+            "scaled units can be read");
+    if (!is_text || strcmp(reader->line, FIRST_LINE) != 0)
         return fst_fail(reader->error, FST_BAD_INPUT, reader->path,
                         "this is no trajectory of festoon: it begins neither as HDF5 nor with \"%s\"",
                         FIRST_LINE);

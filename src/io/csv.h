@@ -11,6 +11,8 @@
 
 /* Write to `out`.  A failure is seen by ferror(out). */
 void fst_csv_begin(FILE *out, const char *scene);
+/* The same for a table in other units, which festoon does not read. */
+void fst_csv_begin_in(FILE *out, const char *scene, const char *const units[FST_COLUMN_COUNT]);
 void fst_csv_row(FILE *out, const double values[FST_COLUMN_COUNT]);
 /* `result` is JSON on one line, or NULL. */
 void fst_csv_end(FILE *out, const char *result, int complete);

@@ -54,14 +54,22 @@ double fst_unit_shown(const char *unit, fst_shown_units units, const fst_scales 
     for (size_t i = 0; i < sizeof units_known / sizeof units_known[0]; ++i) {
         if (strcmp(unit, units_known[i].scaled) != 0)
             continue;
-        const double factor = power(scales->mass, units_known[i].mass) *
-                              power(scales->length, units_known[i].length) *
-                              power(scales->time, units_known[i].time) *
-                              (units_known[i].field ? scales->field : 1.0);
+        const double factor =
+            power(scales->mass, units_known[i].mass) * power(scales->length, units_known[i].length) *
+            power(scales->time, units_known[i].time) * (units_known[i].field ? scales->field : 1.0);
         if (!isfinite(factor))
             return 1.0;
         *name = units == FST_SHOWN_LAB ? units_known[i].lab : units_known[i].si;
         return units == FST_SHOWN_LAB ? factor * units_known[i].lab_factor : factor;
     }
     return 1.0;
+}
+
+double fst_column_shown(const fst_column_info *column, fst_shown_units units, const fst_scales *scales,
+                        const char **name)
+{
+    const double factor = fst_unit_shown(column->unit, units, scales, name);
+    if (*name != column->unit && strcmp(column->unit, "gamma") == 0)
+        *name = "rad/s";
+    return factor;
 }

@@ -23,6 +23,9 @@ struct fst_trajectory {
     fst_hdf5_writer *writer; /* NULL: CSV, written to file.stream */
     const fst_hdf5_module_table *module;
     const fst_column_info *columns[FST_COLUMN_COUNT];
+    int other_units; /* the columns are written times `factors`, in `units` */
+    double factors[FST_COLUMN_COUNT];
+    const char *units[FST_COLUMN_COUNT];
 };
 
 fst_status fst_load_hdf5_module(const fst_hdf5_module_table **module, const char *path, fst_error *error)
@@ -71,6 +74,8 @@ static fst_status begin(fst_trajectory *trajectory, const char *path, int hdf5, 
         status =
             trajectory->module->create(trajectory->file.temporary, trajectory->file.path, trajectory->columns,
                                        FST_COLUMN_COUNT, scene, &trajectory->writer, error);
+    } else if (trajectory->other_units) {
+        fst_csv_begin_in(trajectory->file.stream, scene, trajectory->units);
     } else {
         fst_csv_begin(trajectory->file.stream, scene);
     }
@@ -78,11 +83,28 @@ static fst_status begin(fst_trajectory *trajectory, const char *path, int hdf5, 
     return status;
 }
 
+static void choose_units(fst_trajectory *trajectory, fst_shown_units units)
+{
+    const fst_scales scales = fst_scales_of(&trajectory->params);
+    trajectory->other_units = units == FST_SHOWN_LAB || units == FST_SHOWN_SI;
+    for (int i = 0; i < FST_COLUMN_COUNT && trajectory->other_units; ++i)
+        trajectory->factors[i] =
+            fst_column_shown(trajectory->columns[i], units, &scales, &trajectory->units[i]);
+}
+
 fst_status fst_trajectory_create(const char *path, const fst_params *params, fst_trajectory **out,
                                  fst_error *error)
 {
+    return fst_trajectory_create_in(path, params, FST_SHOWN_SCALED, out, error);
+}
+
+fst_status fst_trajectory_create_in(const char *path, const fst_params *params, fst_shown_units units,
+                                    fst_trajectory **out, fst_error *error)
+{
     *out = NULL;
     int hdf5 = ends_in(path, ".h5") || ends_in(path, ".hdf5");
+    if (hdf5 && (units == FST_SHOWN_LAB || units == FST_SHOWN_SI))
+        return fst_fail(error, FST_BAD_INPUT, path, "a trajectory in other than scaled units is a .csv");
     if (!hdf5 && !ends_in(path, ".csv"))
         return fst_fail(error, FST_BAD_INPUT, path, "the name of a trajectory ends in .h5 or .csv");
     fst_trajectory *trajectory = calloc(1, sizeof *trajectory);
@@ -90,6 +112,7 @@ fst_status fst_trajectory_create(const char *path, const fst_params *params, fst
         return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     trajectory->params = *params;
     list_columns(trajectory->columns);
+    choose_units(trajectory, units);
     fst_status status = hdf5 ? fst_load_hdf5_module(&trajectory->module, path, error) : FST_OK;
     if (status == FST_OK)
         status = fst_whole_file_open(&trajectory->file, path, error);
@@ -113,6 +136,8 @@ fst_status fst_trajectory_append(fst_trajectory *trajectory, const fst_sample *s
             return fst_fail(error, FST_BAD_INPUT, trajectory->file.path,
                             "this sample is not written: its %s is %g, and a trajectory holds finite numbers",
                             fst_column_at(i)->name, values[i]);
+    for (int i = 0; i < FST_COLUMN_COUNT && trajectory->other_units; ++i)
+        values[i] *= trajectory->factors[i];
     if (trajectory->writer)
         return trajectory->module->row(trajectory->writer, values, error);
     fst_csv_row(trajectory->file.stream, values);

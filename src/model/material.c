@@ -51,8 +51,19 @@ int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size
 
 /* ------------------------------------------------------------------ strengths without effect */
 
-const char *fst_param_missing_choice(const fst_params *params, const char *key)
+const char *fst_param_missing_choice(const fst_params *params, const char *key, const char **of)
 {
+    const int of_disc = strcmp(key, "contact.radius") == 0 || strcmp(key, "contact.modulus") == 0;
+    const int of_flight = strcmp(key, "impact.restitution") == 0;
+    if ((of_disc || of_flight) && params->friction_law != FST_FRICTION_COULOMB) {
+        *of = "friction.law";
+        return "coulomb";
+    }
+    if (of_disc && params->contact_patch == FST_PATCH_POINT) {
+        *of = "contact.patch";
+        return "hertz or pade";
+    }
+    *of = "bead.material";
     if (strcmp(key, "bead.a") == 0 && params->bead_material == FST_MATERIAL_HARD)
         return "paramagnetic or mixed";
     if (strcmp(key, "bead.b") == 0 && params->bead_material != FST_MATERIAL_MIXED)
@@ -60,14 +71,36 @@ const char *fst_param_missing_choice(const fst_params *params, const char *key)
     return NULL;
 }
 
+/* A key of the contact that is given, and what is wanted for it. */
+static fst_status check_contact(const fst_params *params, const char *key, double value, fst_error *error)
+{
+    const char *of, *choice = isnan(value) ? NULL : fst_param_missing_choice(params, key, &of);
+    if (!choice)
+        return FST_OK;
+    return fst_fail(error, FST_BAD_INPUT, key, "%s = %g has no effect with this %s: choose %s, or leave %s out",
+                    key, value, of, choice, key);
+}
+
 fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
 {
-    if (params->bead_a != 0.0 && fst_param_missing_choice(params, "bead.a"))
+    const char *of;
+    const struct {
+        const char *key;
+        double value;
+    } given[] = {{"contact.radius", params->contact_radius},
+                 {"contact.modulus", params->contact_modulus},
+                 {"impact.restitution", params->impact_restitution}};
+    for (size_t i = 0; i < sizeof given / sizeof *given; ++i) {
+        const fst_status status = check_contact(params, given[i].key, given[i].value, error);
+        if (status != FST_OK)
+            return status;
+    }
+    if (params->bead_a != 0.0 && fst_param_missing_choice(params, "bead.a", &of))
         return fst_fail(error, FST_BAD_INPUT, "bead.a",
                         "bead.a = %g has no effect on a bead of bead.material hard: choose paramagnetic or "
                         "mixed, or leave bead.a out",
                         params->bead_a);
-    if (params->bead_b != 0.0 && fst_param_missing_choice(params, "bead.b"))
+    if (params->bead_b != 0.0 && fst_param_missing_choice(params, "bead.b", &of))
         return fst_fail(
             error, FST_BAD_INPUT, "bead.b",
             "bead.b = %g has an effect on a bead of bead.material mixed only: choose that, or leave "

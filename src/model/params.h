@@ -13,7 +13,8 @@
 /* The cookie, every value's range, and the ranges between values (run.discard < run.periods, ...). */
 fst_status fst_params_validate(const fst_params *params, fst_error *error);
 
-/* What must be chosen for bead.material so that `key` plays a part ("paramagnetic or mixed"); NULL: it does. */
-const char *fst_param_missing_choice(const fst_params *params, const char *key);
+/* What must be chosen so that `key` plays a part ("paramagnetic or mixed"), and of which key, *of
+ * (bead.material); NULL: it does. */
+const char *fst_param_missing_choice(const fst_params *params, const char *key, const char **of);
 
 #endif

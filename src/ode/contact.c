@@ -433,7 +433,7 @@ void fst_contact_end_step(fst_flow *flow, double t_limit)
     const int lands = fst_contact_look_ahead(flow, t_limit, &end);
     if (lands)
         land(flow, fst_twofold_difference(limit, flow->t));
-    else
+    else if (flow->contact.next_mode >= 0 || flow->contact.next_roll >= 0)
         cut_at(flow, end);
     flow->rhs_calls += 1;
     flow->accepted += 1;

@@ -11,8 +11,9 @@
  *     --|------o---o------x    neighbourhood of each low one is searched.
  *       |        v
  *
- * Where the values at the places rise all the time, or fall all the time, there is no dip to be found, and the
- * ends tell it all.  Contacts, which have an event in every sixth step or so, look at that first.
+ * Where the values at the places rise all the time, or fall all the time, and the slope at the lower end hides
+ * no dip beside it, the ends tell it all.  Contacts, which have an event in every sixth step or so, look at
+ * that first.
  */
 #include "ode/flow.h"
 
@@ -172,19 +173,13 @@ typedef struct profile {
     double node[VALUES], f[VALUES];
 } profile;
 
-/* Whether they never rise, or never fall. */
-static int is_monotonic(const fst_flow *flow, fst_state_function function, profile *p)
+static void take_profile(const fst_flow *flow, fst_state_function function, profile *p)
 {
-    const fst_bead_step_double *s = &flow->step;
-    int rises = 0, falls = 0;
     for (int i = 0; i < VALUES; ++i) {
         const int n = i < VALUES - 1 ? i : FST_PATH_END;
         p->node[i] = FST_PATH_NODE[n];
-        p->f[i] = function(flow, FST_PATH_STATE(s, n), FST_PATH_PULL(s, n));
-        rises |= i > 0 && p->f[i] > p->f[i - 1];
-        falls |= i > 0 && p->f[i] < p->f[i - 1];
+        p->f[i] = function(flow, FST_PATH_STATE(&flow->step, n), FST_PATH_PULL(&flow->step, n));
     }
-    return !(rises && falls);
 }
 
 /* The polynomial through the values, and its slope, at x (Neville's scheme). */
@@ -201,6 +196,26 @@ static double interpolate(const profile *p, double x, double *slope)
         }
     *slope = df[0];
     return f[0];
+}
+
+/* Whether the values never rise, or never fall, and do not hide a dip below zero: it would lie between the two
+ * at the lower end, and the slope there would tell it. */
+static int tells_all(const profile *p)
+{
+    enum { LAST = VALUES - 1 };
+    int rises = 0, falls = 0;
+    double slope;
+    for (int i = 1; i < VALUES; ++i) {
+        rises |= p->f[i] > p->f[i - 1];
+        falls |= p->f[i] < p->f[i - 1];
+    }
+    if ((rises && falls) || !(p->f[0] > 0))
+        return 0;
+    if (falls && p->f[LAST] < 0)
+        return 1;
+    (void)interpolate(p, falls ? p->node[LAST] : p->node[0], &slope);
+    return falls ? p->f[LAST] > fmax(slope, 0.0) * (p->node[LAST] - p->node[LAST - 1])
+                 : p->f[0] > fmax(-slope, 0.0) * (p->node[1] - p->node[0]);
 }
 
 /* The zero of a function that falls through it all along the step: where the polynomial through the values has
@@ -238,7 +253,8 @@ static double locate_fall(fst_flow *flow, fst_state_function function, const pro
 int fst_flow_becomes_negative(fst_flow *flow, fst_state_function function, double *x)
 {
     profile p;
-    if (!is_monotonic(flow, function, &p) || !(p.f[0] > 0))
+    take_profile(flow, function, &p);
+    if (!tells_all(&p))
         return fst_flow_first_negative(flow, function, 0.0, x);
     const int falls = p.f[VALUES - 1] < 0;
     if (falls)

@@ -174,7 +174,7 @@ double fst_load_function(const fst_flow *flow, const double *state, const fst_pu
  * ends, and at which fraction first: *x. */
 int fst_flow_first_negative(fst_flow *flow, fst_state_function function, double lo, double *x);
 
-/* The same in the whole step, quicker: where the function only rises or only falls, its ends are enough. */
+/* The same in the whole step, quicker where the function only rises or only falls. */
 int fst_flow_becomes_negative(fst_flow *flow, fst_state_function function, double *x);
 
 /* Least and greatest value of a function at the stages of the last step that lie on the trajectory. */

@@ -14,6 +14,25 @@ enum { STEP_WORK = 60 }; /* of a step with its columns, in evaluations of the eq
 
 static const double NO_SLIP = 1e-13; /* a slip that is none: what rounding leaves */
 
+/* Why there are no multipliers and no exponents of a motion. */
+static fst_status refuse(const fst_flow *flow, fst_error *error)
+{
+    if (fst_contact_mode(flow) == FST_MODE_FLIGHT || flow->contact.next_mode == FST_MODE_FLIGHT)
+        return fst_fail(
+            error, FST_NO_CONVERGENCE, "tangents",
+            "the bead leaves the plate at t = %.6g, and neighbours, which land elsewhere and at other "
+            "times, are not followed through a flight: there are no multipliers and no exponents of "
+            "this motion; run tells whether it repeats itself (closure, impacts_per_return)",
+            flow->t.high);
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "tangents",
+        "the plate stops a disc of contact, its slip and its pivoting at once, at t = %.6g, and "
+        "neighbours are not followed through that: there are no multipliers and no exponents of this "
+        "motion; try contact.patch point, the limit of a small disc, or a drive at which the bead goes "
+        "on pivoting",
+        flow->t.high);
+}
+
 static fst_status follow(const fst_setup *setup, fst_neighbours *b, fst_flow *flow, double duration,
                          fst_error *error)
 {
@@ -26,9 +45,7 @@ static fst_status follow(const fst_setup *setup, fst_neighbours *b, fst_flow *fl
         if (status != FST_OK)
             return status;
         if (!fst_neighbours_known(flow))
-            return fst_fail(error, FST_NO_CONVERGENCE, "tangents",
-                            "how neighbours of a bead move that flies, or that a disc of contact holds, is not "
-                            "known to this program: it has no multipliers and no exponents of such a motion");
+            return refuse(flow, error);
         fst_neighbours_follow(b, flow);
         if (setup->sticks && fst_sticks_double(&flow->step.context.coefficients) > 0.5)
             *setup->sticks = 1;

@@ -8,6 +8,8 @@
 
 enum { MOST_CURVES = 16 };
 
+#define MARKED "dotted: what the paper's text tells of the experiment"
+
 /* ------------------------------------------------------------------ curves out of runs */
 
 /* The number that a curve shows of a run; NAN breaks the line. */
@@ -152,7 +154,6 @@ fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_pap
                                    .high = 1.1,
                                    .right_low = -0.085,
                                    .right_high = -0.045,
-                                   .key = "at graph 0.98, graph 0.93 right top maxrows 2",
                                    .curves = both,
                                    .curve_count = 2 * FST_PAPER_DYNAMICS,
                                    .inset = &inset};
@@ -165,13 +166,14 @@ fst_status fst_paper_draw_comparison(const fst_paper_state *paper, const fst_pap
                        .x_label = "drive ω (γ)",
                        .x_low = 0.13,
                        .x_high = 0.51,
-                       .x2_label = "drive (Hz); dotted: what the paper's text tells of the experiment",
+                       .x2_label = "drive (Hz)",
                        .x2_factor = 1.0 / per_hertz,
-                       .height = 620,
+                       .height = 330,
                        .panels = &panel,
                        .panel_count = 1,
                        .marks = marks,
-                       .mark_count = 4};
+                       .mark_count = 4,
+                       .remark = MARKED};
     return draw_and_free(&all, out, &chart, error);
 }
 
@@ -193,7 +195,6 @@ fst_status fst_paper_draw_radius(const fst_paper_state *paper, const fst_paper_f
         {.left_label = "mean radius (mm)",
          .low = 10.0,
          .high = 25.0,
-         .key = "bottom right",
          .curves = add_both(&all, paper, comparison, hertz_of, mean_r_mm, both_names, both_colours, 0),
          .curve_count = FST_PAPER_DYNAMICS},
         {.left_label = "its standard deviation (mm)",
@@ -244,8 +245,8 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
     }
     const fst_chart_inset inset = {.left = 0.50,
                                    .right = 0.97,
-                                   .bottom = 0.54,
-                                   .top = 0.90,
+                                   .bottom = 0.50,
+                                   .top = 0.82,
                                    .x_low = 8.0,
                                    .x_high = 25.0,
                                    .low = -4.4,
@@ -256,23 +257,23 @@ fst_status fst_paper_draw_dotal(const fst_paper_state *paper, const fst_paper_fi
     const fst_chart_panel panel = {.left_label = "⟨α′⟩/2π (Hz)",
                                    .low = -12.0,
                                    .high = 12.0,
-                                   .key = "bottom right",
                                    .curves = all.curve,
                                    .curve_count = all.count,
                                    .inset = &inset};
     double per_hertz = 2.0 * FST_PI / paper->scans[FST_SCAN_COMPARISON][0][0].params.friction_gamma;
     const fst_chart_mark marks[] = {{7.0, "7 Hz: lets go"}, {16.0, "16 Hz: slowest"}};
     fst_chart chart = {.title = figure->title,
-                       .x_label = "drive (Hz); dotted: what the paper's text tells of the experiment",
+                       .x_label = "drive (Hz)",
                        .x_low = 0.9,
                        .x_high = 25.0,
                        .x2_label = "drive ω (γ)",
                        .x2_factor = per_hertz,
-                       .height = 620,
+                       .height = 330,
                        .panels = &panel,
                        .panel_count = 1,
                        .marks = marks,
-                       .mark_count = 2};
+                       .mark_count = 2,
+                       .remark = MARKED};
     return draw_and_free(&all, out, &chart, error);
 }
 
@@ -288,7 +289,7 @@ fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_fig
 {
     curves all = {.status = FST_OK};
     fst_chart_panel panels[2] = {
-        {.left_label = "⟨α′⟩ (γ)", .low = NAN, .high = NAN, .key = "top right"},
+        {.left_label = "⟨α′⟩ (γ)", .low = NAN, .high = NAN},
         {.left_label = "⟨φ′⟩ (γ)", .low = NAN, .high = NAN},
     };
     static const reading measured[] = {mean_alpha_dot, mean_phi_dot};
@@ -306,9 +307,9 @@ fst_status fst_paper_draw_test(const fst_paper_state *paper, const fst_paper_fig
         panels[p].curves = all.curve + first;
         panels[p].curve_count = all.count - first;
     }
-    const fst_chart_mark marks[] = {{0.5, NULL}};
+    const fst_chart_mark marks[] = {{0.5, "from here on good, says the paper"}};
     fst_chart chart = {.title = figure->title,
-                       .x_label = "drive ω (γ); dotted: good from here on, says the paper",
+                       .x_label = "drive ω (γ)",
                        .x_low = 0.15,
                        .x_high = 2.05,
                        .panels = panels,
@@ -348,19 +349,19 @@ fst_status fst_paper_draw_evolution(const fst_paper_state *paper, const fst_pape
     for (size_t i = 0; i < sizeof terms / sizeof terms[0]; ++i)
         add(&all, paper, whole_range, figure->dynamics, omega_of, terms[i].term,
             (fst_chart_curve){.title = terms[i].title, .colour = terms[i].colour, .style = terms[i].style});
-    fst_chart_panel panel = {.left_label = "terms of the radial balance, over ε^2",
+    fst_chart_panel panel = {.left_label = "terms of the radial balance, over ε² (ℓγ²)",
                              .low = NAN,
                              .high = NAN,
-                             .key = "bottom left",
                              .curves = all.curve,
                              .curve_count = all.count};
-    char title[128];
-    (void)snprintf(title, sizeof title, "%s, %s", figure->title, fst_dynamics_name(figure->dynamics));
-    fst_chart chart = {.title = title,
+    char about[64];
+    (void)snprintf(about, sizeof about, "dynamics %s", fst_dynamics_name(figure->dynamics));
+    fst_chart chart = {.title = figure->title,
+                       .about = about,
                        .x_label = "drive ω (γ)",
                        .x_low = 0.15,
                        .x_high = 2.05,
-                       .height = 480,
+                       .height = 330,
                        .panels = &panel,
                        .panel_count = 1};
     return draw_and_free(&all, out, &chart, error);

@@ -12,11 +12,12 @@ static void write_fact(FILE *out, const fst_statement *about, int law, double va
     double border;
     fst_dry_law_name(law, name, sizeof name);
     fst_statement_value(about, value, text, sizeof text);
-    fprintf(out, "<td class=\"n %s\" title=\"%s\"><span class=\"label\">", classes[verdict],
-            fst_verdict_name(verdict));
+    const int known = isfinite(value); /* otherwise no run tells */
+    fprintf(out, "<td class=\"n %s\" title=\"%s\"><span class=\"label\">", known ? classes[verdict] : "",
+            known ? fst_verdict_name(verdict) : "not known");
     fst_report_text(out, name);
-    fprintf(out, "</span>%s&nbsp;%s", text, marks[verdict]);
-    if (isfinite(value) && isfinite(about->published))
+    fprintf(out, "</span>%s&nbsp;%s", text, known ? marks[verdict] : "");
+    if (known && isfinite(about->published))
         fprintf(out, "<br><small>%+.0f %%</small>", 100.0 * (value / about->published - 1.0));
     if (fst_statement_margin(about, value, &border) < FST_HAIR)
         fprintf(out, "<br><small>%.4g decides</small>", border);

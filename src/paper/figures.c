@@ -32,7 +32,8 @@ static fst_status draw_trajectory(const fst_paper_state *paper, const fst_paper_
 static fst_status draw_field(const fst_paper_state *paper, const fst_paper_figure *figure, const char *out,
                              fst_error *error)
 {
-    return fst_figure_field(&fst_paper_single(paper, figure->scan, FST_DYNAMICS_RIGID)->params, out, error);
+    return fst_figure_field(&fst_paper_single(paper, figure->scan, FST_DYNAMICS_RIGID)->params,
+                            FST_SHOWN_SCALED, out, error);
 }
 
 static const fst_paper_figure figures[] = {

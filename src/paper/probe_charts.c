@@ -70,7 +70,7 @@ static fst_chart_curve halving_curve(const char *title, const double *x, const d
 }
 
 static fst_status draw_halving(const fst_paper_halving *halving, const halving_curves *c, const char *title,
-                               const char *out, fst_error *error)
+                               const char *about, const char *out, fst_error *error)
 {
     const fst_chart_curve curves[4] = {
         halving_curve("p", c->omega, c->p, FST_HALVING_POINTS, FST_COLOUR_BLUE, FST_CURVE_POINTS),
@@ -97,29 +97,26 @@ static fst_status draw_halving(const fst_paper_halving *halving, const halving_c
                                    .curve_count = 3,
                                    .labels = c->labels,
                                    .label_count = 2};
-    const fst_chart_panel panels[3] = {{.left_label = "p = Δ+/Δ− − 1",
-                                        .low = 0.0,
-                                        .high = 6.5,
-                                        .curves = curves,
-                                        .curve_count = 1,
-                                        .inset = &inset},
-                                       {.left_label = "|⟨n_z⟩|",
-                                        .low = 0.0,
-                                        .high = NAN,
-                                        .key = "top right",
-                                        .curves = curves + 1,
-                                        .curve_count = 2},
-                                       {.left_label = "relaxation time (1000/γ)",
-                                        .low = NAN,
-                                        .high = NAN,
-                                        .curves = curves + 3,
-                                        .curve_count = 1}};
+    const fst_chart_panel panels[3] = {
+        {.left_label = "p = Δ+/Δ− − 1",
+         .low = 0.0,
+         .high = 6.5,
+         .curves = curves,
+         .curve_count = 1,
+         .inset = &inset},
+        {.left_label = "|⟨n_z⟩|", .low = 0.0, .high = NAN, .curves = curves + 1, .curve_count = 2},
+        {.left_label = "relaxation time (1000/γ)",
+         .low = NAN,
+         .high = NAN,
+         .curves = curves + 3,
+         .curve_count = 1}};
     const fst_chart_mark marks[] = {{c->threshold, "threshold"}};
     fst_chart chart = {.title = title,
+                       .about = about,
                        .x_label = "drive ω (γ)",
                        .x_low = c->omega[0] - 0.0005,
                        .x_high = c->omega[FST_HALVING_POINTS - 1] + 0.0005,
-                       .height = 1040,
+                       .height = 220,
                        .panels = panels,
                        .panel_count = 3,
                        .marks = marks,
@@ -132,12 +129,13 @@ fst_status fst_paper_draw_supercritical(const fst_paper_state *paper, const fst_
 {
     halving_curves c;
     read_halving(paper, figure->dynamics, &c);
-    char title[160];
-    (void)snprintf(title, sizeof title, "%s, %s", figure->title, fst_dynamics_name(figure->dynamics));
+    char about[64];
+    (void)snprintf(about, sizeof about, "dynamics %s", fst_dynamics_name(figure->dynamics));
     if (isfinite(c.threshold))
-        return draw_halving(&paper->halving[figure->dynamics], &c, title, out, error);
+        return draw_halving(&paper->halving[figure->dynamics], &c, figure->title, about, out, error);
     const fst_chart_panel nothing = {.left_label = "p", .low = 0.0, .high = 1.0};
-    const fst_chart chart = {.title = "no period halving was found",
+    const fst_chart chart = {.title = "No period halving was found",
+                             .about = about,
                              .x_label = "drive ω (γ)",
                              .x_low = 0.25,
                              .x_high = 0.3,
@@ -169,14 +167,12 @@ fst_status fst_paper_draw_remanence(const fst_paper_state *paper, const fst_pape
     const fst_chart_panel panel = {.left_label = "least κ found, % of a neodymium bead's",
                                    .low = 0.0,
                                    .high = NAN,
-                                   .key = "top left",
                                    .curves = curves,
                                    .curve_count = FST_REMANENCE_DRIVES};
     fst_chart chart = {.title = figure->title,
                        .x_label = "magnetisability a (1000 a/(m ℓ²γ²/B_0²))",
                        .x_low = 0.9,
                        .x_high = 3.1,
-                       .height = 420,
                        .panels = &panel,
                        .panel_count = 1};
     return fst_figure_chart(out, &chart, error);

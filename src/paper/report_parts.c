@@ -117,7 +117,7 @@ void fst_report_prose(FILE *out, const char *text)
 {
     for (const char *c = text; *c; ++c) {
         const int is_letter = (unsigned char)c[1] >= 0x80 || isalpha((unsigned char)c[1]);
-        if (*c != '_' || c == text || !is_letter) {
+        if (*c != '_' || c == text || !(goes_on(c[-1]) || isalpha((unsigned char)c[-1])) || !is_letter) {
             put_safely(out, *c);
             continue;
         }

@@ -98,6 +98,18 @@ fst_tally fst_paper_tally(const fst_paper_state *paper, fst_group group)
     return tally;
 }
 
+void fst_tally_add(fst_tally *all, const fst_tally *more)
+{
+    all->moving += more->moving;
+    all->still += more->still;
+    all->undecided += more->undecided;
+    for (int v = 0; v < 3; ++v) {
+        all->once[v] += more->once[v];
+        for (int d = 0; d < FST_PAPER_DYNAMICS; ++d)
+            all->of[d][v] += more->of[d][v];
+    }
+}
+
 int fst_paper_dry_tally(const fst_paper_state *paper, int tally[3])
 {
     int count = 0;
@@ -160,6 +172,18 @@ static void write_rules(FILE *out)
                       fst_rules[rule].reproduced, fst_rules[rule].close);
 }
 
+static void write_readings(FILE *out)
+{
+    (void)fputs(
+        "\n| claim | counted | read otherwise | rule then | chosen |\n| --- | --- | --- | --- | --- |\n", out);
+    for (int i = 0; i < fst_statement_count(); ++i) {
+        const fst_reading *reading = fst_statement_reading(&statements[i]);
+        if (reading)
+            (void)fprintf(out, "| %s | %s | %s | %s | %s |\n", statements[i].id, reading->first, reading->words,
+                          fst_rules[reading->second.rule].name, reading->chosen);
+    }
+}
+
 char *fst_paper_statements_text(void)
 {
     char *text = NULL;
@@ -176,6 +200,7 @@ char *fst_paper_statements_text(void)
         (void)fprintf(out, "| %s | %s | %s | %s |\n", statement->section, statement->text, published,
                       fst_rules[statement->rule].name);
     }
+    write_readings(out);
     if (fclose(out) != 0) {
         free(text);
         return NULL;

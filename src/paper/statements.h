@@ -142,6 +142,7 @@ typedef struct fst_tally {
 } fst_tally;
 /* Of the claims of one group, or of all: FST_GROUP_COUNT. */
 fst_tally fst_paper_tally(const fst_paper_state *paper, fst_group group);
+void fst_tally_add(fst_tally *all, const fst_tally *more);
 /* How far a value is from the nearest border of its verdict, as a share of the distance that the border allows;
  * NAN: the rule has no distances.  `border` receives that border. */
 double fst_statement_margin(const fst_statement *statement, double value, double *border);

@@ -214,11 +214,12 @@ static fst_status check_effects(const fst_grid *grid, fst_error *error)
     if (axis_over(grid, "run.samples"))
         return fst_fail(error, FST_BAD_INPUT, AXES,
                         "run.samples concerns written trajectories only and changes nothing in a row");
-    for (int i = 0; i < grid->axis_count && !axis_over(grid, "bead.material"); ++i) {
-        const char *key = grid->axes[i].info->key, *choice = fst_param_missing_choice(&grid->base, key);
-        if (choice)
-            return fst_fail(error, FST_BAD_INPUT, AXES,
-                            "%s has no effect on a bead of this bead.material: choose %s", key, choice);
+    for (int i = 0; i < grid->axis_count; ++i) {
+        const char *key = grid->axes[i].info->key, *of,
+                   *choice = fst_param_missing_choice(&grid->base, key, &of);
+        if (choice && !axis_over(grid, of))
+            return fst_fail(error, FST_BAD_INPUT, AXES, "%s has no effect with this %s: choose %s", key, of,
+                            choice);
     }
     return FST_OK;
 }

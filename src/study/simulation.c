@@ -6,6 +6,7 @@
 
 #include "base/constants.h"
 #include "base/watch.h"
+#include "ode/flight.h"
 
 /* ------------------------------------------------------------------ samples */
 
@@ -36,7 +37,13 @@ static void fill_sample(fst_flow *flow, double x, fst_twofold t, fst_sample *sam
         to[i][1] = s * from[i][0] + c * from[i][1];
         to[i][2] = from[i][2];
     }
+    sample->flies = fst_flight_is_on(flow);
+    if (sample->flies) {
+        fst_flight_at(flow, x, &sample->height, &sample->climb);
+        fst_raise_source_double(&flow->step.context, sample->height);
+    }
     sample->seen = fst_observe_double(&flow->step.context.coefficients, sample->omega, y);
+    sample->seen.energy += fst_flight_energy(flow, x);
 }
 
 /* Every sample that falls into the last step, up to its fraction `until`. */
@@ -47,9 +54,11 @@ static fst_status push_samples(fst_simulation *s, double until, fst_error *error
     const double drive_period = s->run.window.period, end = s->run.window.span.until;
     if (!sink->sample)
         return FST_OK;
-    const fst_twofold period = {drive_period, 0.0};
+    const int by_time = s->options->sample_spacing > 0.0;
+    const fst_twofold unit = {by_time ? s->options->sample_spacing : drive_period, 0.0};
     for (;;) {
-        const fst_twofold t = fst_twofold_times(period, (double)s->next_sample / s->run.params->run_samples);
+        const fst_twofold t =
+            fst_twofold_times(unit, (double)s->next_sample / (by_time ? 1 : s->run.params->run_samples));
         double x = flow->has_step ? fst_flow_fraction(flow, t) : (t.high == 0.0 ? 1.0 : 2.0);
         const double slack = flow->has_step ? 1e-9 : 0.0; /* the rounding of times over a short step */
         if (x > until + (until == 1.0 ? slack : 0.0) || t.high > end * (1.0 + 1e-12))

@@ -73,6 +73,39 @@ size_t track_reject_jumps(fst_track *track, const track_work *work)
     return rejected;
 }
 
+/* How far places usually are from the model. */
+static double usual_distance(const track_work *work, double *sorted)
+{
+    for (size_t i = 0; i < work->count; ++i)
+        sorted[i] = hypot(work->r_off[i], work->r[i] * work->a_off[i]);
+    return median(sorted, work->count);
+}
+
+size_t track_take_back(fst_track *track, track_work *work)
+{
+    size_t taken = 0;
+    double row[TRACK_MOST_COLUMNS], *sorted = malloc((work->count + 1) * sizeof *sorted);
+    if (!sorted)
+        return 0;
+    const double limit = 4.0 * usual_distance(work, sorted);
+    const size_t spare = work->count; /* there is room for one row more */
+    for (size_t i = 0; i < track->rows; ++i) {
+        if (track->flag[i] != FST_FRAME_REJECTED)
+            continue;
+        track_place_row(work, spare, i);
+        (void)track_radial_row(work, spare, row);
+        const double off = work->r[spare] - track_fit_value(&work->radial, row);
+        (void)track_angular_row(work, spare, row);
+        const double turned = work->alpha[spare] - track_fit_value(&work->angular, row);
+        if (hypot(off, work->r[spare] * turned) < limit) {
+            track->flag[i] = FST_FRAME_SEEN;
+            ++taken;
+        }
+    }
+    free(sorted);
+    return taken;
+}
+
 size_t track_reject_far(fst_track *track, const track_work *work)
 {
     size_t rejected = 0;
@@ -81,11 +114,9 @@ size_t track_reject_far(fst_track *track, const track_work *work)
         return 0;
     double *sorted = off + work->count;
     for (size_t i = 0; i < work->count; ++i) {
-        const double along = work->r[i] * work->a_off[i];
-        off[i] = sqrt(work->r_off[i] * work->r_off[i] + along * along);
-        sorted[i] = off[i];
+        off[i] = hypot(work->r_off[i], work->r[i] * work->a_off[i]);
     }
-    const double usual = median(sorted, work->count);
+    const double usual = usual_distance(work, sorted);
     for (size_t i = 0; i < work->count; ++i) {
         /* The median of five neighbours: of a motion that the model lacks they deviate as much. */
         double near[5];

@@ -240,7 +240,7 @@ static void take_radius(const track_work *work, const turn_sums *turns, const do
     for (int k = 1; k < harmonics; ++k)
         waves += 0.5 * (c[k] * c[k] - square * work->gain * work->gain * work->radial.inverse[k][k]);
     measured->noise = sqrt(noise);
-    measured->mean_r = factor * c[0];
+    measured->mean_r = factor * (c[0] - noise / (2.0 * c[0])); /* noise across the radius lengthens it */
     measured->mean_r_error = sqrt(isfinite(of_r0) ? fmax(of_r0, variance[R0])
                                                   : variance[R0] + c[0] * c[0] * systematic * systematic);
     measured->std_r = factor * sqrt(fmax(0.0, waves));
@@ -282,6 +282,23 @@ static void take_rates(const track_work *work, const track_drive *drive, const d
                            2.0 * by_f0 * by_bead * joint));
 }
 
+/* Keep what was fitted to r. */
+static void keep_waves(const track_work *work, fst_measurement *measured)
+{
+    const double *c = work->radial.coefficient + 1;
+    const fst_track *track = work->track;
+    const size_t first = work->row[0];
+    measured->wave_mean = work->radial.coefficient[0];
+    measured->wave_hz = work->f0;
+    measured->wave_origin =
+        (isfinite(track->fps) ? track->t[first] : (double)(track->frame[first] - track->frame[0])) - work->t[0];
+    for (int k = 0; k < work->harmonics && work->f0 > 0; ++k)
+        if (!work->skipped[k]) {
+            measured->wave_cos[k] = *c++;
+            measured->wave_sin[k] = *c++;
+        }
+}
+
 fst_status track_find_errors(const track_work *work, const track_drive *drive, fst_measurement *measured,
                              fst_error *error)
 {
@@ -299,6 +316,8 @@ fst_status track_find_errors(const track_work *work, const track_drive *drive, f
         measured->centre_error[i] = sqrt(variance[CENTRE_X + i]);
     }
     memcpy(measured->stretch, work->stretch, sizeof measured->stretch);
+    measured->filmed_sense = work->bead > 0 ? 1 : -1;
+    keep_waves(work, measured);
     measured->turns = track_duration(work) * fabs(work->bead);
     if (turns.count < LEAST_TURNS)
         track_warn(measured,

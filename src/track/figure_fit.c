@@ -51,30 +51,35 @@ static void fill(panel_data *d, double *memory, const fst_points *points, const 
     }
 }
 
-static void arrange(panel_data *d, const fst_fit *fit, fst_chart_panel *panel, const char *label, int first)
+static void arrange(panel_data *d, const fst_fit *fit, fst_chart_panel *panel, const char *label)
 {
     int count = 0;
-    d->curves[count++] = (fst_chart_curve){first ? "uncertainty of the curve (one standard deviation)" : NULL,
-                                           d->x,
-                                           d->y,
-                                           fit->curve_count,
-                                           FST_COLOUR_BLUE,
-                                           FST_CURVE_BAND,
-                                           0,
-                                           d->spread};
-    d->curves[count++] = (fst_chart_curve){first ? "model" : NULL, d->x,           d->y, fit->curve_count,
-                                           FST_COLOUR_BLUE,        FST_CURVE_LINE, 0,    NULL};
+    d->curves[count++] = (fst_chart_curve){.title = "uncertainty of the curve (one standard deviation)",
+                                           .x = d->x,
+                                           .y = d->y,
+                                           .count = fit->curve_count,
+                                           .colour = FST_COLOUR_BLUE,
+                                           .style = FST_CURVE_BAND,
+                                           .spread = d->spread};
     d->curves[count++] = (fst_chart_curve){
-        first ? "measured" : NULL, d->px, d->py, d->points, FST_COLOUR_BLACK, FST_CURVE_ERRORS, 0, d->pspread};
+        .title = "model", .x = d->x, .y = d->y, .count = fit->curve_count, .colour = FST_COLOUR_BLUE};
+    d->curves[count++] = (fst_chart_curve){.title = "measured",
+                                           .x = d->px,
+                                           .y = d->py,
+                                           .count = d->points,
+                                           .colour = FST_COLOUR_BLACK,
+                                           .style = FST_CURVE_ERRORS,
+                                           .spread = d->pspread};
     if (d->outliers)
-        d->curves[count++] = (fst_chart_curve){
-            "left out", d->ox, d->oy, d->outliers, FST_COLOUR_VERMILION, FST_CURVE_OPEN_ERRORS, 0, d->ospread};
-    *panel = (fst_chart_panel){.left_label = label,
-                               .low = NAN,
-                               .high = NAN,
-                               .key = first || d->outliers ? "bottom right" : NULL,
-                               .curves = d->curves,
-                               .curve_count = count};
+        d->curves[count++] = (fst_chart_curve){.title = "left out",
+                                               .x = d->ox,
+                                               .y = d->oy,
+                                               .count = d->outliers,
+                                               .colour = FST_COLOUR_VERMILION,
+                                               .style = FST_CURVE_OPEN_ERRORS,
+                                               .spread = d->ospread};
+    *panel = (fst_chart_panel){
+        .left_label = label, .low = NAN, .high = NAN, .curves = d->curves, .curve_count = count};
 }
 
 fst_status fst_figure_fit(const fst_points *points, const fst_fit *fit, const char *out, fst_error *error)
@@ -93,7 +98,7 @@ fst_status fst_figure_fit(const fst_points *points, const fst_fit *fit, const ch
     for (int q = 0; q < FST_MEASURED_COUNT; ++q) {
         fill(&data[q], memory + (size_t)q * each, points, fit, (fst_measured)q);
         if (data[q].points + data[q].outliers > 0) {
-            arrange(&data[q], fit, &panels[count], labels[q], count == 0);
+            arrange(&data[q], fit, &panels[count], labels[q]);
             count += 1;
         }
     }

@@ -286,7 +286,7 @@ static fst_status draw(const pieces *p, const fst_points *points, const char *ou
 {
     panel_data data[FST_MEASURED_COUNT];
     fst_chart_panel panels[FST_MEASURED_COUNT];
-    char title[128];
+    char about[128];
     int shown = 0;
     double low = INFINITY, high = -INFINITY;
     fst_status status = FST_OK;
@@ -309,12 +309,11 @@ static fst_status draw(const pieces *p, const fst_points *points, const char *ou
         low = fmin(low, points->rows[i].frequency);
         high = fmax(high, points->rows[i].frequency);
     }
-    if (shown > 0)
-        panels[shown - 1].key = "bottom right";
     const double margin = 0.02 * (high - low) + 1e-3;
-    (void)snprintf(title, sizeof title, "χ² = %.4g of %d measured numbers%s", fit->chi2, fit->counted,
+    (void)snprintf(about, sizeof about, "χ² = %.4g of %d measured numbers%s", fit->chi2, fit->counted,
                    fit->counted < fit->all ? ", where there is a curve" : "");
-    const fst_chart chart = {.title = title,
+    const fst_chart chart = {.title = "Measured points over the computed curves",
+                             .about = about,
                              .x_label = "drive frequency (Hz)",
                              .x_low = low - margin,
                              .x_high = high + margin,

@@ -20,6 +20,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/watch.h"
 #include "track/spectrum.h"
 
 enum { LEAST_ROWS = 16, MOST_ROUNDS = 60 };
@@ -81,12 +82,18 @@ static int harmonic_row(const track_work *work, size_t i, double *row)
 {
     int n = 0;
     row[n++] = 1.0;
-    for (int k = 1; k <= work->harmonics && work->f0 > 0; ++k) {
+    if (!(work->f0 > 0))
+        return n;
+    const double angle = FST_TWO_PI * work->f0 * work->t[i], c1 = cos(angle), s1 = sin(angle);
+    double c = 1.0, s = 0.0;
+    for (int k = 1; k <= work->harmonics; ++k) {
+        const double turned = c * c1 - s * s1;
+        s = s * c1 + c * s1;
+        c = turned;
         if (work->skipped[k - 1])
             continue;
-        const double angle = FST_TWO_PI * k * work->f0 * work->t[i];
-        row[n++] = cos(angle);
-        row[n++] = sin(angle);
+        row[n++] = c;
+        row[n++] = s;
     }
     return n;
 }
@@ -161,20 +168,35 @@ static void circle(track_work *work)
     work->centre[1] = mean[1] + fit.coefficient[2];
 }
 
-/* r and alpha of all rows; alpha is unwrapped along the present model of it. */
-static void place_rows(track_work *work)
+/* r and alpha of a row; alpha is unwrapped along the present model of it. */
+static void place_row(track_work *work, size_t i)
 {
     double row[TRACK_MOST_COLUMNS];
-    for (size_t i = 0; i < work->count; ++i) {
-        const double x = work->x[i] - work->centre[0], y = work->y[i] - work->centre[1];
-        const double px = work->stretch[0] * x + work->stretch[1] * y;
-        const double py = work->stretch[1] * x + work->stretch[2] * y;
-        work->r[i] = sqrt(px * px + py * py);
-        const double angle = atan2(py, px);
-        (void)track_angular_row(work, i, row);
-        const double expected = track_fit_value(&work->angular, row);
-        work->alpha[i] = angle + FST_TWO_PI * round((expected - angle) / FST_TWO_PI);
-    }
+    const double x = work->x[i] - work->centre[0], y = work->y[i] - work->centre[1];
+    const double px = work->stretch[0] * x + work->stretch[1] * y;
+    const double py = work->stretch[1] * x + work->stretch[2] * y;
+    work->r[i] = sqrt(px * px + py * py);
+    const double angle = atan2(py, px);
+    (void)track_angular_row(work, i, row);
+    const double expected = track_fit_value(&work->angular, row);
+    work->alpha[i] = angle + FST_TWO_PI * round((expected - angle) / FST_TWO_PI);
+}
+
+static void place_rows(track_work *work)
+{
+    for (size_t i = 0; i < work->count; ++i)
+        place_row(work, i);
+}
+
+void track_place_row(track_work *work, size_t at, size_t i)
+{
+    const size_t known = work->row[0]; /* its time here tells where the times of the work begin */
+    const fst_track *track = work->track;
+    work->t[at] = work->t[0] + (isfinite(track->fps) ? track->t[i] - track->t[known]
+                                                     : (double)(track->frame[i] - track->frame[known]));
+    work->x[at] = track->x[i];
+    work->y[at] = track->y[i];
+    place_row(work, at);
 }
 
 /* Fit the model of alpha; its slope is the bead's rate. */
@@ -321,6 +343,11 @@ static fst_status settle(track_work *work, fst_error *error)
     work->angular.coefficient[0] = phase;
     work->angular.coefficient[work->angular.columns - 1] = rate;
     for (int round = 0; round < MOST_ROUNDS; ++round) {
+        /* How many rounds there will be is not known: some forty are usual. */
+        const fst_status told = fst_tell(work->progress, work->rounds / (work->rounds + 10.0), NULL, error);
+        if (told != FST_OK)
+            return told;
+        work->rounds += 1.0;
         place_rows(work);
         fit_angular(work);
         fit_radial(work);

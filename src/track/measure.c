@@ -112,6 +112,11 @@ static fst_status find_motion(track_work *work, fst_error *error)
     for (int again = 0; again < 6 && track_reject_jumps(work->track, work) > 0; ++again)
         track_work_take(work);
     fst_status status = track_find_motion(work, error);
+    /* A wild place makes good ones beside it look wild; the model tells them apart. */
+    if (status == FST_OK && track_take_back(work->track, work) > 0) {
+        track_work_take(work);
+        status = track_find_motion(work, error);
+    }
     for (int again = 0; again < 4 && status == FST_OK && track_reject_far(work->track, work) > 0; ++again) {
         track_work_take(work);
         status = track_find_motion(work, error);
@@ -146,6 +151,12 @@ static fst_status measure(track_work *work, const fst_measure_options *options, 
     measured->symmetry = drive.motion == FST_MOTION_TURNING ? drive.symmetry : 0;
     if (status == FST_OK)
         status = track_find_errors(work, &drive, measured, error);
+    if (status == FST_OK && measured->wave_mean < 3.0 * measured->noise)
+        status = fst_fail(
+            error, FST_NO_CONVERGENCE, "",
+            "the bead rests, or trembles: its path has a radius of %.3g %s, no more than the noise of its "
+            "places (%.2g %s)",
+            measured->mean_r, measured->length_unit, measured->noise, measured->length_unit);
     if (status == FST_OK)
         warn_of_exposure(work, &drive, options, measured);
     return status;
@@ -178,6 +189,7 @@ fst_status fst_measure_track(fst_track *track, const fst_measure_options *option
         status = track_work_begin(&work, track, error);
     if (status != FST_OK)
         return status;
+    work.progress = options->progress;
     status = measure(&work, options, measured, error);
     if (status == FST_OK) {
         count_frames(track, measured);

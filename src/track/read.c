@@ -43,7 +43,7 @@ static const struct {
     [FORMAT_DLTDV5] = {"dltdv5", "DLTdv 5"},
     [FORMAT_DLTDV8] = {"dltdv8", "DLTdv 8"},
     [FORMAT_BLENDER] = {"blender", "Blender, by tools/blender-export.py"},
-    [FORMAT_TRAJECTORY] = {"trajectory", "a trajectory of festoon run"},
+    [FORMAT_TRAJECTORY] = {"trajectory", "a trajectory that festoon made"},
 };
 
 fst_track_options fst_default_track_options(void)

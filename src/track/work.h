@@ -13,7 +13,7 @@
 
 #include "track/regress.h"
 
-enum { TRACK_HARMONICS = 8 };
+enum { TRACK_HARMONICS = FST_WAVE_LIMIT };
 
 /* Columns of the model of r: the constant, the harmonics of f0 (cos, sin each), then these. */
 enum { TRACK_CENTRE_X, TRACK_CENTRE_Y, TRACK_TILT_C, TRACK_TILT_S, TRACK_SLOPE, TRACK_GEOMETRY };
@@ -34,6 +34,8 @@ typedef struct track_work {
     int skipped[TRACK_HARMONICS]; /* harmonics that cannot be told from others at this frame rate */
     double peak;                  /* the strongest line of r; 0: none beyond the noise */
     int half;                     /* there is a line at half that frequency too */
+    const fst_progress *progress; /* NULL: nobody is told */
+    double rounds;                /* of the regression so far */
     double gain;                  /* by how much r oscillates more since an exposure was undone */
     track_fit radial, angular;
 } track_work;
@@ -46,6 +48,8 @@ void track_work_take(track_work *work);
 /* Mark places far outside of all others, or far from both neighbours by how fast the bead moves; returns how
  * many. */
 size_t track_reject_jumps(fst_track *track, const track_work *work);
+/* Take back places that were rejected, but lie where the model of the motion has the bead; returns how many. */
+size_t track_take_back(fst_track *track, track_work *work);
 /* Mark places far from the model of the motion; returns how many. */
 size_t track_reject_far(fst_track *track, const track_work *work);
 
@@ -53,6 +57,9 @@ size_t track_reject_far(fst_track *track, const track_work *work);
 fst_status track_find_motion(track_work *work, fst_error *error);
 /* The same once more with f0 known. */
 fst_status track_refine_motion(track_work *work, fst_error *error);
+/* Put row `i` of the track at the place `at` of the work's arrays, with r and alpha by the present centre and
+ * models. */
+void track_place_row(track_work *work, size_t at, size_t i);
 /* Whether r oscillates with k f0, beyond the noise. */
 int track_has_line(const track_work *work, int k);
 /* The frequency at which a film of so many frames a second shows another one. */

@@ -28,10 +28,13 @@ BUILD = os.path.abspath(os.environ.get("BUILD_DIR", os.path.join(SOURCE, "build"
 FESTOON = os.environ.get("FESTOON", os.path.join(BUILD, "festoon"))
 
 # Shares of the executions: one execution takes microseconds for the first targets; the last ones open files.
-SHARES = {"scene": 0.40, "csv": 0.30, "value": 0.22, "over": 0.05, "branch": 0.028, "sweep": 0.002}
-LENGTHS = {"scene": 2048, "csv": 4096, "value": 64, "over": 200, "branch": 4096, "sweep": 16384}
+SHARES = {"scene": 0.40, "csv": 0.25, "value": 0.22, "over": 0.05, "track": 0.05, "branch": 0.028,
+          "sweep": 0.002}
+LENGTHS = {"scene": 2048, "csv": 4096, "value": 64, "over": 200, "track": 4096, "branch": 4096,
+           "sweep": 16384}
 WHAT = {"scene": "scenes (YAML)", "value": "settings: keys, numbers, units", "over": "axes of sweeps (--over)",
-        "csv": "trajectories (CSV)", "branch": "branches (JSON)", "sweep": "databases of sweeps (SQLite)"}
+        "csv": "trajectories (CSV)", "track": "tracks of filmed beads (tables, XML)", "branch": "branches (JSON)",
+        "sweep": "databases of sweeps (SQLite)"}
 BATCHES = 20
 
 

@@ -1,0 +1,364 @@
+/* figure_series.c - any columns of a trajectory: against time, on the Poincare section, and over a ramp. */
+#include "draw/figure_trajectory.h"
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "draw/chart.h"
+#include "draw/smooth.h"
+#include "draw/view.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    PARTS = 8,      /* the most pieces of the smooth curve between two samples */
+    ENOUGH = 1200,  /* about as many points as a smooth curve needs */
+    WINDOWS = 150,  /* of a ramp, over each of which a mean is drawn */
+    MANY_DOTS = 200 /* more dots than these are small ones */
+};
+
+/* The columns that a figure shows. */
+typedef struct chosen {
+    int count;
+    const double *values[FST_FIGURE_KEYS];
+    const fst_column_info *info[FST_FIGURE_KEYS];
+    fst_quantity shown[FST_FIGURE_KEYS];
+} chosen;
+
+static fst_status choose(const fst_view *view, const fst_figure_options *options, const char *first,
+                         const char *second, chosen *c, fst_error *error)
+{
+    const char *usual[] = {first, second};
+    fst_status status = FST_OK;
+    c->count = 0;
+    if (options->colour)
+        return fst_fail(error, FST_BAD_INPUT, "fst_figure_options.colour",
+                        "figures of time, sections and ramps have no colour scale");
+    for (int i = 0; i < FST_FIGURE_KEYS && status == FST_OK; ++i) {
+        const char *key = options->keys[0] ? options->keys[i] : i < 2 ? usual[i] : NULL;
+        if (!key)
+            break;
+        status = fst_view_column_for(view, "fst_figure_options.keys", key, &c->values[i], &c->info[i], error);
+        if (status == FST_OK)
+            c->shown[c->count++] = fst_view_quantity(view, c->info[i]);
+    }
+    return status;
+}
+
+static fst_status no_memory(const char *out, size_t rows, fst_error *error)
+{
+    return fst_fail(error, FST_NO_MEMORY, out, "no memory for %zu samples", rows);
+}
+
+/* A range of values with room about it that is at least `least`. */
+static void range_of(const double *values, size_t count, double least, double *low, double *high)
+{
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (size_t i = 0; i < count; ++i) {
+        *low = fmin(*low, values[i]);
+        *high = fmax(*high, values[i]);
+    }
+    const double span = *high - *low, usual = 1.12 * span;
+    least = fmax(least, 1e-9 * fmax(fabs(*low), fabs(*high)) + 1e-12);
+    const double more = 0.5 * ((usual > least ? usual : least) - span);
+    *low -= more;
+    *high += more;
+}
+
+/* ------------------------------------------------------------------ time */
+
+/* Put one column against time; returns the number of points. */
+static size_t put_series(const fst_view *view, const chosen *c, int k, const double *t, double time,
+                         double *memory, double *x, double *y)
+{
+    const size_t rows = view->last - view->first;
+    for (size_t i = 0; i < rows; ++i) {
+        memory[i] = time * t[view->first + i];
+        memory[rows + i] = c->shown[k].factor * c->values[k][view->first + i];
+    }
+    /* Dry friction makes corners, which are no fault of the drawing. */
+    const size_t wanted = view->table->params.friction_law == FST_FRICTION_COULOMB ? 1 : 1 + ENOUGH / rows;
+    const int parts = wanted < PARTS ? (int)wanted : PARTS;
+    return fst_smooth(memory, memory + rows, rows, parts, memory[rows - 1] - memory[0], INFINITY, x, y);
+}
+
+static fst_status draw_time(const fst_view *view, const chosen *c, const char *out, fst_error *error)
+{
+    const double *t;
+    const fst_column_info *info;
+    fst_status status = fst_view_column(view, "t", &t, &info, error);
+    const size_t rows = view->last - view->first, room = PARTS * rows;
+    double *memory = malloc((2 * rows + 2 * room * (size_t)c->count) * sizeof *memory);
+    if (status == FST_OK && !memory)
+        status = no_memory(out, rows, error);
+    if (status != FST_OK) {
+        free(memory);
+        return status;
+    }
+    const fst_quantity time = fst_view_quantity(view, info);
+    fst_chart_curve curves[FST_FIGURE_KEYS];
+    fst_chart_panel panels[FST_FIGURE_KEYS];
+    for (int k = 0; k < c->count; ++k) {
+        double *x = memory + 2 * rows + 2 * room * (size_t)k, *y = x + room;
+        const size_t count = put_series(view, c, k, t, time.factor, memory, x, y);
+        curves[k] = (fst_chart_curve){
+            .x = x, .y = y, .count = count, .colour = FST_COLOUR_BLUE, .style = FST_CURVE_LINE};
+        panels[k] = (fst_chart_panel){
+            .left_label = c->shown[k].label, .low = NAN, .high = NAN, .curves = &curves[k], .curve_count = 1};
+        range_of(y, count, 0.0, &panels[k].low, &panels[k].high);
+    }
+    const fst_chart chart = {.title = view->title ? view->title : "The motion against time",
+                             .about = view->about,
+                             .x_label = time.label,
+                             .x_low = time.factor * t[view->first],
+                             .x_high = time.factor * t[view->last - 1],
+                             .height = c->count > 3 ? 140 : 0,
+                             .panels = panels,
+                             .panel_count = c->count};
+    status = fst_figure_chart(out, &chart, error);
+    free(memory);
+    return status;
+}
+
+fst_status fst_figure_time(const fst_table *table, const char *out, const fst_figure_options *options,
+                           fst_error *error)
+{
+    fst_view view;
+    chosen c;
+    fst_status status = fst_view_of(&view, table, options, INFINITY, 8.0, error);
+    if (status == FST_OK)
+        status = choose(&view, options, "r", "n_z", &c, error);
+    return status == FST_OK ? draw_time(&view, &c, out, error) : status;
+}
+
+/* ------------------------------------------------------------------ the Poincare section */
+
+/* The cubic through four samples, `part` of the way from the second to the third. */
+static double cubic(const double *values, double part)
+{
+    const double a = part + 1.0, b = part, c = part - 1.0, d = part - 2.0;
+    return -b * c * d / 6.0 * values[0] + a * c * d / 2.0 * values[1] - a * b * d / 2.0 * values[2] +
+           a * b * c / 6.0 * values[3];
+}
+
+/* Where Phi passes `angle` downwards between the second and the third of four samples. */
+static double passing(const double *bead_angle, double angle)
+{
+    double low = 0.0, high = 1.0;
+    for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        *(cubic(bead_angle, middle) > angle ? &low : &high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+/* Put both columns where Phi passes pi/2 and whole turns of it; returns how often it does. */
+static size_t put_section(const fst_view *view, const chosen *c, const double *bead_angle, double *x, double *y)
+{
+    size_t count = 0;
+    for (size_t row = view->first + 1; row + 2 < view->last; ++row) {
+        const double turn = floor((bead_angle[row] - 0.5 * FST_PI) / FST_TWO_PI);
+        const double angle = 0.5 * FST_PI + FST_TWO_PI * turn;
+        if (!(bead_angle[row] >= angle && bead_angle[row + 1] < angle))
+            continue;
+        const double part = passing(bead_angle + row - 1, angle);
+        x[count] = c->shown[0].factor * cubic(c->values[0] + row - 1, part);
+        y[count++] = c->shown[1].factor * cubic(c->values[1] + row - 1, part);
+    }
+    return count;
+}
+
+/* Points closer than a fiftieth of the whole motion look like one: a closed orbit is one point. */
+static double least_span(const fst_view *view, const chosen *c, int k)
+{
+    double least, greatest;
+    fst_view_range(view, c->values[k], &least, &greatest);
+    return 0.02 * fabs(c->shown[k].factor) * (greatest - least);
+}
+
+static fst_status draw_section(const fst_view *view, const chosen *c, const double *x, const double *y,
+                               size_t count, const char *out, fst_error *error)
+{
+    char about[320];
+    double low, high;
+    const fst_chart_curve curve = {.x = x,
+                                   .y = y,
+                                   .count = count,
+                                   .colour = FST_COLOUR_BLUE,
+                                   .style = count > MANY_DOTS ? FST_CURVE_DOTS : FST_CURVE_POINTS};
+    fst_chart_panel panel = {.left_label = c->shown[1].label, .curves = &curve, .curve_count = 1};
+    range_of(x, count, least_span(view, c, 0), &low, &high);
+    range_of(y, count, least_span(view, c, 1), &panel.low, &panel.high);
+    (void)snprintf(about, sizeof about, "%.200s; a point for each of %zu passages", view->about, count);
+    const fst_chart chart = {.title =
+                                 view->title ? view->title : "Poincaré section at Φ = 90°, passed downwards",
+                             .about = about,
+                             .x_label = c->shown[0].label,
+                             .x_low = low,
+                             .x_high = high,
+                             .height = 330,
+                             .panels = &panel,
+                             .panel_count = 1};
+    return fst_figure_chart(out, &chart, error);
+}
+
+fst_status fst_figure_section(const fst_table *table, const char *out, const fst_figure_options *options,
+                              fst_error *error)
+{
+    fst_view view;
+    chosen c;
+    const double *bead_angle = NULL;
+    fst_status status = fst_view_of(&view, table, options, INFINITY, INFINITY, error);
+    if (status == FST_OK)
+        status = choose(&view, options, "r", "n_z", &c, error);
+    if (status == FST_OK && c.count != 2)
+        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_options.keys",
+                          "a section shows two columns, one against the other, not %d", c.count);
+    if (status == FST_OK)
+        status = fst_view_columns(&view, error, "Phi", &bead_angle, NULL);
+    if (status != FST_OK)
+        return status;
+    const size_t rows = view.last - view.first;
+    double *memory = malloc(2 * rows * sizeof *memory);
+    if (!memory)
+        return no_memory(out, rows, error);
+    const size_t count = put_section(&view, &c, bead_angle, memory, memory + rows);
+    if (count == 0)
+        status =
+            fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
+                     "the bead's angle Phi against the magnet never passes 90 degrees downwards in the part "
+                     "shown, so that there is no section: figures of time show such a motion");
+    else
+        status = draw_section(&view, &c, memory, memory + rows, count, out, error);
+    free(memory);
+    return status;
+}
+
+/* ------------------------------------------------------------------ ramps */
+
+/* Means, least and greatest values over windows of the drive. */
+typedef struct windows {
+    size_t count;
+    double *drive, *mean[FST_FIGURE_KEYS], *low[FST_FIGURE_KEYS], *high[FST_FIGURE_KEYS];
+    double *memory;
+} windows;
+
+static int make_windows(windows *w, int keys)
+{
+    w->count = 0;
+    w->memory = malloc((size_t)(1 + 3 * keys) * (WINDOWS + 1) * sizeof *w->memory);
+    if (!w->memory)
+        return 0;
+    w->drive = w->memory;
+    for (int k = 0; k < keys; ++k) {
+        w->mean[k] = w->memory + (size_t)(1 + 3 * k) * (WINDOWS + 1);
+        w->low[k] = w->mean[k] + WINDOWS + 1;
+        w->high[k] = w->low[k] + WINDOWS + 1;
+    }
+    return 1;
+}
+
+static void put_window(const chosen *c, const double *omega, double factor, size_t from, size_t to, windows *w)
+{
+    const size_t i = w->count++;
+    w->drive[i] = 0.0;
+    for (size_t row = from; row < to; ++row)
+        w->drive[i] += factor * omega[row] / (double)(to - from);
+    for (int k = 0; k < c->count; ++k) {
+        double sum = 0.0, low = INFINITY, high = -INFINITY;
+        for (size_t row = from; row < to; ++row) {
+            const double value = c->shown[k].factor * c->values[k][row];
+            sum += value;
+            low = fmin(low, value);
+            high = fmax(high, value);
+        }
+        w->mean[k][i] = sum / (double)(to - from);
+        w->low[k][i] = low;
+        w->high[k][i] = high;
+    }
+}
+
+/* A window ends where Phi has made a whole turn, because the motion repeats then, or where it makes none. */
+static void put_windows(const fst_view *view, const chosen *c, const double *turns, const double *bead_angle,
+                        const double *omega, double factor, windows *w)
+{
+    const double all = turns[view->last - 1] - turns[view->first];
+    const double each = fmax(2.0, all / WINDOWS);
+    size_t from = view->first;
+    for (size_t row = view->first + 1; row < view->last && w->count < WINDOWS; ++row) {
+        const int whole = floor(bead_angle[row] / FST_TWO_PI) != floor(bead_angle[row - 1] / FST_TWO_PI);
+        const double long_enough = turns[row] - turns[from] - each * (1.0 - 1e-9);
+        if (long_enough >= 0.0 && (whole || long_enough > 2.0)) {
+            put_window(c, omega, factor, from, row, w);
+            from = row;
+        }
+    }
+    if (w->count == 0)
+        put_window(c, omega, factor, view->first, view->last, w);
+}
+
+static fst_status draw_ramp(const fst_view *view, const chosen *c, const windows *w, const char *x_label,
+                            const char *out, fst_error *error)
+{
+    fst_chart_curve curves[3 * FST_FIGURE_KEYS];
+    fst_chart_panel panels[FST_FIGURE_KEYS];
+    for (int k = 0; k < c->count; ++k) {
+        const double *const values[3] = {w->low[k], w->high[k], w->mean[k]};
+        for (int i = 0; i < 3; ++i)
+            curves[3 * k + i] =
+                (fst_chart_curve){.title = i < 2 ? "least and greatest" : "mean over whole turns of Φ",
+                                  .x = w->drive,
+                                  .y = values[i],
+                                  .count = w->count,
+                                  .colour = i < 2 ? FST_COLOUR_SKY : FST_COLOUR_BLUE,
+                                  .style = i < 2 ? FST_CURVE_THIN : FST_CURVE_LINE};
+        panels[k] = (fst_chart_panel){.left_label = c->shown[k].label,
+                                      .low = NAN,
+                                      .high = NAN,
+                                      .curves = &curves[3 * k],
+                                      .curve_count = 3};
+    }
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < w->count; ++i) {
+        low = fmin(low, w->drive[i]);
+        high = fmax(high, w->drive[i]);
+    }
+    const fst_chart chart = {.title = view->title ? view->title : "The motion on a ramp of the drive",
+                             .about = view->about,
+                             .x_label = x_label,
+                             .x_low = low,
+                             .x_high = high,
+                             .panels = panels,
+                             .panel_count = c->count};
+    return fst_figure_chart(out, &chart, error);
+}
+
+fst_status fst_figure_ramp(const fst_table *table, const char *out, const fst_figure_options *options,
+                           fst_error *error)
+{
+    fst_view view;
+    chosen c;
+    windows w = {.memory = NULL};
+    const double *turns = NULL, *omega = NULL, *bead_angle = NULL;
+    const fst_column_info *info = NULL;
+    fst_status status = fst_view_of(&view, table, options, INFINITY, INFINITY, error);
+    if (status == FST_OK)
+        status = choose(&view, options, "r", NULL, &c, error);
+    if (status == FST_OK)
+        status = fst_view_columns(&view, error, "drive_turns", &turns, "Phi", &bead_angle, NULL);
+    if (status == FST_OK)
+        status = fst_view_column(&view, "omega", &omega, &info, error);
+    if (status == FST_OK && !(fabs(view.omega - view.first_omega) > 1e-9 * view.omega))
+        status = fst_fail(error, FST_BAD_INPUT, "fst_figure_options.kind",
+                          "the drive is the same in all that is shown: this is no ramp");
+    if (status == FST_OK && !make_windows(&w, c.count))
+        status = no_memory(out, view.last - view.first, error);
+    if (status == FST_OK) {
+        const fst_quantity drive = fst_view_quantity(&view, info);
+        put_windows(&view, &c, turns, bead_angle, omega, drive.factor, &w);
+        status = draw_ramp(&view, &c, &w, drive.label, out, error);
+    }
+    free(w.memory);
+    return status;
+}

@@ -1,0 +1,198 @@
+/* quantity.c - the words and units of axes. */
+#include "draw/quantity.h"
+
+#include "base/constants.h"
+#include "draw/style.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct word {
+    const char *name, *words;
+} word;
+
+/* An underscore lowers the letter behind it. */
+static const word parameters[] = {
+    {"model.kappa", "magnetic strength κ"},
+    {"model.eps", "bead's radius over ℓ, ε"},
+    {"model.h", "height over the lines, h/ℓ"},
+    {"model.lambda", "spacing of the lines, λ/ℓ"},
+    {"friction.mu", "coefficient of friction μ"},
+    {"friction.mu_static", "static coefficient of friction μ_s"},
+    {"friction.gamma", "friction rate γ"},
+    {"friction.rolling_resistance", "rolling resistance"},
+    {"start.phi", "Φ at the start"},
+    {"start.r", "r at the start"},
+    {"bead.radius", "bead's radius"},
+    {"bead.mass", "bead's mass"},
+    {"bead.moment", "bead's magnetic moment"},
+    {"magnet.depth", "magnet's depth"},
+    {"magnet.width", "magnet's width"},
+    {"magnet.half_length", "half length ℓ of the magnet's lines"},
+    {"magnet.b0", "field unit B_0"},
+};
+
+static const word results[] = {
+    {"mean_r", "mean radius ⟨r⟩"},
+    {"std_r", "deviation δr"},
+    {"min_r", "least r"},
+    {"max_r", "greatest r"},
+    {"mean_alpha_dot", "bead's circling ⟨α′⟩"},
+    {"mean_phi_dot", "moment's turning ⟨φ′⟩"},
+    {"mean_nz", "⟨n_z⟩"},
+    {"festoons", "festoons N"},
+    {"period", "period of Φ"},
+    {"phi_deg", "Φ"},
+    {"slip", "slip of the contact |V|"},
+    {"relaxation_time", "relaxation time"},
+    {"swing_ratio", "p = Δ+/Δ− − 1"},
+    {"max_angle_deg", "greatest angle of n and B"},
+    {"mean_b", "⟨|B|⟩"},
+    {"std_b", "deviation of |B|"},
+    {"min_b", "least |B|"},
+    {"max_b", "greatest |B|"},
+    {"rms_slip", "slip of the contact, rms"},
+    {"max_slip", "greatest slip"},
+    {"tilt_deg", "tilt of the plane of n"},
+    {"sticking", "share of time that sticks"},
+    {"effective_rate", "effective friction rate"},
+    {"mean_load_weights", "mean load"},
+    {"min_load_weights", "least load"},
+    {"max_load_weights", "greatest load"},
+    {"mean_friction_power", "power lost to friction"},
+    {"mean_drive_power", "power of the drive"},
+    {"largest_exponent", "largest Lyapunov exponent"},
+    {"end_time", "time at the end"},
+};
+
+static const word columns[] = {
+    {"t", "time"},
+    {"drive_turns", "turns of the magnet"},
+    {"omega", "drive ω"},
+    {"Phi", "Φ"},
+    {"alpha", "α"},
+    {"n_alpha", "n_α"},
+    {"B_alpha", "B_α"},
+    {"V_alpha", "V_α"},
+    {"w_x", "W_x"},
+    {"w_y", "W_y"},
+    {"w_z", "W_z"},
+    {"B", "field |B|"},
+    {"angle", "angle of n and B"},
+    {"slip", "slip of the contact |V|"},
+    {"spin", "spin W·n"},
+    {"load", "load"},
+    {"friction", "friction |f|"},
+    {"friction_use", "|f| over what static friction could take"},
+    {"sticking", "contact: 1 rolls, 0 slips"},
+    {"z", "height over the plate"},
+    {"friction_power", "power lost to friction"},
+    {"drive_power", "power of the drive"},
+};
+
+/* The words for a name: those of the table, or the name with blanks for points and underscores. */
+static void find_words(const word *table, size_t count, const char *name, int keep_marks, char *words,
+                       size_t size)
+{
+    for (size_t i = 0; i < count; ++i)
+        if (strcmp(table[i].name, name) == 0) {
+            (void)snprintf(words, size, "%s", table[i].words);
+            return;
+        }
+    (void)snprintf(words, size, "%s", name);
+    for (char *c = words; *c && !keep_marks; ++c)
+        if (*c == '.' || *c == '_')
+            *c = ' ';
+}
+
+static fst_quantity labelled(double factor, const char *words, const char *unit)
+{
+    fst_quantity quantity = {.factor = factor};
+    char symbols[32];
+    fst_unit_symbols(unit, symbols, sizeof symbols);
+    if (symbols[0] && strcmp(symbols, "1") != 0)
+        (void)snprintf(quantity.label, sizeof quantity.label, "%.90s (%s)", words, symbols);
+    else
+        (void)snprintf(quantity.label, sizeof quantity.label, "%.90s", words);
+    return quantity;
+}
+
+/* The drive is a frequency in Hz or the scaled angular velocity ω. */
+static fst_quantity drive(int in_hertz, int to_hertz, double time)
+{
+    const double factor = in_hertz == to_hertz ? 1.0 : in_hertz ? FST_TWO_PI * time : 1.0 / (FST_TWO_PI * time);
+    return to_hertz ? labelled(factor, "drive frequency", "Hz") : labelled(factor, "drive ω", "gamma");
+}
+
+static fst_quantity length(const char *words, int in_metres, fst_shown_units units, double unit)
+{
+    if (units == FST_SHOWN_AS_GIVEN)
+        units = in_metres ? FST_SHOWN_LAB : FST_SHOWN_SCALED;
+    if (units == FST_SHOWN_SCALED)
+        return labelled(in_metres ? 1.0 / unit : 1.0, words, "l");
+    return labelled((in_metres ? 1.0 : unit) * (units == FST_SHOWN_LAB ? 1e3 : 1.0), words,
+                    units == FST_SHOWN_LAB ? "mm" : "m");
+}
+
+fst_quantity fst_quantity_of_parameter(const char *key, fst_shown_units units, const fst_scales *scales)
+{
+    const fst_param_info *info = fst_param_at(fst_param_find(key));
+    char words[96];
+    find_words(parameters, sizeof parameters / sizeof parameters[0], key, 0, words, sizeof words);
+    if (strcmp(key, "drive.frequency") == 0)
+        return drive(1, units != FST_SHOWN_SCALED, scales->time);
+    if (strcmp(key, "drive.omega") == 0)
+        return drive(0, units == FST_SHOWN_LAB || units == FST_SHOWN_SI, scales->time);
+    if (info->unit == FST_UNIT_LENGTH || strcmp(key, "start.r") == 0)
+        return length(words, info->unit == FST_UNIT_LENGTH, units, scales->length);
+    if (info->unit == FST_UNIT_FIELD && units != FST_SHOWN_SI)
+        return labelled(1e3, words, "mT");
+    if (info->unit == FST_UNIT_SPEED && units != FST_SHOWN_SI)
+        return labelled(1e3, words, "mm/s");
+    if (info->unit == FST_UNIT_MASS && units != FST_SHOWN_SI)
+        return labelled(1e3, words, "g");
+    const int plain = info->kind != FST_KIND_REAL || info->unit == FST_UNIT_NUMBER;
+    return labelled(1.0, words, plain ? "" : fst_unit_name(info->unit));
+}
+
+fst_quantity fst_quantity_of_result(const char *key, const char *unit, fst_shown_units units,
+                                    const fst_scales *scales)
+{
+    char words[96];
+    const char *name;
+    find_words(results, sizeof results / sizeof results[0], key, 0, words, sizeof words);
+    const double factor = fst_unit_shown(unit, units, scales, &name);
+    /* Circlings stand beside the drive's frequency, so both are turns a second. */
+    const int circling = strcmp(key, "mean_alpha_dot") == 0 || strcmp(key, "mean_phi_dot") == 0;
+    if (circling && name != unit) {
+        const size_t used = strlen(words);
+        (void)snprintf(words + used, sizeof words - used, "/2π");
+        return labelled(factor / FST_TWO_PI, words, "Hz");
+    }
+    return labelled(factor, words, name);
+}
+
+fst_quantity fst_quantity_of_column(const fst_column_info *column, fst_shown_units units,
+                                    const fst_params *params)
+{
+    const fst_scales scales = fst_scales_of(params);
+    char words[96];
+    const char *name;
+    find_words(columns, sizeof columns / sizeof columns[0], column->name, 1, words, sizeof words);
+    const double factor = fst_column_shown(column, units, &scales, &name);
+    if (strcmp(column->name, "load") == 0 && params->plate_gravity > 0.0)
+        return labelled(scales.length / (scales.time * scales.time * params->plate_gravity), words,
+                        "weights of the bead");
+    if (strcmp(column->name, "omega") == 0 && name != column->unit)
+        return labelled(factor / FST_TWO_PI, "drive frequency", "Hz");
+    return labelled(factor, words, name);
+}
+
+fst_shown_units fst_units_of_parameter(const char *key)
+{
+    const fst_param_info *info = fst_param_at(fst_param_find(key));
+    return info->kind == FST_KIND_REAL && info->unit != FST_UNIT_NUMBER && info->unit != FST_UNIT_ANGLE
+               ? FST_SHOWN_LAB
+               : FST_SHOWN_SCALED;
+}

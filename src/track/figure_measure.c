@@ -1,0 +1,418 @@
+/* figure_measure.c - a measured track as a picture, with the path of a scene laid over it.
+ *
+ *    path on the plate       | path in the frame that turns with the magnet
+ *    ------------------------+---------------------------------------------
+ *    r against alpha         | what the fit leaves of r, over time
+ *
+ * A bead's path in the laboratory does not close, and two paths of nearly the same rates part after a few
+ * turns.  In the magnet's frame both are closed curves.  The scene's curve is known by the part u of its
+ * period, from 0 to 1; the phase of the festoons says which u belongs to which frame, and one angle, where the
+ * magnet was at the film's begin, is found by laying the curves over each other.
+ */
+#include <festoon/festoon_tools.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/constants.h"
+#include "base/error.h"
+#include "draw/figure_file.h"
+#include "draw/style.h"
+
+enum { WIDTH = 1000, HEIGHT = 900, CURVE = 512 };
+
+/* A track on the plate, about its centre. */
+typedef struct plane_track {
+    size_t count;
+    size_t *row;
+    double *t, *x, *y;
+    const char *unit;
+    const char *clock; /* "s" or "frames" */
+} plane_track;
+
+/* The scene's closed curve in the magnet's frame: places at u = i/CURVE. */
+typedef struct closed_curve {
+    double x[CURVE], y[CURVE];
+    double mean_r, std_r, festoons; /* of the run, in the unit of the places */
+    double phase;                   /* by which u is ahead of wave_hz (t - wave_origin) */
+    double angle;                   /* of the magnet at t = wave_origin */
+} closed_curve;
+
+/* ---------------------------------------------------------------- the track on the plate */
+
+static double time_of(const fst_track *track, size_t i)
+{
+    return isfinite(track->fps) ? track->t[i] : (double)(track->frame[i] - track->frame[0]);
+}
+
+static fst_status place_track(const fst_track *track, const fst_measurement *m, plane_track *p,
+                              fst_error *error)
+{
+    *p = (plane_track){.unit = m->length_unit, .clock = isfinite(track->fps) ? "s" : "frames"};
+    p->row = malloc((track->rows + 1) * sizeof *p->row);
+    p->t = malloc(3 * (track->rows + 1) * sizeof *p->t);
+    if (!p->row || !p->t) {
+        free(p->row);
+        free(p->t);
+        return fst_fail(error, FST_NO_MEMORY, "", "no memory for a figure of %zu frames", track->rows);
+    }
+    p->x = p->t + track->rows + 1;
+    p->y = p->x + track->rows + 1;
+    for (size_t i = 0; i < track->rows; ++i) {
+        if (track->flag[i] == FST_FRAME_LOST)
+            continue;
+        const double x = track->x[i] - m->centre[0], y = track->y[i] - m->centre[1];
+        p->row[p->count] = i;
+        p->t[p->count] = time_of(track, i);
+        p->x[p->count] = m->stretch[0] * x + m->stretch[1] * y;
+        p->y[p->count++] = m->stretch[1] * x + m->stretch[2] * y;
+    }
+    return FST_OK;
+}
+
+/* The angle by which the magnet turned since wave_origin, counter-clockwise in a film that is not mirrored. */
+static double magnet_angle(const fst_measurement *m, double t)
+{
+    return FST_TWO_PI * m->drive_from_track_hz * (t - m->wave_origin);
+}
+
+/* 1, or -1 where the film shows the magnet turning clockwise: then the paths are mirrored. */
+static double handedness(const fst_measurement *m)
+{
+    return (m->bead_frequency_hz > 0) == (m->filmed_sense > 0) ? 1.0 : -1.0;
+}
+
+/* A place in the magnet's frame. */
+static void in_magnet(const fst_measurement *m, double t, double x, double y, double place[2])
+{
+    const double angle = magnet_angle(m, t), c = cos(angle), s = sin(angle);
+    y *= handedness(m);
+    place[0] = c * x + s * y;
+    place[1] = c * y - s * x;
+}
+
+static double fitted_r(const fst_measurement *m, double t)
+{
+    double r = m->wave_mean;
+    for (int k = 0; k < FST_WAVE_LIMIT; ++k) {
+        const double angle = FST_TWO_PI * (k + 1) * m->wave_hz * (t - m->wave_origin);
+        r += m->wave_cos[k] * cos(angle) + m->wave_sin[k] * sin(angle);
+    }
+    return r;
+}
+
+/* ---------------------------------------------------------------- the scene */
+
+typedef struct samples {
+    double *t, *x, *y;
+    size_t count, room;
+} samples;
+
+static fst_status keep_sample(void *user, const fst_sample *sample, fst_error *error)
+{
+    samples *s = user;
+    if (s->count == s->room) {
+        const size_t room = s->room ? 2 * s->room : 4096;
+        double **const arrays[] = {&s->t, &s->x, &s->y};
+        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; ++i) {
+            double *longer = realloc(*arrays[i], room * sizeof *longer);
+            if (!longer)
+                return fst_fail(error, FST_NO_MEMORY, "", "no memory for %zu samples", room);
+            *arrays[i] = longer;
+        }
+        s->room = room;
+    }
+    s->t[s->count] = sample->t;
+    s->x[s->count] = sample->state[FST_X];
+    s->y[s->count++] = sample->state[FST_Y];
+    return FST_OK;
+}
+
+/* The last period of the samples, at even steps of u. */
+static int take_period(const samples *s, double period, double length, closed_curve *curve)
+{
+    const double from = s->count > 1 ? s->t[s->count - 1] - period : 0.0;
+    size_t i = 0;
+    if (s->count < 2 || from < s->t[0])
+        return 0;
+    for (int k = 0; k < CURVE; ++k) {
+        const double t = from + period * k / CURVE;
+        while (i + 2 < s->count && s->t[i + 1] <= t)
+            ++i;
+        const double part = (t - s->t[i]) / (s->t[i + 1] - s->t[i]);
+        curve->x[k] = length * (s->x[i] + part * (s->x[i + 1] - s->x[i]));
+        curve->y[k] = length * (s->y[i] + part * (s->y[i + 1] - s->y[i]));
+    }
+    return 1;
+}
+
+/* Where a curve is at the part u of its period. */
+static void curve_at(const closed_curve *curve, double u, double place[2])
+{
+    const double at = (u - floor(u)) * CURVE;
+    const int i = (int)at % CURVE, j = (i + 1) % CURVE;
+    const double part = at - floor(at);
+    place[0] = curve->x[i] + part * (curve->x[j] - curve->x[i]);
+    place[1] = curve->y[i] + part * (curve->y[j] - curve->y[i]);
+}
+
+/* Find the phase of the festoons and the magnet's angle by which the curve lies on the track. */
+static void lay_over(closed_curve *curve, const plane_track *p, const fst_measurement *m)
+{
+    const int k = m->symmetry == 2 ? 2 : 1;
+    double c = 0, s = 0, re = 0, im = 0;
+    for (int i = 0; i < CURVE; ++i) {
+        const double r = sqrt(curve->x[i] * curve->x[i] + curve->y[i] * curve->y[i]);
+        c += r * cos(FST_TWO_PI * k * i / CURVE);
+        s += r * sin(FST_TWO_PI * k * i / CURVE);
+    }
+    curve->phase = (atan2(s, c) - atan2(m->wave_sin[k - 1], m->wave_cos[k - 1])) / (FST_TWO_PI * k);
+    for (size_t i = 0; i < p->count; ++i) {
+        double seen[2], there[2];
+        in_magnet(m, p->t[i], p->x[i], p->y[i], seen);
+        curve_at(curve, m->wave_hz * (p->t[i] - m->wave_origin) + curve->phase, there);
+        re += seen[0] * there[0] + seen[1] * there[1];
+        im += seen[1] * there[0] - seen[0] * there[1];
+    }
+    curve->angle = atan2(im, re);
+}
+
+static fst_status follow_scene(const fst_params *compare, const fst_measurement *m,
+                               const fst_progress *progress, closed_curve *curve, fst_error *error)
+{
+    fst_params params = *compare;
+    fst_run_options options = fst_default_run_options();
+    fst_run_result run;
+    samples s = {NULL, NULL, NULL, 0, 0};
+    char text[32];
+    double length = 1.0;
+    (void)snprintf(text, sizeof text, "%.17g Hz", m->drive_from_track_hz);
+    fst_status status = fst_params_set(&params, "drive.frequency", text, error);
+    params.run_samples = params.run_samples < 128 ? 128 : params.run_samples;
+    options.sink = (fst_run_sink){&s, keep_sample, NULL};
+    options.progress = progress;
+    options.sample_from = fst_run_discard(&params);
+    if (status == FST_OK)
+        status = fst_run(&params, &options, &run, error);
+    if (status == FST_OK && run.regime != FST_REGIME_COUNTER_ROTATING && run.regime != FST_REGIME_COROTATING)
+        status = fst_fail(error, FST_NO_CONVERGENCE, "fst_figure_measurement.compare",
+                          "the scene's bead is %s at %.6g Hz: it has no path that could be laid over the track",
+                          fst_regime_name(run.regime), m->drive_from_track_hz);
+    if (status == FST_OK) {
+        (void)snprintf(text, sizeof text, "1 %s", m->length_unit);
+        length = fst_parse_value(text, FST_UNIT_LENGTH, &length, NULL) == FST_OK
+                     ? params.magnet_half_length / length
+                     : m->mean_r / run.mean_r;
+        *curve = (closed_curve){
+            .mean_r = length * run.mean_r, .std_r = length * run.std_r, .festoons = run.festoons};
+        if (!take_period(&s, run.period, length, curve))
+            status = fst_fail(error, FST_NO_CONVERGENCE, "fst_figure_measurement.compare",
+                              "the scene's run is shorter than a turn against the magnet: raise run.periods");
+    }
+    free(s.t);
+    free(s.x);
+    free(s.y);
+    return status;
+}
+
+/* ---------------------------------------------------------------- data */
+
+static void write_track(fst_figure_file *figure, const fst_track *track, const fst_measurement *m,
+                        const plane_track *p)
+{
+    const int turning = isfinite(m->drive_from_track_hz);
+    for (int rejected = 0; rejected < 2; ++rejected) {
+        fst_figure_block(figure, rejected ? "rejected" : "seen", "t x y X Y alpha/degrees r r-fit");
+        size_t written = 0;
+        for (size_t i = 0; i < p->count; ++i) {
+            if ((track->flag[p->row[i]] == FST_FRAME_REJECTED) != rejected)
+                continue;
+            double place[2] = {NAN, NAN};
+            const double r = sqrt(p->x[i] * p->x[i] + p->y[i] * p->y[i]);
+            const double alpha = atan2(p->y[i], p->x[i]) * 180.0 / FST_PI;
+            if (turning)
+                in_magnet(m, p->t[i], p->x[i], p->y[i], place);
+            (void)fprintf(figure->data, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", p->t[i], p->x[i], p->y[i],
+                          place[0], place[1], alpha < 0 ? alpha + 360.0 : alpha, r, r - fitted_r(m, p->t[i]));
+            ++written;
+        }
+        if (written == 0)
+            (void)fputs("nan nan nan nan nan nan nan nan\n", figure->data);
+    }
+}
+
+/* The scene's path in the laboratory for two turns of the bead, and once round in the magnet's frame. */
+static void write_curve(fst_figure_file *figure, const fst_measurement *m, const plane_track *p,
+                        const closed_curve *curve)
+{
+    enum { STEPS = 1200 };
+    fst_figure_block(figure, "model-lab", "x y");
+    const double from = p->t[0], last = p->t[p->count - 1];
+    const double to = fmin(last, from + 2.0 / fabs(m->bead_frequency_hz));
+    for (int i = 0; i <= STEPS; ++i) {
+        double place[2];
+        const double t = from + (to - from) * i / STEPS;
+        curve_at(curve, m->wave_hz * (t - m->wave_origin) + curve->phase, place);
+        const double angle = magnet_angle(m, t) + curve->angle, c = cos(angle), s = sin(angle);
+        (void)fprintf(figure->data, "%.9g %.9g\n", c * place[0] - s * place[1],
+                      handedness(m) * (s * place[0] + c * place[1]));
+    }
+    fst_figure_block(figure, "model-magnet", "X Y");
+    const double c = cos(curve->angle), s = sin(curve->angle);
+    for (int i = 0; i <= CURVE; ++i) {
+        const double x = curve->x[i % CURVE], y = curve->y[i % CURVE];
+        (void)fprintf(figure->data, "%.9g %.9g\n", c * x - s * y, s * x + c * y);
+    }
+}
+
+/* ---------------------------------------------------------------- script */
+
+static void begin_panel(FILE *script, int column, int row, const char *x_label, const char *y_label, int square)
+{
+    const double left = 0.085 + 0.5 * column, bottom = row == 0 ? 0.47 : 0.075;
+    const double wide = 0.395, tall = row == 0 ? wide * WIDTH / HEIGHT : 0.29;
+    (void)fprintf(script,
+                  "set lmargin at screen %.4f\nset rmargin at screen %.4f\nset bmargin at screen %.4f\n"
+                  "set tmargin at screen %.4f\nset xlabel '%s'\nset ylabel '%s'\nset size %s\nunset key\n"
+                  "set autoscale\nset xtics auto\n",
+                  left, left + wide, bottom, bottom + tall, x_label, y_label, square ? "ratio -1" : "noratio");
+}
+
+/* Draw columns of the track, rejected places as crosses. */
+static void plot_places(FILE *script, const char *columns)
+{
+    (void)fprintf(
+        script,
+        "plot data index 'seen' using %s with points pt 7 ps 0.28 lc rgb '%s' title 'track', \\\n"
+        "     data index 'rejected' using %s with points pt 2 ps 0.8 lw 1.5 lc rgb '%s' title 'rejected'",
+        columns, fst_colour_code(FST_COLOUR_BLUE), columns, fst_colour_code(FST_COLOUR_BLACK));
+}
+
+static void plot_curve(FILE *script, const char *name)
+{
+    (void)fprintf(script, ", \\\n     data index '%s' using 1:2 with lines lw 1.6 lc rgb '%s' title 'scene'",
+                  name, fst_colour_code(FST_COLOUR_VERMILION));
+}
+
+/* The range of r, or of what the fit leaves of it, from the places that were not rejected. */
+static void write_range_of_r(FILE *script, const plane_track *p, const fst_track *track,
+                             const fst_measurement *m, int residual)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < p->count; ++i) {
+        const double r = sqrt(p->x[i] * p->x[i] + p->y[i] * p->y[i]) - (residual ? fitted_r(m, p->t[i]) : 0.0);
+        if (track->flag[p->row[i]] != FST_FRAME_SEEN)
+            continue;
+        low = fmin(low, r);
+        high = fmax(high, r);
+    }
+    const double margin = 0.05 * (high - low);
+    (void)fprintf(script, "set yrange [%.9g:%.9g]\n", low - margin, high + margin);
+}
+
+static void write_ranges(FILE *script, const plane_track *p, const fst_track *track)
+{
+    double most = 0.0;
+    for (size_t i = 0; i < p->count; ++i)
+        if (track->flag[p->row[i]] == FST_FRAME_SEEN)
+            most = fmax(most, sqrt(p->x[i] * p->x[i] + p->y[i] * p->y[i]));
+    (void)fprintf(script, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", -1.1 * most, 1.1 * most,
+                  -1.1 * most, 1.1 * most);
+}
+
+static void write_script(fst_figure_file *figure, const fst_track *track, const fst_measurement *m,
+                         const plane_track *p, const closed_curve *curve)
+{
+    char x[48], y[48], t[48];
+    FILE *script = figure->script;
+    (void)snprintf(x, sizeof x, "x (%s)", p->unit);
+    (void)snprintf(y, sizeof y, "y (%s)", p->unit);
+    begin_panel(script, 0, 0, x, y, 1);
+    write_ranges(script, p, track);
+    plot_places(script, "2:3");
+    if (curve)
+        plot_curve(script, "model-lab");
+    (void)fputc('\n', script);
+    if (isfinite(m->drive_from_track_hz)) {
+        begin_panel(script, 1, 0, "in the frame of the magnet, up to an angle", "", 1);
+        write_ranges(script, p, track);
+        (void)fputs("set key top right samplen 1.5\n", script);
+        plot_places(script, "4:5");
+        if (curve)
+            plot_curve(script, "model-magnet");
+        (void)fputc('\n', script);
+    }
+    (void)snprintf(y, sizeof y, "r (%s)", p->unit);
+    begin_panel(script, 0, 1, "α (degrees)", y, 0);
+    (void)fputs("set xrange [0:360]\nset xtics 90\n", script);
+    write_range_of_r(script, p, track, m, 0);
+    plot_places(script, "6:7");
+    (void)snprintf(t, sizeof t, "time (%s)", p->clock);
+    (void)snprintf(y, sizeof y, "r - fit (%s)", p->unit);
+    (void)fputc('\n', script);
+    begin_panel(script, 1, 1, t, y, 0);
+    write_range_of_r(script, p, track, m, 1);
+    plot_places(script, "1:8");
+    (void)fputs("\nunset multiplot\n", script);
+}
+
+/* The head: what was measured and, below it, what the scene has. */
+static void write_head(fst_figure_file *figure, const fst_measurement *m, const closed_curve *curve,
+                       int same_scale)
+{
+    char title[512];
+    int length =
+        snprintf(title, sizeof title, "<r> = %.5g ± %.2g %s,  δr = %.4g ± %.2g %s,  bead %.5g Hz,  N = %.5g",
+                 m->mean_r, m->mean_r_error, m->length_unit, m->std_r, m->std_r_error, m->length_unit,
+                 m->bead_frequency_hz, m->festoons);
+    if (curve && length > 0 && (size_t)length < sizeof title)
+        (void)snprintf(title + length, sizeof title - (size_t)length,
+                       "\nscene: %s<r> = %.5g %s,  δr = %.4g %s,  N = %.5g",
+                       same_scale ? "drawn with the same " : "", curve->mean_r, m->length_unit, curve->std_r,
+                       m->length_unit, curve->festoons);
+    (void)fputs("set multiplot title ", figure->script);
+    for (char *line = title; line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL) {
+        char one[512];
+        (void)snprintf(one, sizeof one, "%.*s", (int)strcspn(line, "\n"), line);
+        if (line != title)
+            (void)fputs(".\"\\n\".", figure->script);
+        fst_figure_quote(figure, one);
+    }
+    (void)fputs(" noenhanced\nset grid ls 101\n", figure->script);
+}
+
+fst_status fst_figure_measurement(const fst_track *track, const fst_measurement *m, const fst_params *compare,
+                                  const char *out, const fst_progress *progress, fst_error *error)
+{
+    plane_track p = {.count = 0};
+    fst_figure_file figure;
+    closed_curve *curve = NULL;
+    if (compare && m->motion != FST_MOTION_TURNING)
+        return fst_fail(
+            error, FST_BAD_INPUT, "fst_figure_measurement.compare",
+            "the track tells no festoons: a scene can only be laid over a bead that turns against the magnet");
+    fst_status status = place_track(track, m, &p, error);
+    if (status != FST_OK)
+        return status;
+    if (compare) {
+        curve = malloc(sizeof *curve);
+        status = curve ? follow_scene(compare, m, progress, curve, error)
+                       : fst_fail(error, FST_NO_MEMORY, "", "no memory for a figure");
+        if (status == FST_OK)
+            lay_over(curve, &p, m);
+    }
+    if (status == FST_OK)
+        status = fst_figure_begin(&figure, out, WIDTH, HEIGHT, error);
+    if (status == FST_OK) {
+        write_track(&figure, track, m, &p);
+        if (curve)
+            write_curve(&figure, m, &p, curve);
+        write_head(&figure, m, curve, strcmp(m->length_unit, "px") == 0);
+        write_script(&figure, track, m, &p, curve);
+        status = fst_figure_finish(&figure, error);
+    }
+    free(curve);
+    free(p.row);
+    free(p.t);
+    return status;
+}
