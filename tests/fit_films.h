@@ -1,5 +1,4 @@
-/* fit_films.h - synthetic tracks: a run's samples, with noise, tilt and exposure on top; include it after
- * cmocka.h. */
+/* fit_films.h - synthetic tracks: a run's samples, with noise, tilt and exposure on top. */
 #ifndef FESTOON_TESTS_FIT_FILMS_H
 #define FESTOON_TESTS_FIT_FILMS_H
 

@@ -2,7 +2,7 @@
 #ifndef FST_TRACK_FIT_BOOTSTRAP_H
 #define FST_TRACK_FIT_BOOTSTRAP_H
 
-#include "track/fit.h"
+#include "track/fit_search.h"
 #include "track/fit_errors.h"
 
 /* Draw the used numbers anew, fit, again and again; fills in fit->bootstrap_count and the parameters' errors.

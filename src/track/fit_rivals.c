@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "track/fit.h"
+#include "track/fit_search.h"
 
 static int is_dry(int law)
 {

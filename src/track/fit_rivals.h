@@ -2,7 +2,7 @@
 #ifndef FST_TRACK_FIT_RIVALS_H
 #define FST_TRACK_FIT_RIVALS_H
 
-#include "track/fit.h"
+#include "track/fit_search.h"
 
 /* Fill in the rivals of a fit that is otherwise reported. */
 fst_status fit_rivals(const fit_problem *p, fit_stage *stage, const fst_points *points,

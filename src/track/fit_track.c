@@ -26,6 +26,7 @@
 #include "track/fit.h"
 #include "track/fit_errors.h"
 #include "track/fit_path.h"
+#include "track/fit_search.h"
 #include "track/fit_words.h"
 
 /* The unknowns behind the parameters. */
