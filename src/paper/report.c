@@ -53,10 +53,10 @@ static void write_summary(FILE *out, const fst_paper_state *paper)
     write_counts(out, "All", NULL, &all);
     fputs("</tbody></table>\n", out);
     if (all.undecided > 0)
-        fprintf(
-            out,
-            "<p class=\"fine\">Undecided, since runs had not settled: %d of the verdicts “not reproduced”.</p>\n",
-            all.undecided);
+        fprintf(out,
+                "<p class=\"fine\">Undecided, since runs had not settled: %d of the verdicts “not "
+                "reproduced”.</p>\n",
+                all.undecided);
     int dry[3] = {0};
     const int about_motion = fst_paper_dry_tally(paper, dry);
     if (about_motion > 0)
