@@ -185,7 +185,7 @@ char *fst_scene_json(const fst_params *params)
 }
 
 /* The field and its gradient times the units `field` and `slope`, under two keys. */
-static void add_field(json_t *document, const double b[3], const double grad[3][3], double field, double slope,
+static void add_field(json_t *document, const double b[3], double grad[3][3], double field, double slope,
                       const char *field_key, const char *slope_key)
 {
     double scaled[4][3];
