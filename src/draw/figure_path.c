@@ -14,6 +14,7 @@ enum {
     SCALE = 64, /* for the scale of colours */
     INSET = 190,
     ARROWS = 110,        /* about as many arrows as a picture can bear */
+    ARROWS_ALONG = 18,   /* and as a path from side to side can */
     MOST_SAMPLES = 6000, /* more samples would only make the file larger */
     MOST_PARTS = 8       /* pieces of the path between two samples */
 };
@@ -228,11 +229,19 @@ static void write_arrows(fst_figure_file *figure, const fst_view *view, const pa
                          const double box[4])
 {
     size_t inside = 0;
+    double x_before = 0.0, y_before = 0.0, length = 0.0;
     for (size_t row = view->first; row < view->last; ++row) {
         double x = columns->x[row] * view->length, y = columns->y[row] * view->length;
-        inside += is_within(box, x, y) ? 1 : 0;
+        if (is_within(box, x, y)) {
+            length += inside ? hypot(x - x_before, y - y_before) : 0.0;
+            ++inside;
+        }
+        x_before = x;
+        y_before = y;
     }
-    size_t stride = inside / ARROWS + 1;
+    /* A path that is short in the picture would vanish below so many. */
+    const double fitting = 1.0 + ARROWS_ALONG * length / (box[1] - box[0]);
+    const size_t stride = inside / (fitting < ARROWS ? (size_t)fitting : ARROWS) + 1;
     double scale = LONGEST_ARROW * (box[1] - box[0]);
     fst_figure_block(figure, "moment", "x y dx dy: the horizontal part of n");
     for (size_t row = view->first; row < view->last; row += stride)
