@@ -434,6 +434,20 @@ static void smooth_curves_converge(void **state)
     assert_true(worst[0] < 1e-3 && worst[0] > 7.0 * worst[1]);
 }
 
+/* A relaxation time that diverges at the end of a branch: the long last piece does not bulge beyond its ends.
+ */
+static void smooth_curves_do_not_bulge(void **state)
+{
+    (void)state;
+    enum { PARTS = 8, COUNT = 5 };
+    const double x[COUNT] = {9.0, 8.5, 8.0, 7.7, 7.6}, y[COUNT] = {1.0, 1.2, 2.0, 6.0, 5600.0};
+    double to_x[COUNT * PARTS], to_y[COUNT * PARTS];
+    const size_t drawn = fst_smooth(x, y, COUNT, PARTS, 25.0, 5600.0, to_x, to_y);
+    assert_int_equal(drawn, PARTS * (COUNT - 1) + 1);
+    for (size_t i = 0; i < drawn; i++)
+        assert_true(to_x[i] >= 7.6 && to_x[i] <= 9.0 && to_y[i] >= 0.99 && to_y[i] <= 5600.0);
+}
+
 /* The units of a laboratory: the paper's numbers (l = 23 mm, gamma = 312.5 1/s, 0.5 g). */
 static void units_of_the_laboratory(void **state)
 {
@@ -478,6 +492,7 @@ int main(void)
         cmocka_unit_test(units_have_their_symbols),
         cmocka_unit_test(units_of_the_laboratory),
         cmocka_unit_test(smooth_curves_converge),
+        cmocka_unit_test(smooth_curves_do_not_bulge),
         cmocka_unit_test_teardown(long_titles_take_lines, clear_directory),
         cmocka_unit_test_teardown(the_sketch_names_its_angles, clear_directory),
         cmocka_unit_test_teardown(every_kind_in_every_format, clear_directory),

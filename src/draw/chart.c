@@ -85,10 +85,48 @@ static void write_tics(FILE *script, const char *tics, int named)
     (void)fputc('\n', script);
 }
 
+/* The range of one coordinate of some curves, where an end of the wanted one is left to them (NAN).  Curves of
+ * the other ordinate do not count. */
+static void range_of(const fst_chart_curve *curves, int count, int abscissa, int right, double *low,
+                     double *high)
+{
+    double least = INFINITY, greatest = -INFINITY;
+    for (int c = 0; c < count; ++c)
+        for (size_t i = 0; i < curves[c].count && curves[c].right == right; ++i) {
+            const double value = abscissa ? curves[c].x[i] : curves[c].y[i];
+            if (isfinite(value)) {
+                least = fmin(least, value);
+                greatest = fmax(greatest, value);
+            }
+        }
+    *low = isfinite(*low) ? *low : least;
+    *high = isfinite(*high) ? *high : greatest;
+}
+
+/* The range of the left ordinate: the panel's, or one about values that are equal or tiny and nearly equal,
+ * whose tics gnuplot would number with more digits than there is room for; 0: gnuplot finds one. */
+static int own_range(const fst_chart_panel *panel, double *low, double *high)
+{
+    *low = panel->low;
+    *high = panel->high;
+    if (isfinite(*low) && isfinite(*high))
+        return 1;
+    *low = *high = NAN;
+    range_of(panel->curves, panel->curve_count, 0, 0, low, high);
+    const double greatest = fmax(fabs(*low), fabs(*high)), span = *high - *low;
+    if (!isfinite(greatest) || (span > 0.0 && (greatest > 1e-3 || span > 0.5 * greatest)))
+        return 0;
+    const double more = greatest > 0.0 ? 0.2 * greatest : 1.0;
+    *low = *low > 0.0 && greatest < 1e-3 ? 0.0 : *low - more;
+    *high = *high < 0.0 && greatest < 1e-3 ? 0.0 : *high + more;
+    return 1;
+}
+
 static void write_ordinates(FILE *script, const fst_chart_panel *panel)
 {
-    if (isfinite(panel->low) && isfinite(panel->high))
-        (void)fprintf(script, "set yrange [%.9g:%.9g]\n", panel->low, panel->high);
+    double low, high;
+    if (own_range(panel, &low, &high))
+        (void)fprintf(script, "set yrange [%.9g:%.9g]\n", low, high);
     else
         (void)fputs("set autoscale y\n", script);
     (void)fprintf(script, "set ytics %s\n", panel->tics ? panel->tics : "auto");
@@ -259,24 +297,6 @@ static void write_range(FILE *script, const char *axis, double low, double high)
     (void)(isfinite(high) ? fprintf(script, "%.9g]\n", high) : fputs("*]\n", script));
 }
 
-/* The range of one coordinate of some curves, where an end of the wanted one is left to them (NAN).  Curves of
- * the other ordinate do not count. */
-static void range_of(const fst_chart_curve *curves, int count, int abscissa, int right, double *low,
-                     double *high)
-{
-    double least = INFINITY, greatest = -INFINITY;
-    for (int c = 0; c < count; ++c)
-        for (size_t i = 0; i < curves[c].count && curves[c].right == right; ++i) {
-            const double value = abscissa ? curves[c].x[i] : curves[c].y[i];
-            if (isfinite(value)) {
-                least = fmin(least, value);
-                greatest = fmax(greatest, value);
-            }
-        }
-    *low = isfinite(*low) ? *low : least;
-    *high = isfinite(*high) ? *high : greatest;
-}
-
 /* An inset has room for four numbers on an axis. */
 static void write_sparse_tics(FILE *script, const fst_chart_inset *inset, int abscissa)
 {
@@ -344,11 +364,14 @@ static void write_panel(fst_figure_file *figure, const fst_chart *chart, const l
 /* About how many letters the widest number of an ordinate has. */
 static int number_letters(const fst_chart_panel *panel)
 {
-    double low = panel->low, high = panel->high;
-    range_of(panel->curves, panel->curve_count, 0, 0, &low, &high);
+    double low, high;
+    if (!own_range(panel, &low, &high))
+        range_of(panel->curves, panel->curve_count, 0, 0, &low, &high);
     const double greatest = fmax(fabs(low), fabs(high));
     if (!(high > low) || !isfinite(greatest))
         return 0;
+    if (greatest < 1e-3)
+        return 6; /* a digit times a power of ten */
     const double step = fst_round_step((high - low) / 6.0);
     const int whole = greatest >= 10.0 ? 1 + (int)floor(log10(greatest)) : 1;
     const int decimals = step < 1.0 ? 1 + (int)ceil(-log10(step) - 1e-9) : 0;

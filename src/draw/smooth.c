@@ -36,6 +36,13 @@ static double slope(const curve *c, const double *values, size_t i)
     return i < middle ? rise - bend * before : next + bend * after;
 }
 
+/* Whether a chord is so much longer than those beside it that a cubic would bulge out of its ends' ranges. */
+static int is_leap(const curve *c, size_t i)
+{
+    const double before = i > 0 ? chord(c, i - 1) : 0.0, after = i + 2 < c->count ? chord(c, i + 1) : 0.0;
+    return c->count > 2 && chord(c, i) > 4.0 * fmax(before, after);
+}
+
 size_t fst_smooth(const double *x, const double *y, size_t count, int parts, double wide, double tall,
                   double *to_x, double *to_y)
 {
@@ -46,11 +53,16 @@ size_t fst_smooth(const double *x, const double *y, size_t count, int parts, dou
         repeated = repeated || !(chord(&c, i) > 0.0);
     for (size_t i = 0; i + 1 < count; ++i) {
         const double h = chord(&c, i);
+        const int leap = is_leap(&c, i);
         for (int k = 0; k < (repeated ? 1 : parts); ++k, ++used) {
             const double s = (double)k / parts, t = 1.0 - s;
             to_x[used] = x[i];
             to_y[used] = y[i];
-            if (k == 0)
+            if (leap) {
+                to_x[used] = t * x[i] + s * x[i + 1];
+                to_y[used] = t * y[i] + s * y[i + 1];
+            }
+            if (k == 0 || leap)
                 continue;
             to_x[used] = t * t * ((1.0 + 2.0 * s) * x[i] + s * h * slope(&c, x, i)) +
                          s * s * ((1.0 + 2.0 * t) * x[i + 1] - t * h * slope(&c, x, i + 1));
