@@ -150,7 +150,7 @@ const fst_statement fst_dry_facts[FST_FACT_COUNT] = {
     [MANY] =
         FACT("many", "Festoons at 19.9 Hz (the paper's simulation has 15)", 15.0, "", 2, 1.0, FST_RULE_NUMBER),
     [BELL] = FACT("bell", "The bead circles most slowly at about", 16.0, "Hz", 1, 1.0, FST_RULE_NUMBER),
-    [RATE] = FACT("rate", "Rate of friction (dry: ⟨f·V⟩/⟨V²⟩, median from 10 to 20 Hz)", 312.5, "1/s", 0, 1.0,
+    [RATE] = FACT("rate", "Rate of friction (dry: ⟨f·V⟩/⟨V²⟩, median from 10 to 20 Hz)", 312.5, "1/s", 1, 1.0,
                   FST_RULE_MAGNITUDE),
 };
 
