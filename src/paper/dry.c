@@ -227,17 +227,21 @@ static double ejected_share(const law_runs *runs)
     return all > 0 ? 100.0 * gone / all : NAN;
 }
 
+/* The lowest drive from which on all runs circle against the magnet, from either start. */
 static double onset_of(const law_runs *runs)
 {
-    double from = NAN;
+    double from = NAN, above = NAN; /* the drive last met, and the one before it */
     for (int i = runs->count - 1; i >= 0; --i) {
         const fst_run_result *result = &runs->of[i]->result;
         /* A viscous motion that has not settled has no means: it does not tell. */
         if (result->frequency_hz > 20.0 ||
             (result->regime == FST_REGIME_UNDECIDED && isnan(result->mean_alpha_dot)))
             continue;
+        const int same = result->frequency_hz == from;
         if (fst_outcome(result) != FST_OUTCOME_AGAINST)
-            break;
+            return same ? above : from;
+        if (!same)
+            above = from;
         from = result->frequency_hz;
     }
     return from;

@@ -26,7 +26,8 @@ typedef struct halving_curves {
 static void mark_swings(const double *r, halving_curves *c)
 {
     int found = 0, top = -1;
-    for (int i = 1; i + 1 < FST_HALVING_SHOWN && found < 2; ++i) {
+    /* From a quarter of a turn on: nearer to the axis a name would lie over its numbers. */
+    for (int i = FST_HALVING_PARTS / 4; i + 1 < FST_HALVING_SHOWN && found < 2; ++i) {
         if (r[i] > r[i - 1] && r[i] >= r[i + 1])
             top = i;
         if (!(r[i] < r[i - 1] && r[i] <= r[i + 1]) || top < 0)
