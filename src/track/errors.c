@@ -280,11 +280,18 @@ static void take_rates(const track_work *work, const track_drive *drive, const d
     measured->radial_frequency_hz = a * work->f0;
     measured->radial_frequency_hz_error = a * sqrt(variance[F0]);
     measured->drive_from_track_hz = magnet;
-    measured->drive_from_track_hz_error = error_of(variance[F0] + variance[BEAD] + 2.0 * joint);
+    measured->drive_from_track_hz_error =
+        hypot(error_of(variance[F0] + variance[BEAD] + 2.0 * joint), drive->drive_apart);
     measured->festoons = a * (1.0 + magnet / bead);
     const double by_f0 = a / bead, by_bead = -sign * a * work->f0 / (bead * bead); /* by sign*bead */
     measured->festoons_error = error_of(by_f0 * by_f0 * variance[F0] + by_bead * by_bead * variance[BEAD] +
                                         2.0 * by_f0 * by_bead * joint);
+    /* Without a clock of its own the film tells ratios alone: f_bead = f_drive/(N/a - 1). */
+    if (drive->clock_follows) {
+        measured->bead_frequency_hz_error = bead * measured->festoons_error / fabs(measured->festoons - a);
+        measured->radial_frequency_hz_error = a * measured->bead_frequency_hz_error;
+    }
+    measured->festoons_error = hypot(measured->festoons_error, drive->festoons_apart);
 }
 
 /* Keep what was fitted to r. */
