@@ -110,6 +110,35 @@ static void test_coverage_beside_a_wild_number(void **state)
     assert_in_range(c.outliers, FITS, FITS + 3);
 }
 
+/* A lost minus makes a number wrong by a thousand errors: it drags the plain search far away, and the robust
+ * one must find back without it. */
+static void test_lost_sign_beside_a_wild_number(void **state)
+{
+    (void)state;
+    const fst_params start = fst_default_params();
+    fst_params params = start;
+    fst_points points;
+    fst_fit fit;
+    fst_error error;
+    params.model_kappa = 1.6;
+    params.friction_gamma = 300.0;
+    assert_true(fit_table(&params, 10.7, 19.9, 8, &points));
+    points.rows[3].value[FST_MEASURED_MEAN_R] += 3e-3;
+    points.rows[6].value[FST_MEASURED_BEAD_FREQUENCY] *= -1.0;
+    fst_fit_options options = fst_default_fit_options();
+    options.free = keys;
+    options.free_count = 2;
+    if (fst_fit_points(&start, &points, &options, &fit, &error) != FST_OK)
+        fail_msg("%s: %s", error.where, error.sentence);
+    assert_int_equal(fit.outlier_count, 2);
+    assert_true(fit.outliers[0].line == 5 && fit.outliers[0].what == FST_MEASURED_MEAN_R);
+    assert_true(fit.outliers[1].line == 8 && fit.outliers[1].what == FST_MEASURED_BEAD_FREQUENCY);
+    assert_true(fabs(fit.parameters[0].value / params.model_kappa - 1.0) < 1e-4);
+    assert_true(fabs(fit.parameters[1].value / params.friction_gamma - 1.0) < 1e-4);
+    fst_fit_free(&fit);
+    free(points.rows);
+}
+
 int main(void)
 {
     if (!fst_fit_present() || !fst_lapack_present())
@@ -117,6 +146,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_coverage),
         cmocka_unit_test(test_coverage_beside_a_wild_number),
+        cmocka_unit_test(test_lost_sign_beside_a_wild_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

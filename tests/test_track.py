@@ -70,6 +70,7 @@ class Track(films.OnFilms):
         self.refused(good, "--scale|plate 460 mm", "--scale", "disc 5 mm")
         self.refused(good, "--scale|outside", "--scale", "1,2:3,4000=5mm")
         self.refused(good, "--distance|mm", "--scale", "plate 120 mm", "--distance", "1mm")
+        self.refused(good, "--distance|more than 0", "--distance", "-3mm")
         self.refused(good, ".png", "--picture", self.folder / "x.jpg")
         self.refused(good, ".mp4", "--overlay", self.folder / "x.avi")
         self.refused(good, "cannot write", "--overlay", self.folder / "nowhere" / "x.mp4", status=1)

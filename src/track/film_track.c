@@ -401,6 +401,9 @@ fst_status fst_film_track(const char *film, const fst_film_track_options *option
     if (t.options->cookie != OPTIONS_COOKIE)
         return fst_fail(error, FST_BAD_INPUT, "fst_film_track",
                         "the options were not made by fst_default_film_track_options()");
+    if (!isnan(t.options->distance) && !(t.options->distance > 0.0 && t.options->distance <= 1e3))
+        return fst_fail(error, FST_BAD_INPUT, "fst_film_track_options.distance",
+                        "%g m from the camera to the plate: more than 0, at most 1 km", t.options->distance);
     const fst_c_locale locale = fst_c_locale_enter();
     fst_status status = t.options->scale ? track_scale_read(t.options->scale, &t.scale, error) : FST_OK;
     if (status == FST_OK && t.options->csv)

@@ -64,15 +64,31 @@ static int any_stands_out(const fit_problem *p, const fit_estimate *e)
     return 0;
 }
 
-/* The robust search, from where the plain one ended and from the beginning; leaves the better of both. */
+/* The robust sum at a place. */
+static fst_status robust_sum_at(fit_problem *p, const double *u, double *sum, fst_error *error)
+{
+    const int m = fit_residual_count(p);
+    double *f = calloc((size_t)m, sizeof *f);
+    const fst_status status =
+        f ? fit_residuals(p, u, f, error) : fst_fail(error, FST_NO_MEMORY, "fst_fit", "out of memory");
+    *sum = status == FST_OK ? fit_sum_of_squares(f, m) : INFINITY;
+    free(f);
+    return status;
+}
+
+/* The robust search, from the beginning, and from where the plain one ended; leaves the better of both.  A very
+ * wild number drags the plain search to where hardly any motion is like the measured one, and a search from
+ * there lasts long: it is left out where the one from the beginning is much better than that place. */
 static fst_status search_robustly(fit_problem *p, double *u, fst_error *error)
 {
     double from_start[FIT_MOST] = {0.0}, from_here[FIT_MOST], one, other;
     memcpy(from_here, u, sizeof from_here);
     p->robust = CAUCHY;
-    fst_status status = fit_solve(p, from_here, &one, error);
+    fst_status status = robust_sum_at(p, u, &one, error);
     if (status == FST_OK)
         status = fit_solve(p, from_start, &other, error);
+    if (status == FST_OK && other > 0.5 * one)
+        status = fit_solve(p, from_here, &one, error);
     if (status == FST_OK)
         memcpy(u, one <= other ? from_here : from_start, sizeof from_here);
     p->robust = 0.0;
