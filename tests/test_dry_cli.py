@@ -73,7 +73,7 @@ class Neighbours(Case):
 
     def refused_by(self, command, *sets):
         words = [word for text in sets for word in ("--set", text)]
-        return self.refused(command, *DRY, "--set", "run.periods=20", "--set", "run.discard=5", *words, status=1)
+        return self.refused(command, *DRY, "--set", "run.periods=10", "--set", "run.discard=5", *words, status=1)
 
     def test_flights_and_held_discs(self):
         flies = ("friction.mu=0.2", "drive.frequency=84Hz", "impact.restitution=0")
