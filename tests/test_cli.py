@@ -547,6 +547,31 @@ class ForPeople(Case):
         out = self.good("branch", "--kind", "locked", "--over", "drive.frequency=3:5.5")
         self.assertRegex(out, r"drive\.frequency = [\d.]+  omega = [\d.]+")
 
+    def test_field_in_tesla(self):
+        """A moment and kappa tell B0; the derivative over the height is dB/dZ."""
+        known = ["--set", "magnet.b0=40mT", "--set", "bead.moment=0.05"]
+        si = self.json("field", "--at", "10mm,5mm", "--units", "si", *known)
+        plain = self.json("field", "--at", "10mm,5mm", *known)
+        self.assertNotIn("b_tesla", plain)
+        self.assertEqual([si["b"], si["grad"]], [plain["b"], plain["grad"]])
+        for k in range(3):
+            self.assertAlmostEqual(si["b_tesla"][k], 0.04 * si["b"][k], delta=1e-15)
+            for i in range(3):
+                self.assertAlmostEqual(si["grad_tesla_per_m"][k][i], 0.04 / 0.023 * si["grad"][k][i], delta=1e-12)
+        low, high = (self.json("field", "--at", "10mm,5mm", "--units", "si", "--height", h, *known)["b_tesla"]
+                     for h in ("18.699mm", "18.701 mm"))
+        for k in range(3):
+            self.assertAlmostEqual((high[k] - low[k]) / 2e-6, si["grad_tesla_per_m"][k][2], delta=1e-5)
+        text = self.good("field", "--at", "10mm,5mm", "--units", "lab", "--height", "20mm", *known)
+        for part in ("20 mm over the magnet's mid-plane", "(mT)", "(mT/mm)", "B0 = 40 mT"):
+            self.assertIn(part, text)
+        unknown = self.json("field", "--at", "0,0", "--units", "si")
+        self.assertEqual([unknown["b_tesla"], unknown["grad_tesla_per_m"]], [[None] * 3, [[None] * 3] * 3])
+        self.assertIn("give bead.moment or magnet.b0", self.good("field", "--at", "0,0", "--units", "si"))
+        for height in ("0mm", "-1mm", "nan", "20 kg", ""):
+            self.bad(["field", "--at", "0,0", "--height", height], "--height", "18.7mm")
+        self.bad(["field", "--height", "20mm", "-o", self.path("f.svg")], "--height", "--at")
+
     def test_field_takes_lengths(self):
         self.assertEqual(self.json("field", "--at", "11.5mm,23 mm")["b"], self.json("field", "--at", "0.5,1")["b"])
         self.assertEqual(self.json("field", "--at", "1cm, -0.2")["b"], self.json("field", "--at", "10 mm,-0.2")["b"])

@@ -150,6 +150,8 @@ static void test_few_frames_a_second(void **state)
     m = measured(&motion, &film, motion.drive, NAN, &track);
     assert_true(isfinite(m.mean_r) && isnan(m.mean_r_error) && isnan(m.bead_frequency_hz_error) &&
                 warned(&m, "turns"));
+    assert_true(isfinite(m.festoons) && isnan(m.festoons_error) && isnan(m.drive_from_track_hz_error) &&
+                isnan(m.std_r_error) && isnan(m.tilt_deg_error));
     fst_track_free(&track);
     made_motion_free(&motion);
 }

@@ -94,10 +94,12 @@ class Points(Program):
         self.assertFalse(os.path.exists(self.path("no.svg")))
 
     def test_the_paper_in_words_over_a_branch(self):
+        """At 7 Hz the branch is unstable alone, which says nothing of a bead; where it passes the axis, at 8.9 Hz, the
+        bead's frequency jumps, and no line joins its two ends."""
         if not shutil.which("gnuplot"):
             self.skipTest("no gnuplot")
         branch = self.path("branch.json")
-        done = subprocess.run([FESTOON, "branch", "--kind", "counter", "--over", "drive.frequency=10Hz:21Hz", "-o", branch],
+        done = subprocess.run([FESTOON, "branch", "--kind", "counter", "--over", "drive.frequency=5Hz:21Hz", "-o", branch],
                               capture_output=True, text=True)
         if done.returncode == 1 and "LAPACK" in done.stderr:
             self.skipTest("no LAPACK")
@@ -105,7 +107,70 @@ class Points(Program):
         said = self.festoon("plot", branch, "--points", words, "-o", self.path("fig.svg")).stderr
         chi2, counted = re.search(r"chi\^2 = ([\d.]+) of (\d+) measured", said).groups()
         self.assertEqual(counted, "3")
+        before, joined = None, 0
+        with open(self.path("fig.dat"), encoding="utf-8") as file:
+            for line in file:
+                numbers = [float(word) for word in line.split()] if line[:1].isdigit() else []
+                if before and numbers and all(map(math.isfinite, before + numbers)):
+                    joined += 1
+                    if before[0] < 9.5 and numbers[0] < 9.5:
+                        self.assertLess(abs(numbers[1] - before[1]), 4)
+                before = numbers
+        self.assertGreater(joined, 20)
         self.assertLess(float(chi2), 3.0)
+
+
+class Readings(Program):
+    """What a film can be read as in more than one way."""
+
+    def measured(self, text, *words):
+        return json.loads(self.festoon("measure", self.write("film.csv", text), "--json", *words).stdout)
+
+    def assert_covers(self, found, key, truth):
+        self.assertLess(abs(found[key] - truth), 4 * found[key + "_error"], key)
+
+    def test_mirrored_film_of_four_festoons(self):
+        """2 (9.6 - 3.2) is 9.6 + 3.2: twice the rate of a bead that goes with the magnet is that of one against it."""
+        rows = tracks.places(sense=1, drive=9.6)
+        found = self.measured(tracks.own(rows), "--drive", "9.6Hz")
+        self.assert_covers(found, "bead_frequency_hz", -tracks.BEAD)
+        self.assert_covers(found, "festoons", 4.0)
+        self.assertIn("mirrored", " ".join(found["warnings"]))
+
+    def test_wrong_drive_makes_no_strange_clock(self):
+        """A bead of four festoons is not one of S2 in a film of 800 frames a second."""
+        found = self.measured(tracks.own(tracks.places(bead=3.5, drive=10.7)), "--drive", "12Hz")
+        self.assertAlmostEqual(found["fps"], 240.0, places=3)
+        self.assert_covers(found, "bead_frequency_hz", -3.5)
+        self.assertIn("frame rate", " ".join(found["warnings"]))
+
+    def test_folded_line_without_a_drive(self):
+        """17.2 Hz at 30 frames a second look like 12.8 Hz: both readings are told, and the error covers both."""
+        text = tracks.own(tracks.places(fps=30.0, drive=14.0, seconds=8.0), fps=30.0)
+        found = self.measured(text)
+        self.assertAlmostEqual(found["drive_from_track_hz"], 9.6, delta=0.01)
+        self.assert_covers(found, "drive_from_track_hz", 14.0)
+        self.assert_covers(found, "festoons", 1 + 14.0 / tracks.BEAD)
+        self.assertIn("alias", " ".join(found["warnings"]))
+        found = self.measured(text, "--drive", "14Hz")
+        self.assert_covers(found, "drive_from_track_hz", 14.0)
+        self.assertLess(found["drive_from_track_hz_error"], 0.01)
+        self.assertEqual(self.measured(tracks.own(tracks.places()))["warnings"], [])
+
+    def test_rates_by_the_drive_alone(self):
+        """Without a clock the error of the bead's rate has that of the clock in it."""
+        for seed in range(1, 7):
+            text = re.sub(r"(?m)^(\d+),[^,]*,", r"\1,", tracks.own(tracks.places(seed=seed))).replace("t [s],", "")
+            found = self.measured(text, "--drive", f"{tracks.DRIVE}Hz")
+            self.assert_covers(found, "bead_frequency_hz", -tracks.BEAD)
+            self.assertLess(found["bead_frequency_hz_error"], 0.001)
+
+    def test_oscillation_lost_in_the_exposure(self):
+        """What an exposure has blurred away is unknown."""
+        text = tracks.own(tracks.places(fps=20.0, seconds=8.0), fps=20.0)
+        found = self.measured(text, "--drive", f"{tracks.DRIVE}Hz", "--exposure", "49ms")
+        self.assertEqual((found["std_r"], found["std_r_error"], found["mean_r_error"]), (None, None, None))
+        self.assertIn("exposure", " ".join(found["warnings"]))
 
 
 class Figures(Program):

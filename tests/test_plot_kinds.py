@@ -144,9 +144,6 @@ class Series(Case):
             self.refused(wanted, "plot", track, *words)
         self.refused("never passes", "plot", self.folder / "slow.csv", "--kind", "section")
         self.refused("nearest is", "field", "--at", "1,1", "--units", "mm")
-        status, _, messages = run("field", "--at", "1,1", "--units", "lab")
-        self.assertEqual(status, 2)
-        self.assertIn("concerns the map", messages)
 
 
 class Branches(Case):

@@ -350,13 +350,83 @@ static void numbers_that_are_not_finite(void **state)
     }
 }
 
+/* The trajectory of three rows with its first `count` columns only. */
+static void write_old_file(const char *path, int hdf5, int count)
+{
+    const fst_column_info *columns[FST_COLUMN_COUNT];
+    double values[FST_COLUMN_COUNT];
+    const fst_params params = fst_default_params();
+    const fst_hdf5_module_table *module = NULL;
+    fst_hdf5_writer *writer = NULL;
+    fst_error error = {FST_OK, "", ""};
+    if (!hdf5) {
+        write_file(path, 3, 1);
+        size_t size;
+        char *contents = contents_of(path, &size);
+        contents[size] = '\0';
+        FILE *out = fopen(path, "w");
+        assert_non_null(out);
+        for (char *line = strtok(contents, "\n"); line; line = strtok(NULL, "\n")) {
+            for (int cut = count; line[0] != '#' && cut < FST_COLUMN_COUNT; cut++)
+                *strrchr(line, ',') = '\0';
+            (void)fprintf(out, "%s\n", line);
+        }
+        assert_int_equal(fclose(out), 0);
+        free(contents);
+        return;
+    }
+    for (int i = 0; i < FST_COLUMN_COUNT; i++)
+        columns[i] = fst_column_at(i);
+    char *scene = fst_scene_text(&params, 0);
+    assert_int_equal(fst_load_hdf5_module(&module, path, &error), FST_OK);
+    assert_int_equal(module->create(path, path, columns, count, scene, &writer, &error), FST_OK);
+    for (int i = 0; i < 3; i++) {
+        const fst_sample sample = sample_at(i);
+        fst_column_values(&sample, values);
+        assert_int_equal(module->row(writer, values, &error), FST_OK);
+    }
+    assert_int_equal(module->finish(writer, NULL, 1, &error), FST_OK);
+    free(scene);
+}
+
+/* A trajectory of before beads could fly is read, with a bead that stays on the plate; one that has only some
+ * of the columns of a flight is damaged. */
+static void files_without_flights(void **state)
+{
+    (void)state;
+    for (int e = fst_module_present(FST_HDF5_MODULE) ? 0 : 1; e < 2; e++) {
+        const char *path = path_of("t", endings[e]);
+        fst_table table;
+        fst_error error = {FST_OK, "", ""};
+        write_old_file(path, e == 0, column("z"));
+        if (fst_trajectory_read(path, &table, &error) != FST_OK)
+            fail_msg("%s: %s", error.where, error.sentence);
+        assert_int_equal(table.rows, 3);
+        for (int i = 0; i < 3; i++) {
+            CHECK_SAME_BITS(table.columns[column("t")][i], sample_at(i).t);
+            CHECK_SAME_BITS(table.columns[column("load")][i], sample_at(i).seen.load);
+            CHECK_SAME_BITS(table.columns[column("z")][i], 0.0);
+            CHECK_SAME_BITS(table.columns[column("vz")][i], 0.0);
+            CHECK_SAME_BITS(table.columns[column("flying")][i], 0.0);
+        }
+        fst_table_free(&table);
+        assert_int_equal(unlink(path), 0);
+        for (int count = column("z") - 1; count < FST_COLUMN_COUNT; count++) {
+            write_old_file(path, e == 0, count);
+            if (count != column("z"))
+                expect_refused(path, count < column("z") ? "the column" : "is missing");
+            assert_int_equal(unlink(path), 0);
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_give_back_every_bit),   cmocka_unit_test(discarding_leaves_nothing),
         cmocka_unit_test(bad_names_are_refused),       cmocka_unit_test(foreign_files_are_refused),
         cmocka_unit_test(cut_files_are_refused),       cmocka_unit_test(damaged_rows_are_refused),
-        cmocka_unit_test(numbers_that_are_not_finite),
+        cmocka_unit_test(numbers_that_are_not_finite), cmocka_unit_test(files_without_flights),
     };
     return cmocka_run_group_tests(tests, make_directory, remove_directory);
 }

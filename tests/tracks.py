@@ -84,7 +84,10 @@ def trk(rows, fps=240.0, pixels_per_unit=2000.0, angle=12.0):
 <!-- made by hand -->
 <object class="{package}.cabrillo.tracker.TrackerPanel">
 {prop("version", "string", "4.90")}
-<property name="clipcontrol" type="object"><object class="{package}.media.core.ClipControl">
+<property name="videoclip" type="object"><object class="{package}.media.core.VideoClip">
+<property name="video" type="object"><object class="{package}.media.core.ImageVideo">
+{prop("delta_t", "double", 100.0)}</object></property></object></property>
+<property name="clipcontrol" type="object"><object class="{package}.media.core.StepperClipControl">
 {prop("delta_t", "double", 1000 / fps)}</object></property>
 <property name="coords" type="object"><object class="{axes}">
 <property name="framedata" type="array" class="[L{axes}$FrameData;">

@@ -48,9 +48,6 @@ FST_API char *fst_schema_json(void);
 /* The scene in SI and its scaled groups: `scene`, `groups`. */
 FST_API char *fst_scene_json(const fst_params *params);
 
-/* The field at (x, y): `x`, `y`, `b` (3), `grad` (3 x 3), in the magnet's frame, scaled. */
-FST_API char *fst_field_json(const fst_model *model, double x, double y);
-
 /* `orbit`; `others` (NULL: not asked for) are further patterns with the same number of festoons. */
 FST_API char *fst_orbit_json(const fst_params *params, const fst_orbit *orbit, const fst_orbit *others,
                              size_t count);
@@ -89,6 +86,11 @@ FST_API fst_scales fst_scales_of(const fst_params *params);
  * wanted units, and the name of the unit there ("mm/s").  A unit without counterpart stays: the factor is 1. */
 FST_API double fst_unit_shown(const char *unit, fst_shown_units units, const fst_scales *scales,
                               const char **name);
+
+/* The field at (x, y), as JSON like the above: `x`, `y`, `b` (3), `grad` (3 x 3), in the magnet's frame,
+ * scaled; with FST_SHOWN_LAB or FST_SHOWN_SI also `b_tesla` and `grad_tesla_per_m`, null where B0 does not
+ * follow from the parameters. */
+FST_API char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units units);
 
 /* ------------------------------------------------------------------ trajectories */
 

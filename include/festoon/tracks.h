@@ -135,8 +135,8 @@ FST_API fst_status fst_figure_measurement(const fst_track *track, const fst_meas
 
 /* Lay measured points with their errors over the curves of a sweep over the drive (a database) or of a branch
  * over the drive (JSON), in mm and Hz, a panel for each quantity.  chi^2 is the sum over all measured numbers
- * for which there is a curve at their frequency (of a branch with several: the nearest stable one), and
- * `counted` says how many these are. */
+ * for which there is a curve at their frequency (of a branch: the nearest stable one), and `counted` says how
+ * many these are. */
 typedef struct fst_points_fit {
     double chi2;
     int counted, all;

@@ -8,6 +8,8 @@ static const option options[] = {
     JSON_OPTION,
     {"at", '\0', "X,Y",
      "the field and its gradient where the bead's centre is: in l, or with units as in 10mm,5mm"},
+    {"height", '\0', "H",
+     "at this height over the magnet's mid-plane, not the bead's centre's: 18.7mm, or in l"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
     UNITS_OPTION,
     {NULL, '\0', NULL, NULL},
@@ -19,31 +21,52 @@ static double above_rounding(double value, double greatest)
     return fabs(value) <= 1e-15 * greatest ? 0.0 : value;
 }
 
-static void print_text(FILE *out, const fst_model *model, double x, double y)
+static void print_text(FILE *out, const fst_model *model, const double at[2], const char *height,
+                       fst_shown_units units)
 {
     double b[3], grad[3][3];
     static const char *const axes[] = {"X", "Y", "Z"};
     const fst_groups groups = fst_model_groups(model);
+    const fst_scales scales = {groups.length_unit, groups.time_unit, groups.mass, groups.field_unit};
+    const char *tesla, *metre;
+    const double field = fst_unit_shown("B0", units, &scales, &tesla);
+    const double slope = field / fst_unit_shown("l", units, &scales, &metre);
     const double mm = 1e3 * groups.length_unit;
-    fst_field(model, x, y, b, grad);
+    fst_field(model, at[0], at[1], b, grad);
     double most = 0.0, steepest = 0.0;
     for (int i = 0; i < 3; ++i) {
         most = fmax(most, fabs(b[i]));
         for (int k = 0; k < 3; ++k)
             steepest = fmax(steepest, fabs(grad[i][k]));
     }
-    (void)fprintf(
-        out,
-        "at X = %g, Y = %g l (%g mm, %g mm), magnet's frame, at the height of a bead's centre on the plate\n",
-        x, y, mm * x, mm * y);
-    (void)fprintf(out, "   %16s   %s\n", "B (B0)", "dB/dX, dB/dY, dB/dZ (B0/l)");
+    (void)fprintf(out, "at X = %g, Y = %g l (%g mm, %g mm), magnet's frame, at the height ", at[0], at[1],
+                  mm * at[0], mm * at[1]);
+    if (height)
+        (void)fprintf(out, "of %g mm over the magnet's mid-plane\n", mm * groups.h);
+    else
+        (void)fprintf(out, "of a bead's centre on the plate\n");
+    (void)fprintf(out, "   %13s (%s)   dB/dX, dB/dY, dB/dZ (%s/%s)\n", "B", tesla, tesla, metre);
     for (int i = 0; i < 3; ++i)
-        (void)fprintf(out, "%s  %16.9g   %16.9g %16.9g %16.9g\n", axes[i], above_rounding(b[i], most),
-                      above_rounding(grad[i][0], steepest), above_rounding(grad[i][1], steepest),
-                      above_rounding(grad[i][2], steepest));
-    (void)fprintf(out, "|B| = %.9g B0\n", sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]));
+        (void)fprintf(out, "%s  %16.9g   %16.9g %16.9g %16.9g\n", axes[i], field * above_rounding(b[i], most),
+                      slope * above_rounding(grad[i][0], steepest),
+                      slope * above_rounding(grad[i][1], steepest),
+                      slope * above_rounding(grad[i][2], steepest));
+    (void)fprintf(out, "|B| = %.9g %s\n", field * sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]), tesla);
     if (!isnan(groups.field_unit))
         (void)fprintf(out, "B0 = %.6g mT\n", 1e3 * groups.field_unit);
+    else if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
+        (void)fprintf(out, "B0 is not known in tesla: give bead.moment or magnet.b0\n");
+}
+
+/* A number in l, or a length with its unit. */
+static fst_status read_length(const char *text, double length_unit, double *value)
+{
+    fst_error ignored;
+    if (fst_parse_value(text, FST_UNIT_NUMBER, value, &ignored) == FST_OK)
+        return FST_OK;
+    const fst_status status = fst_parse_value(text, FST_UNIT_LENGTH, value, &ignored);
+    *value /= length_unit;
+    return status;
 }
 
 /* Read X,Y: each a number in l, or a length with its unit. */
@@ -54,13 +77,9 @@ static fst_status read_place(const char *text, double length_unit, double at[2],
         char word[64];
         const char *from = i ? comma + 1 : text;
         const size_t length = i ? strlen(from) : (size_t)(comma - text);
-        fst_error ignored;
         (void)snprintf(word, sizeof word, "%.*s", (int)(length < 63 ? length : 63), from);
-        if (fst_parse_value(word, FST_UNIT_NUMBER, &at[i], &ignored) == FST_OK)
-            continue;
-        if (fst_parse_value(word, FST_UNIT_LENGTH, &at[i], &ignored) != FST_OK)
+        if (read_length(word, length_unit, &at[i]) != FST_OK)
             comma = NULL;
-        at[i] /= length_unit;
     }
     return comma ? FST_OK
                  : fail(error, FST_BAD_INPUT, "--at",
@@ -69,20 +88,40 @@ static fst_status read_place(const char *text, double length_unit, double at[2],
                         text);
 }
 
-static fst_status print_point(const arguments *given, const fst_params *params, FILE *out, fst_error *error)
+/* The scene's lines of dipoles know the height only as model.h, which places no bead here. */
+static fst_status set_height(const char *height, fst_params *params, fst_error *error)
+{
+    double h = 0.0;
+    if (!height)
+        return FST_OK;
+    if (read_length(height, params->magnet_half_length, &h) != FST_OK || !(h > 0) || !isfinite(h))
+        return fail(
+            error, FST_BAD_INPUT, "--height",
+            "\"%.60s\" must be a height over the magnet's mid-plane: a positive number in l or a length "
+            "with its unit, as in 18.7mm",
+            height);
+    params->model_h = h;
+    return FST_OK;
+}
+
+static fst_status print_point(const arguments *given, fst_params *params, fst_shown_units units, FILE *out,
+                              fst_error *error)
 {
     double at[2] = {0.0, 0.0};
     fst_model *model = NULL;
-    fst_status status = fst_model_new(params, &model, error);
+    const char *height = option_value(given, "height");
+    fst_status status = set_height(height, params, error);
+    if (status == FST_OK)
+        status = fst_model_new(params, &model, error);
     if (status == FST_OK)
         status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
     static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
     if (status == FST_OK && option_value(given, "json"))
-        status = print_and_free(fst_field_json(model, at[0], at[1]), out, error);
+        status = print_and_free(fst_field_json(model, at[0], at[1], units), out, error);
     else if (status == FST_OK)
-        print_text(out, model, at[0], at[1]);
+        print_text(out, model, at, height, units);
     fst_model_free(model);
     return status;
 }
@@ -95,17 +134,19 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "say where with --at X,Y, or draw a map with -o FIG.svg");
     if (option_value(given, "json") && !at)
         return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
-    if (option_value(given, "units") && !figure)
-        return fail(error, FST_BAD_INPUT, "--units", "it concerns the map: give -o FIG.svg");
+    if (option_value(given, "height") && !at)
+        return fail(error, FST_BAD_INPUT, "--height", "it concerns a point: give --at X,Y");
     fst_shown_units units;
     fst_status status = read_units(given, &units, error);
     if (status == FST_OK)
         status = read_scene(given, operand(given), &params, error);
+    if (units == FST_SHOWN_AS_GIVEN)
+        units = FST_SHOWN_SCALED;
+    const fst_params scene = params;
     if (status == FST_OK && at)
-        status = print_point(given, &params, out, error);
+        status = print_point(given, &params, units, out, error);
     if (status == FST_OK && figure)
-        status =
-            fst_figure_field(&params, units == FST_SHOWN_AS_GIVEN ? FST_SHOWN_SCALED : units, figure, error);
+        status = fst_figure_field(&scene, units, figure, error);
     if (status == FST_OK && figure)
         tell_written(figure, "");
     return status;
@@ -113,11 +154,14 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command field_command = {
     .name = "field",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... --at X,Y [--json] | -o FIG.(svg|pdf|png)",
+    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... --at X,Y [--height H] [--json] | -o FIG.(svg|pdf|png)",
     .summary = "The magnet's field and its gradient at a point, or drawn as a map",
-    .details = "Positions without a unit are in l (half length of the magnet's lines); they are in the "
-               "magnet's frame, at the height of the\n"
-               "bead's centre; fields in B0.\n",
+    .details =
+        "Positions without a unit are in l (half length of the magnet's lines); they are in the "
+        "magnet's frame, at the height of the\n"
+        "bead's centre; fields in B0. With --units lab or si they are in mT or tesla, where magnet.b0 or "
+        "bead.moment tells B0;\n"
+        "--json then has b_tesla and grad_tesla_per_m beside the scaled ones.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

@@ -137,7 +137,7 @@ static fst_status take_point(job *j, int index, const fst_measurement *m, fst_er
     if (fst_parse_value(one, FST_UNIT_LENGTH, &length, NULL) != FST_OK)
         return fail(error, FST_BAD_INPUT, path, "a table of points needs lengths, not pixels: give --scale");
     /* The drive of the track goes with the bead's rate by the same clock. */
-    const int told = isfinite(m->drive_from_track_hz) && isfinite(m->drive_from_track_hz_error);
+    const int told = isfinite(m->drive_from_track_hz);
     if (!told && j->drive_count == 0)
         return fail(error, FST_BAD_INPUT, path, "the track does not tell the drive: give it with --drive");
     fst_point *row = &j->rows[index];

@@ -318,7 +318,8 @@ static void write_inset(fst_figure_file *figure, const fst_chart_inset *inset, i
     for (int i = 0; i < inset->label_count; ++i) {
         (void)fputs("set label ", script);
         fst_figure_quote(figure, inset->labels[i].text);
-        (void)fprintf(script, " at first %.9g,%.9g font ',12' front\n", inset->labels[i].x, inset->labels[i].y);
+        (void)fprintf(script, " at first %.9g,%.9g center font ',12' front\n", inset->labels[i].x,
+                      inset->labels[i].y);
     }
     write_curves(figure, "inset", number, inset->curves, inset->curve_count);
     (void)fputs("unset label\nunset object 99\nset tics font ',12'\nset xtics auto\n", script);

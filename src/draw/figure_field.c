@@ -179,9 +179,10 @@ static void write_levels(fst_figure_file *figure, const field_map *map, double g
         const double y = 0.95 * map->half_height * i / STEPS;
         const double here = map->field * strength(map->model, x, y), level = step * floor(before / step);
         if (here < level && before >= level && level > 0.0 && y - labelled > LABEL_GAP * pixel) {
-            (void)fprintf(figure->script,
-                          "set label '%.4g' at %.6g,%.6g center front font ',11' textcolor rgb '#0b2a4a'\n",
-                          level, map->length * x, map->length * y);
+            (void)fprintf(
+                figure->script,
+                "set label '%.4g' at %.6g,%.6g center front boxed font ',11' textcolor rgb '#0b2a4a'\n", level,
+                map->length * x, map->length * y);
             labelled = y;
         }
         before = here;
@@ -195,13 +196,13 @@ static void write_distance(fst_figure_file *figure, const field_map *map)
     if (map->maximum_count != 2)
         return;
     const double(*m)[2] = map->maxima, u = map->length;
-    const double distance = 1e3 * map->groups.length_unit * hypot(m[0][0] - m[1][0], m[0][1] - m[1][1]);
+    const double distance = map->length * hypot(m[0][0] - m[1][0], m[0][1] - m[1][1]);
     (void)fprintf(
         figure->script,
-        "set label '%.1f mm' at %.6g,%.6g center offset character 0,0.9 front boxed font ',11'\n"
+        "set label '%.3g %s' at %.6g,%.6g center offset character 0,0.9 front boxed font ',11'\n"
         "set arrow from %.6g,%.6g to %.6g,%.6g heads size screen 0.010,20 front lc rgb 'black' lw 1.5\n",
-        distance, u * (m[0][0] + m[1][0]) / 2.0, u * (m[0][1] + m[1][1]) / 2.0, u * m[0][0], u * m[0][1],
-        u * m[1][0], u * m[1][1]);
+        distance, map->length_unit, u * (m[0][0] + m[1][0]) / 2.0, u * (m[0][1] + m[1][1]) / 2.0, u * m[0][0],
+        u * m[0][1], u * m[1][0], u * m[1][1]);
 }
 
 static void write_script(fst_figure_file *figure, const field_map *map, double greatest)

@@ -61,6 +61,8 @@ static void range_of(const double *values, size_t count, double least, double *l
     }
     const double span = *high - *low, usual = 1.12 * span;
     least = fmax(least, 1e-9 * fmax(fabs(*low), fabs(*high)) + 1e-12);
+    if (span == 0.0) /* a constant: its place on the scale, not its last digit */
+        least = fmax(least, *low == 0.0 ? 2.0 : 0.2 * fabs(*low));
     const double more = 0.5 * ((usual > least ? usual : least) - span);
     *low -= more;
     *high += more;

@@ -251,13 +251,26 @@ static void paint_side(cairo_t *pen, const fst_film_layout *layout, const fst_fi
 
 static void paint_scale_bar(cairo_t *pen, const fst_film_layout *layout, double scale)
 {
-    double length = 10.0 * scale, x = layout->width - 24.0 - length, y = layout->height - 24.0;
+    /* The greatest 1, 2 or 5 times a power of ten that takes up to a sixth of the width. */
+    static const double steps[] = {1.0, 2.0, 5.0};
+    const double most = layout->width / (6.0 * scale), power = pow(10.0, floor(log10(most)));
+    double millimetres = power;
+    for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i)
+        if (steps[i] * power <= most)
+            millimetres = steps[i] * power;
+    double length = millimetres * scale, x = layout->width - 24.0 - length, y = layout->height - 24.0;
+    char words[32];
+    cairo_text_extents_t extents;
     cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
     cairo_set_line_width(pen, 3.0);
     cairo_move_to(pen, x, y);
     cairo_line_to(pen, x + length, y);
     cairo_stroke(pen);
-    write_at(pen, x, y - 8.0, 0.026 * layout->height, "10 mm");
+    (void)snprintf(words, sizeof words, "%g mm", millimetres);
+    cairo_set_font_size(pen, 0.026 * layout->height);
+    cairo_text_extents(pen, words, &extents);
+    write_at(pen, layout->width - 24.0 - fmax(length, extents.x_advance), y - 8.0, 0.026 * layout->height,
+             words);
 }
 
 /* What the colours of the poles mean, and the arrow. */
@@ -294,8 +307,10 @@ static void paint_colour_bar(cairo_t *pen, const fst_film_layout *layout)
     }
     char low[32], high[32];
     cairo_text_extents_t extents;
-    (void)snprintf(low, sizeof low, "%.3g", layout->colour_low);
-    (void)snprintf(high, sizeof high, "%.3g", layout->colour_high);
+    /* Three digits, but 6020 and not 6.02e+03. */
+    (void)snprintf(low, sizeof low, fabs(layout->colour_low) < 1000.0 ? "%.3g" : "%.0f", layout->colour_low);
+    (void)snprintf(high, sizeof high, fabs(layout->colour_high) < 1000.0 ? "%.3g" : "%.0f",
+                   layout->colour_high);
     cairo_set_source_rgb(pen, 0.13, 0.13, 0.13);
     write_at(pen, x, y + 14.0 + size, size, low);
     cairo_text_extents(pen, high, &extents);

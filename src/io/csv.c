@@ -70,6 +70,7 @@ typedef struct csv_reader {
     char *scene;
     size_t scene_length;
     size_t room; /* rows for which there is memory */
+    int columns; /* of the file: an older one lacks the last */
     fst_table *table;
     fst_error *error;
 } csv_reader;
@@ -145,11 +146,16 @@ static fst_status read_head(csv_reader *reader)
 static fst_status check_names(csv_reader *reader)
 {
     const char *at = reader->line;
-    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
+    reader->columns = FST_COLUMN_COUNT;
+    for (int i = 0; i < reader->columns; ++i) {
         char expected[96], sentence[160];
         const fst_column_info *info = fst_column_at(i);
-        (void)snprintf(expected, sizeof expected, "%s [%s]%s", info->name, info->unit,
-                       i + 1 < FST_COLUMN_COUNT ? "," : "");
+        const int is_old_end = i + 1 == FST_COLUMNS_BEFORE_FLIGHTS;
+        const int length = snprintf(expected, sizeof expected, "%s [%s]", info->name, info->unit);
+        if (is_old_end && strcmp(at, expected) == 0)
+            reader->columns = FST_COLUMNS_BEFORE_FLIGHTS;
+        (void)snprintf(expected + length, sizeof expected - (size_t)length, "%s",
+                       i + 1 < reader->columns ? "," : "");
         if (strncmp(at, expected, strlen(expected)) != 0) {
             (void)snprintf(sentence, sizeof sentence, "the column \"%s [%s]\" is missing here", info->name,
                            info->unit);
@@ -182,12 +188,12 @@ static fst_status read_row(csv_reader *reader)
     if (status != FST_OK)
         return status;
     const char *at = reader->line;
-    for (int i = 0; i < FST_COLUMN_COUNT; ++i) {
+    for (int i = 0; i < reader->columns; ++i) {
         char *end, sentence[160];
         const double value = strtod(at, &end);
-        if (end == at || *end != (i + 1 < FST_COLUMN_COUNT ? ',' : '\0')) {
+        if (end == at || *end != (i + 1 < reader->columns ? ',' : '\0')) {
             (void)snprintf(sentence, sizeof sentence, "this is no row of %d numbers: the column %s is wrong",
-                           FST_COLUMN_COUNT, fst_column_at(i)->name);
+                           reader->columns, fst_column_at(i)->name);
             return fail_line(reader, sentence);
         }
         if (!isfinite(value)) {
@@ -200,6 +206,8 @@ static fst_status read_row(csv_reader *reader)
         reader->table->columns[i][reader->table->rows] = value;
         at = end + 1;
     }
+    for (int i = reader->columns; i < FST_COLUMN_COUNT; ++i)
+        reader->table->columns[i][reader->table->rows] = 0.0;
     ++reader->table->rows;
     return FST_OK;
 }

@@ -377,17 +377,34 @@ static fst_status read_root(hid_t file, const char *path, char **scene, int *com
     return FST_OK;
 }
 
-static fst_status read_file(hid_t file, const char *path, const fst_column_info *const *columns, int count,
-                            double **data, size_t *rows, char **scene, int *complete, fst_error *error)
+/* Columns from `needed` to `count` that an older file lacks: zeros. */
+static fst_status fill_columns(const char *path, int needed, int count, double **data, size_t rows,
+                               fst_error *error)
+{
+    for (int i = needed; i < count; ++i) {
+        data[i] = calloc(rows ? rows : 1, sizeof **data);
+        if (!data[i])
+            return fst_fail(error, FST_NO_MEMORY, path, "no memory for %zu rows", rows);
+    }
+    return FST_OK;
+}
+
+static fst_status read_file(hid_t file, const char *path, const fst_column_info *const *columns, int needed,
+                            int count, double **data, size_t *rows, char **scene, int *complete,
+                            fst_error *error)
 {
     fst_status status = FST_OK;
+    int later = 0;
     if (file < 0)
         status = fst_fail(error, FST_BAD_INPUT, path, "HDF5 cannot open this file: it is damaged or cut off");
     else
         status = read_root(file, path, scene, complete, error);
-    for (int i = 0; i < count && status == FST_OK; ++i)
+    for (int i = needed; i < count && status == FST_OK; ++i)
+        later += H5Lexists(file, columns[i]->name, H5P_DEFAULT) > 0;
+    const int there = later ? count : needed;
+    for (int i = 0; i < there && status == FST_OK; ++i)
         status = read_column(file, path, columns[i]->name, i == 0, &data[i], rows, error);
-    return status;
+    return status == FST_OK ? fill_columns(path, there, count, data, *rows, error) : status;
 }
 
 /* The whole file in memory. */
@@ -413,8 +430,8 @@ static fst_status load(const char *path, fst_hdf5_disk *disk, fst_error *error)
     return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason));
 }
 
-static fst_status read_all(const char *path, const fst_column_info *const *columns, int count, double **data,
-                           size_t *rows, char **scene, int *complete, fst_error *error)
+static fst_status read_all(const char *path, const fst_column_info *const *columns, int needed, int count,
+                           double **data, size_t *rows, char **scene, int *complete, fst_error *error)
 {
     fst_hdf5_disk disk;
     fst_status status = load(path, &disk, error);
@@ -423,7 +440,7 @@ static fst_status read_all(const char *path, const fst_column_info *const *colum
     quiet before = be_quiet();
     const hid_t access = fst_hdf5_access(&disk);
     const hid_t file = access >= 0 ? H5Fopen(path, H5F_ACC_RDONLY, access) : -1;
-    status = read_file(file, path, columns, count, data, rows, scene, complete, error);
+    status = read_file(file, path, columns, needed, count, data, rows, scene, complete, error);
     if (file >= 0)
         (void)H5Fclose(file);
     if (access >= 0)

@@ -22,9 +22,10 @@ typedef struct fst_hdf5_module_table {
     fst_status (*finish)(fst_hdf5_writer *writer, const char *result, int complete, fst_error *error);
     void (*abandon)(fst_hdf5_writer *writer);
 
-    /* Read all columns.  The caller frees columns[i] and `scene`, also on failure where they are not NULL. */
-    fst_status (*read)(const char *path, const fst_column_info *const *columns, int count, double **data,
-                       size_t *rows, char **scene, int *complete, fst_error *error);
+    /* Read all columns.  Where none of those from `needed` on is there, their data are zeros.  The caller frees
+     * data[i] and `scene`, also on failure where they are not NULL. */
+    fst_status (*read)(const char *path, const fst_column_info *const *columns, int needed, int count,
+                       double **data, size_t *rows, char **scene, int *complete, fst_error *error);
 } fst_hdf5_module_table;
 
 #endif

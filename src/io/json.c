@@ -184,17 +184,35 @@ char *fst_scene_json(const fst_params *params)
     return fst_json_dump(document, JSON_INDENT(2));
 }
 
-char *fst_field_json(const fst_model *model, double x, double y)
+/* The field and its gradient times the units `field` and `slope`, under two keys. */
+static void add_field(json_t *document, const double b[3], double grad[3][3], double field, double slope,
+                      const char *field_key, const char *slope_key)
+{
+    double scaled[4][3];
+    json_t *rows = json_array();
+    for (int k = 0; k < 3; ++k) {
+        scaled[0][k] = field * b[k];
+        for (int i = 0; i < 3; ++i)
+            scaled[1 + i][k] = slope * grad[i][k];
+    }
+    for (int i = 0; i < 3; ++i)
+        json_array_append_new(rows, fst_json_numbers(scaled[1 + i], 3));
+    json_object_set_new(document, field_key, fst_json_numbers(scaled[0], 3));
+    json_object_set_new(document, slope_key, rows);
+}
+
+char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units units)
 {
     double b[3], grad[3][3];
+    const fst_groups groups = fst_model_groups(model);
     fst_field(model, x, y, b, grad);
-    json_t *document = json_object(), *rows = json_array();
+    json_t *document = json_object();
     json_object_set_new(document, "x", fst_json_number(x));
     json_object_set_new(document, "y", fst_json_number(y));
-    json_object_set_new(document, "b", fst_json_numbers(b, 3));
-    for (int i = 0; i < 3; ++i)
-        json_array_append_new(rows, fst_json_numbers(grad[i], 3));
-    json_object_set_new(document, "grad", rows);
+    add_field(document, b, grad, 1.0, 1.0, "b", "grad");
+    if (units == FST_SHOWN_SI || units == FST_SHOWN_LAB)
+        add_field(document, b, grad, groups.field_unit, groups.field_unit / groups.length_unit, "b_tesla",
+                  "grad_tesla_per_m");
     return fst_json_dump(document, JSON_INDENT(2));
 }
 

@@ -198,8 +198,8 @@ static fst_status read_hdf5(const char *path, fst_table *table, fst_error *error
     if (status != FST_OK)
         return status;
     list_columns(columns);
-    status = module->read(path, columns, FST_COLUMN_COUNT, table->columns, &table->rows, &scene,
-                          &table->complete, error);
+    status = module->read(path, columns, FST_COLUMNS_BEFORE_FLIGHTS, FST_COLUMN_COUNT, table->columns,
+                          &table->rows, &scene, &table->complete, error);
     if (status == FST_OK)
         status = fst_scene_parse(scene, strlen(scene), path, &table->params, error);
     free(scene);

@@ -71,10 +71,12 @@ const char *fst_param_missing_choice(const fst_params *params, const char *key, 
     return NULL;
 }
 
-/* A key of the contact that is given, and what is wanted for it. */
+/* A key of the contact that is given, and what is wanted for it. Under another law it waits, as friction.mu does:
+ * scenes are compared by changing friction.law alone. */
 static fst_status check_contact(const fst_params *params, const char *key, double value, fst_error *error)
 {
-    const char *of, *choice = isnan(value) ? NULL : fst_param_missing_choice(params, key, &of);
+    const int waits = isnan(value) || params->friction_law != FST_FRICTION_COULOMB;
+    const char *of, *choice = waits ? NULL : fst_param_missing_choice(params, key, &of);
     if (!choice)
         return FST_OK;
     return fst_fail(error, FST_BAD_INPUT, key, "%s = %g has no effect with this %s: choose %s, or leave %s out",

@@ -150,7 +150,7 @@ const fst_statement fst_dry_facts[FST_FACT_COUNT] = {
     [MANY] =
         FACT("many", "Festoons at 19.9 Hz (the paper's simulation has 15)", 15.0, "", 2, 1.0, FST_RULE_NUMBER),
     [BELL] = FACT("bell", "The bead circles most slowly at about", 16.0, "Hz", 1, 1.0, FST_RULE_NUMBER),
-    [RATE] = FACT("rate", "Rate of friction (dry: ⟨f·V⟩/⟨V²⟩, median from 10 to 20 Hz)", 312.5, "1/s", 0, 1.0,
+    [RATE] = FACT("rate", "Rate of friction (dry: ⟨f·V⟩/⟨V²⟩, median from 10 to 20 Hz)", 312.5, "1/s", 1, 1.0,
                   FST_RULE_MAGNITUDE),
 };
 
@@ -227,17 +227,21 @@ static double ejected_share(const law_runs *runs)
     return all > 0 ? 100.0 * gone / all : NAN;
 }
 
+/* The lowest drive from which on all runs circle against the magnet, from either start. */
 static double onset_of(const law_runs *runs)
 {
-    double from = NAN;
+    double from = NAN, above = NAN; /* the drive last met, and the one before it */
     for (int i = runs->count - 1; i >= 0; --i) {
         const fst_run_result *result = &runs->of[i]->result;
         /* A viscous motion that has not settled has no means: it does not tell. */
         if (result->frequency_hz > 20.0 ||
             (result->regime == FST_REGIME_UNDECIDED && isnan(result->mean_alpha_dot)))
             continue;
+        const int same = result->frequency_hz == from;
         if (fst_outcome(result) != FST_OUTCOME_AGAINST)
-            break;
+            return same ? above : from;
+        if (!same)
+            above = from;
         from = result->frequency_hz;
     }
     return from;

@@ -24,11 +24,32 @@ static void write_fact(FILE *out, const fst_statement *about, int law, double va
     fputs("</td>", out);
 }
 
+/* Whether any fact is known of a law: a reduced paper computes one coefficient. */
+static int law_is_known(const fst_paper_state *paper, int law)
+{
+    for (int fact = 0; fact < FST_FACT_COUNT; ++fact)
+        if (isfinite(fst_dry_fact(paper, fact, law)))
+            return 1;
+    return 0;
+}
+
+/* Whether any run was done with a coefficient, or at a drive; -1 stands for all. */
+static int any_done(const fst_paper_dry *dry, int start, int mu, int drive)
+{
+    for (int m = 0; m < FST_DRY_MUS; ++m)
+        for (int d = 0; d < (start ? FST_DRY_SLOW : FST_DRY_DRIVES); ++d)
+            if ((mu < 0 || mu == m) && (drive < 0 || drive == d) && dry->map[m][d][start].done)
+                return 1;
+    return 0;
+}
+
 static void write_facts(FILE *out, const fst_paper_state *paper)
 {
     fputs("<table class=\"facts\"><thead><tr><th>the paper's words</th>", out);
     for (int law = 0; law < FST_DRY_LAWS; ++law) {
         char name[48];
+        if (!law_is_known(paper, law))
+            continue;
         fst_dry_law_name(law, name, sizeof name);
         fputs("<th>", out);
         fst_report_text(out, name);
@@ -43,7 +64,8 @@ static void write_facts(FILE *out, const fst_paper_state *paper)
         fst_statement_published(about, text, sizeof text);
         fprintf(out, ": <strong>%s</strong></td>", isfinite(about->published) ? text : "most");
         for (int law = 0; law < FST_DRY_LAWS; ++law)
-            write_fact(out, about, law, fst_dry_fact(paper, fact, law));
+            if (law_is_known(paper, law))
+                write_fact(out, about, law, fst_dry_fact(paper, fact, law));
         fputs("</tr>\n", out);
     }
     fputs("</tbody></table>\n", out);
@@ -69,13 +91,17 @@ static void write_map(FILE *out, const fst_paper_dry *dry, int start)
     fprintf(out, "<h3>%s</h3><table class=\"map\"><thead><tr><th>Hz</th>",
             start ? "Released at rest above a pole" : "Rolling at the start");
     for (int mu = 0; mu < FST_DRY_MUS; ++mu)
-        fprintf(out, "<th>μ = %g</th>", fst_dry_mus[mu]);
+        if (any_done(dry, start, mu, -1))
+            fprintf(out, "<th>μ = %g</th>", fst_dry_mus[mu]);
     fputs("</tr></thead><tbody>\n", out);
     const int drives = start ? FST_DRY_SLOW : FST_DRY_DRIVES;
     for (int drive = 0; drive < drives; ++drive) {
+        if (!any_done(dry, start, -1, drive))
+            continue;
         fprintf(out, "<tr><td class=\"n\">%g</td>", fst_dry_drives[drive]);
         for (int mu = 0; mu < FST_DRY_MUS; ++mu)
-            write_cell(out, &dry->map[mu][drive][start]);
+            if (any_done(dry, start, mu, -1))
+                write_cell(out, &dry->map[mu][drive][start]);
         fputs("</tr>\n", out);
     }
     fputs("</tbody></table>\n", out);
@@ -102,9 +128,8 @@ void fst_report_dry(FILE *out, const fst_paper_state *paper)
     fputs("<p class=\"fine\">✓ reproduced, ≈ close, ✗ not reproduced. The percentages are distances from the "
           "paper's number. Runs of 120 turns of the "
           "magnet, means after 80. What a bead does depends on its start too: two are shown. A question mark "
-          "stands where the motion had not settled. Motions that end in pure rolling settle ever more slowly, "
-          "and "
-          "which of them a bead ends in depends on its start.</p>\n",
+          "stands where the motion had not settled. Motions that end in pure rolling settle ever more "
+          "slowly.</p>\n",
           out);
     for (int start = 0; start < FST_DRY_STARTS; ++start)
         write_map(out, paper->dry, start);

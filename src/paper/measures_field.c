@@ -409,7 +409,7 @@ MEASURE(pull_weakens)
     pulls mean = pulls_of(paper, dynamics);
     (void)snprintf(
         note, size,
-        "pull inwards %+.4f at the ends of the magnet, %+.4f at its middle: the other way round. The bead is "
+        "pull inwards %+.2g at the ends of the magnet, %+.2g at its middle: the other way round. The bead is "
         "driven faster than it could swing by itself, so that r is greatest where the pull is",
         mean.inwards[0], mean.inwards[1]);
     return 100.0 * (mean.inwards[0] - mean.inwards[1]) / fmax(fabs(mean.inwards[0]), fabs(mean.inwards[1]));

@@ -469,12 +469,16 @@ MEASURE(halving_p)
 {
     const fst_halving_point *points = paper->halving[dynamics].points;
     enum { NEAREST = 4 };
+    int first = 0;
+    while (first + 1 < FST_HALVING_BELOW && isnan(points[first].order))
+        ++first;
     (void)snprintf(
         note, size,
-        "p falls from %.1f to %.2f over ten drives below the threshold; over the nearest %d of them the "
-        "exponent is "
-        "%.2f. p is a ratio of swings: a term linear in ⟨n_z⟩ joins the square root at once",
-        points[0].order, points[FST_HALVING_BELOW - 1].order, NEAREST,
+        "p falls from %.1f to %.2f over %d drives below the threshold, at which r swings twice a turn; over "
+        "the "
+        "nearest %d of them the exponent is %.2f. p is a ratio of swings: a term linear in ⟨n_z⟩ joins the "
+        "square root at once",
+        points[first].order, points[FST_HALVING_BELOW - 1].order, FST_HALVING_BELOW - first, NEAREST,
         exponent(paper, dynamics, offsetof(fst_halving_point, order), FST_HALVING_BELOW - NEAREST, NEAREST));
     return exponent(paper, dynamics, offsetof(fst_halving_point, order), 0, FST_HALVING_BELOW);
 }

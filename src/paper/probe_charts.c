@@ -18,6 +18,7 @@ typedef struct halving_curves {
     double line_x[LINE], line_y[LINE], time[FST_HALVING_SHOWN], threshold;
     double swing_x[2][2], swing_y[2][2]; /* from a maximum of r(t) to the next minimum, twice */
     fst_chart_label labels[2];
+    double low, high; /* of the inset, with room for the labels */
 } halving_curves;
 
 /* Mark two successive swings of r(t), from a maximum to the next minimum, by vertical lines: Delta+
@@ -25,7 +26,8 @@ typedef struct halving_curves {
 static void mark_swings(const double *r, halving_curves *c)
 {
     int found = 0, top = -1;
-    for (int i = 1; i + 1 < FST_HALVING_SHOWN && found < 2; ++i) {
+    /* From a quarter of a turn on: nearer to the axis a name would lie over its numbers. */
+    for (int i = FST_HALVING_PARTS / 4; i + 1 < FST_HALVING_SHOWN && found < 2; ++i) {
         if (r[i] > r[i - 1] && r[i] >= r[i + 1])
             top = i;
         if (!(r[i] < r[i - 1] && r[i] <= r[i + 1]) || top < 0)
@@ -36,8 +38,17 @@ static void mark_swings(const double *r, halving_curves *c)
         ++found;
     }
     int larger = c->swing_y[1][0] - c->swing_y[1][1] > c->swing_y[0][0] - c->swing_y[0][1];
+    double low = INFINITY, high = -INFINITY;
+    for (int i = 0; i < FST_HALVING_SHOWN; ++i) {
+        low = fmin(low, r[i]);
+        high = fmax(high, r[i]);
+    }
+    /* The names stand off the curve: one below the large swing, one above the small one. */
+    const double room = 0.34 * (high - low);
+    c->low = low - room;
+    c->high = high + room;
     for (int i = 0; i < 2; ++i)
-        c->labels[i] = (fst_chart_label){c->swing_x[i][0] + 0.06, 0.5 * (c->swing_y[i][0] + c->swing_y[i][1]),
+        c->labels[i] = (fst_chart_label){c->swing_x[i][0], i == larger ? low - 0.5 * room : high + 0.5 * room,
                                          i == larger ? "Δ+" : "Δ−"};
 }
 
@@ -89,8 +100,8 @@ static fst_status draw_halving(const fst_paper_halving *halving, const halving_c
                                    .top = 0.80,
                                    .x_low = 0.0,
                                    .x_high = 3.0,
-                                   .low = NAN,
-                                   .high = NAN,
+                                   .low = c->low,
+                                   .high = c->high,
                                    .x_label = "turns of the magnet",
                                    .label = "r (ℓ)",
                                    .curves = swings,

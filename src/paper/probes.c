@@ -97,8 +97,9 @@ static int is_settled(const returns *all)
     return fabs(last - before) < 1e-4 * last + 1e-6;
 }
 
-/* Find successive extremes of r, each by a parabola through three values, and p from them. */
-static double order_parameter(const double *r, int count)
+/* Find successive extremes of r in some turns of Phi, each by a parabola through three values, and p from them.
+ * NAN where r swings only once a turn: there are no two swings whose ratio p could be. */
+static double order_parameter(const double *r, int count, double turns)
 {
     double extremes[256];
     int found = 0;
@@ -117,7 +118,7 @@ static double order_parameter(const double *r, int count)
         double one = extremes[i] - extremes[i + 1], other = extremes[i + 2] - extremes[i + 3];
         sum += fmax(one, other) / fmin(one, other) - 1.0;
     }
-    return pairs > 0 ? sum / pairs : NAN;
+    return pairs > 0 && found > 3.0 * turns ? sum / pairs : NAN;
 }
 
 /* Follow the end of the motion in small steps: r, and n_z averaged over whole returns. */
@@ -126,7 +127,7 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
 {
     enum { COUNT = FST_HALVING_PARTS * LOOKED_AT };
     double r[COUNT], nz_sum = 0.0, step = p->period / FST_HALVING_PARTS, first_bead_angle = 0.0;
-    double partial = 0.0, weight = 0.0, nz_before = 0.0;
+    double partial = 0.0, weight = 0.0, nz_before = 0.0, turns = 0.0;
     fst_status status = FST_OK;
     for (int i = 0; i < COUNT && status == FST_OK; ++i) {
         fst_stop stop;
@@ -139,7 +140,7 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
             partial += 0.5 * (nz_before + info.state[FST_NZ]);
         nz_before = info.state[FST_NZ];
         /* Only whole turns of Phi count; the last complete one is kept. */
-        double turns = fabs(info.bead_angle - first_bead_angle) / (2.0 * FST_PI);
+        turns = fabs(info.bead_angle - first_bead_angle) / (2.0 * FST_PI);
         if (i > 0 && floor(turns) > weight) {
             weight = floor(turns);
             nz_sum = partial / i;
@@ -148,7 +149,7 @@ static fst_status watch_end(probe *p, double t0, fst_halving_point *point, doubl
     if (status != FST_OK)
         return status;
     point->mean_nz = fabs(nz_sum);
-    point->order = order_parameter(r, COUNT);
+    point->order = order_parameter(r, COUNT, turns);
     for (int i = 0; i < kept && i < COUNT; ++i)
         r_of_t[i] = r[i];
     return FST_OK;

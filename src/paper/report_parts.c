@@ -47,7 +47,7 @@ const char fst_report_head[] =
     "@media(max-width:34rem){main{padding:.8rem}.card{padding:.6rem}\n"
     "table{font-size:.8rem}.tally{font-size:.74rem}th,td{padding-right:.4rem}.narrow .badge,.narrow "
     "small{white-space:normal}\n"
-    "figure img{width:100vw;max-width:none;margin-left:-.8rem;border-width:1px 0}\n"
+    "figure img{width:calc(100% + 1.6rem);max-width:none;margin-left:-.8rem;border-width:1px 0}\n"
     ".facts thead{display:none}.facts tbody,.facts tr{display:block}\n"
     ".facts tr{display:grid;grid-template-columns:repeat(3,1fr);margin:.9rem 0}.facts "
     "td:first-child{grid-column:1/-1}\n"

@@ -21,6 +21,9 @@
  * paper's Table 1 has the same gap. */
 #define MANY_FESTOONS 9.0
 #define LEAST_FESTOONS 2.6 /* fewer are none: the line is a folded one, or no festoon */
+/* Lines that a film may have folded are sought up to here: stirrers turn no faster, patterns have no more. */
+#define GREATEST_DRIVE 30.0
+#define MOST_FESTOONS 40.0
 
 void track_warn(fst_measurement *measured, const char *format, ...)
 {
@@ -41,22 +44,36 @@ typedef struct match {
     double radial; /* the frequency of that line, unfolded */
 } match;
 
-/* The line of r nearest to where the drive puts it, with the bead's sense as filmed, or else reversed. */
+/* The line that is strongest by the number of festoons alone. */
+static int likely_lines(const track_work *work)
+{
+    return work->half || work->peak > MANY_FESTOONS * fabs(work->bead) ? 2 : 1;
+}
+
+/* The line of r nearest to where the drive puts it.  With four festoons 2 (f_drive - f_bead) is f_drive +
+ * f_bead: with the line that is unlikely for the number of festoons a mirrored film would look like a bead that
+ * goes round with the magnet, so that line, and then a sense other than the filmed one, must be nearer by a
+ * part of what it may miss.  A folded line tells no number of festoons. */
 static match best_match(const track_work *work, double drive, int filmed)
 {
     match best = {0, filmed, INFINITY, 0.0};
-    for (int turn = 0; turn < 2 && !(best.miss < 1.0); ++turn)
+    double least = INFINITY;
+    const int likely = likely_lines(work);
+    for (int turn = 0; turn < 2; ++turn)
         for (int lines = 1; lines <= 2; ++lines) {
             const int relative = turn == 0 ? filmed : -filmed;
             const double expected = lines * fabs(drive - relative * fabs(work->bead));
+            const int folded = expected > 0.5 * work->fps;
             /* A sense that contradicts the film needs better evidence than a folded line. */
-            if (turn > 0 && expected > 0.5 * work->fps)
+            if (turn > 0 && folded)
                 continue;
             const double miss = fabs(track_folded(expected, work->fps) - work->peak) /
                                 (OF_DRIVE * lines * drive + 0.3 / track_duration(work));
-            if (miss < best.miss) {
+            const double doubt = miss + 0.4 * turn + (lines != likely && !folded ? 0.6 : 0.0);
+            if (miss < 1.0 && doubt < least) {
                 const double turns = work->fps * round(expected / work->fps);
                 const double one = turns + work->peak, other = turns - work->peak;
+                least = doubt;
                 best = (match){lines, relative, miss,
                                fabs(one - expected) < fabs(other - expected) ? one : fabs(other)};
             }
@@ -86,12 +103,6 @@ static double slowness(const track_work *work, double drive, int lines, int rela
     return lines * drive / (work->peak + lines * relative * fabs(work->bead));
 }
 
-/* The line that is strongest by the number of festoons alone. */
-static int likely_lines(const track_work *work)
-{
-    return work->half || work->peak > MANY_FESTOONS * fabs(work->bead) ? 2 : 1;
-}
-
 /* Make time run by this factor faster. */
 static void correct_clock(track_work *work, double factor)
 {
@@ -118,6 +129,9 @@ static int find_clock(track_work *work, double drive, int filmed, track_drive *f
         const int lines = try == 1 ? 3 - likely : likely, locked = try == 2;
         if (locked ? filmed < 0 : !(work->peak > 0))
             continue;
+        /* S2 never has so few festoons, and of two clocks the wrong one may be usual too. */
+        if (try == 1 && lines == 2)
+            continue;
         const double factor = locked ? drive / fabs(work->bead) : slowness(work, drive, lines, filmed);
         if (!(factor > 0))
             continue;
@@ -128,6 +142,7 @@ static int find_clock(track_work *work, double drive, int filmed, track_drive *f
             continue;
         const double before = work->fps;
         correct_clock(work, usual / work->fps);
+        found->clock_follows = !timed;
         found->motion = locked ? FST_MOTION_LOCKED : FST_MOTION_TURNING;
         found->radial = locked ? NAN : work->peak;
         found->relative = locked ? 1 : filmed;
@@ -149,10 +164,6 @@ static int find_clock(track_work *work, double drive, int filmed, track_drive *f
                 "the file's %.6g (%.4g frames a second stored as %.4g?); all rates are those of the corrected "
                 "clock",
                 drive, usual, before, usual, before);
-        else
-            track_warn(measured,
-                       "the file has no clock: the frame rate, %.6g frames a second, follows from the drive",
-                       usual);
         return 1;
     }
     if (isfinite(stayed) && timed)
@@ -168,12 +179,46 @@ static int find_clock(track_work *work, double drive, int filmed, track_drive *f
 
 /* ---------------------------------------------------------------- cases */
 
+/* What else the line may be, if the film folded it: the drive would be another one, and so would the number of
+ * festoons.  A reading with the other symmetry is told too, but is too unlikely to be an error. */
+static void tell_aliases(const track_work *work, track_drive *found, fst_measurement *measured)
+{
+    const double bead = fabs(work->bead), shown = work->peak;
+    const int lines = likely_lines(work);
+    char others[FST_WARNING_SIZE / 3] = "";
+    size_t length = 0;
+    for (int i = 1; i <= 6; ++i) {
+        const double line = i % 2 ? (i + 1) / 2 * work->fps - shown : i / 2 * work->fps + shown;
+        for (int of = 1; of <= 2; ++of) {
+            const double festoons = line / bead, drive = line / of - bead;
+            const double least = of == 1 ? LEAST_FESTOONS : MANY_FESTOONS;
+            if (festoons < least || festoons > (of == 1 ? MANY_FESTOONS : MOST_FESTOONS) ||
+                drive > GREATEST_DRIVE)
+                continue;
+            if (of == lines) {
+                found->drive_apart = fmax(found->drive_apart, fabs(drive - (shown / lines - bead)));
+                found->festoons_apart = fmax(found->festoons_apart, fabs(festoons - shown / bead));
+            }
+            if (length + 16 < sizeof others)
+                length += (size_t)snprintf(others + length, sizeof others - length, "%s%.4g Hz",
+                                           length ? ", " : "", drive);
+        }
+    }
+    if (length > 0)
+        track_warn(
+            measured,
+            "%.4g frames a second may show a quicker oscillation of r as one at %.4g Hz (alias): the drive "
+            "may be %s as well as %.4g Hz; give it, or film at 120 or 240 frames a second",
+            work->fps, shown, others, shown / lines - bead);
+}
+
 /* Without a drive, or with one that agrees with nothing: what a bead that circles clockwise against a magnet
  * that turns counter-clockwise tells by itself. */
 static void by_itself(track_work *work, int filmed, track_drive *found, fst_measurement *measured)
 {
     const double bead = fabs(work->bead);
-    *found = (track_drive){FST_MOTION_UNKNOWN, 0, filmed, work->peak > 0 ? work->peak : NAN};
+    *found = (track_drive){
+        .motion = FST_MOTION_UNKNOWN, .relative = filmed, .radial = work->peak > 0 ? work->peak : NAN};
     if (work->peak == 0.0) {
         track_warn(measured, "r does not oscillate beyond the noise: how the magnet turns cannot be told");
     } else if (filmed > 0) {
@@ -197,6 +242,8 @@ static void by_itself(track_work *work, int filmed, track_drive *found, fst_meas
         work->f0 = work->peak / lines;
         if (work->half)
             found->radial = work->f0;
+        if (isfinite(work->track->fps))
+            tell_aliases(work, found, measured);
     }
 }
 
@@ -206,7 +253,7 @@ static int by_drive(track_work *work, double drive, int filmed, track_drive *fou
     const match m = work->peak > 0 ? best_match(work, drive, filmed) : (match){0, filmed, INFINITY, 0.0};
     const int with_magnet = fabs(fabs(work->bead) - drive) < 0.01 * drive;
     if (with_magnet && (filmed > 0 || !(m.miss < 1.0))) {
-        *found = (track_drive){FST_MOTION_LOCKED, 0, 1, NAN};
+        *found = (track_drive){.motion = FST_MOTION_LOCKED, .relative = 1, .radial = NAN};
         if (filmed < 0)
             track_warn(measured,
                        "the bead goes round at the magnet's rate, but clockwise: the film is mirrored, or the "
@@ -215,7 +262,8 @@ static int by_drive(track_work *work, double drive, int filmed, track_drive *fou
     }
     if (!(m.miss < 1.0))
         return 0;
-    *found = (track_drive){FST_MOTION_TURNING, m.lines, m.relative, m.radial};
+    *found = (track_drive){
+        .motion = FST_MOTION_TURNING, .symmetry = m.lines, .relative = m.relative, .radial = m.radial};
     work->f0 = m.radial / m.lines;
     if (m.relative != filmed)
         track_warn(
@@ -248,6 +296,20 @@ static void warn_of_standing(const track_work *work, double drive, fst_measureme
     }
 }
 
+/* A clock that the drive gives is as good as the rates: take it from the refined ones. */
+static fst_status finish_clock(track_work *work, double drive, const track_drive *found,
+                               fst_measurement *measured, fst_error *error)
+{
+    fst_status status = FST_OK;
+    if (found->motion == FST_MOTION_TURNING) {
+        correct_clock(work, drive / (work->f0 + found->relative * fabs(work->bead)));
+        status = track_refine_motion(work, error);
+    }
+    track_warn(measured, "the file has no clock: the frame rate, %.6g frames a second, follows from the drive",
+               work->fps);
+    return status;
+}
+
 fst_status track_find_drive(track_work *work, const fst_measure_options *options, track_drive *found,
                             fst_measurement *measured, fst_error *error)
 {
@@ -263,9 +325,11 @@ fst_status track_find_drive(track_work *work, const fst_measure_options *options
         by_itself(work, filmed, found, measured);
     if (known && timed && work->peak == 0.0)
         warn_of_standing(work, drive, measured);
+    fst_status status = found->motion == FST_MOTION_TURNING ? track_refine_motion(work, error) : FST_OK;
+    if (status == FST_OK && found->clock_follows)
+        status = finish_clock(work, drive, found, measured, error);
     if (found->motion != FST_MOTION_TURNING)
-        return FST_OK;
-    const fst_status status = track_refine_motion(work, error);
+        return status;
     if (status == FST_OK && found->symmetry == 2 && track_has_line(work, 1)) {
         found->symmetry = 1;
         found->radial = work->f0;

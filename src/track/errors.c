@@ -226,6 +226,12 @@ static double take_tilt(const track_work *work, const turn_sums *turns, const do
 
 /* ---------------------------------------------------------------- the numbers */
 
+/* The root of a variance: rounding may leave it a little below zero, and what is unknown stays NAN. */
+static double error_of(double variance)
+{
+    return variance < 0.0 ? 0.0 : sqrt(variance);
+}
+
 static void take_radius(const track_work *work, const turn_sums *turns, const double variance[QUANTITIES],
                         double slow, fst_measurement *measured)
 {
@@ -274,12 +280,18 @@ static void take_rates(const track_work *work, const track_drive *drive, const d
     measured->radial_frequency_hz = a * work->f0;
     measured->radial_frequency_hz_error = a * sqrt(variance[F0]);
     measured->drive_from_track_hz = magnet;
-    measured->drive_from_track_hz_error = sqrt(fmax(0.0, variance[F0] + variance[BEAD] + 2.0 * joint));
+    measured->drive_from_track_hz_error =
+        hypot(error_of(variance[F0] + variance[BEAD] + 2.0 * joint), drive->drive_apart);
     measured->festoons = a * (1.0 + magnet / bead);
     const double by_f0 = a / bead, by_bead = -sign * a * work->f0 / (bead * bead); /* by sign*bead */
-    measured->festoons_error =
-        sqrt(fmax(0.0, by_f0 * by_f0 * variance[F0] + by_bead * by_bead * variance[BEAD] +
-                           2.0 * by_f0 * by_bead * joint));
+    measured->festoons_error = error_of(by_f0 * by_f0 * variance[F0] + by_bead * by_bead * variance[BEAD] +
+                                        2.0 * by_f0 * by_bead * joint);
+    /* Without a clock of its own the film tells ratios alone: f_bead = f_drive/(N/a - 1). */
+    if (drive->clock_follows) {
+        measured->bead_frequency_hz_error = bead * measured->festoons_error / fabs(measured->festoons - a);
+        measured->radial_frequency_hz_error = a * measured->bead_frequency_hz_error;
+    }
+    measured->festoons_error = hypot(measured->festoons_error, drive->festoons_apart);
 }
 
 /* Keep what was fitted to r. */

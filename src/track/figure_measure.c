@@ -1,8 +1,10 @@
 /* figure_measure.c - a measured track as a picture, with the path of a scene laid over it.
  *
- *    path on the plate       | path in the frame that turns with the magnet
- *    ------------------------+---------------------------------------------
- *    r against alpha         | what the fit leaves of r, over time
+ *    path on the plate | path in the frame that turns with the magnet
+ *    ------------------+---------------------------------------------
+ *                       r against alpha
+ *    ----------------------------------------------------------------
+ *                what the fit leaves of r, over time
  *
  * A bead's path in the laboratory does not close, and two paths of nearly the same rates part after a few
  * turns.  In the magnet's frame both are closed curves.  The scene's curve is known by the part u of its
@@ -17,9 +19,17 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "draw/figure_file.h"
-#include "draw/style.h"
+#include "draw/legend.h"
 
-enum { WIDTH = 1000, HEIGHT = 900, CURVE = 512 };
+enum {
+    CURVE = 512,
+    LEFT =
+        64, /* pixels: margins of the panels, the side of a square one, the height of a wide one, room below */
+    RIGHT = 14,
+    SQUARE = 184,
+    TALL = 120,
+    AXIS = 54
+};
 
 /* A track on the plate, about its centre. */
 typedef struct plane_track {
@@ -267,31 +277,30 @@ static void write_curve(fst_figure_file *figure, const fst_measurement *m, const
 
 /* ---------------------------------------------------------------- script */
 
-static void begin_panel(FILE *script, int column, int row, const char *x_label, const char *y_label, int square)
+/* The frame of a panel of a figure that is `height` pixels high, with its labels. */
+static void begin_panel(fst_figure_file *figure, int height, const double frame[4], const char *x_label,
+                        const char *y_label)
 {
-    const double left = 0.085 + 0.5 * column, bottom = row == 0 ? 0.47 : 0.075;
-    const double wide = 0.395, tall = row == 0 ? wide * WIDTH / HEIGHT : 0.29;
-    (void)fprintf(script,
-                  "set lmargin at screen %.4f\nset rmargin at screen %.4f\nset bmargin at screen %.4f\n"
-                  "set tmargin at screen %.4f\nset xlabel '%s'\nset ylabel '%s'\nset size %s\nunset key\n"
-                  "set autoscale\nset xtics auto\n",
-                  left, left + wide, bottom, bottom + tall, x_label, y_label, square ? "ratio -1" : "noratio");
+    fst_figure_place(figure, height, frame);
+    fst_figure_axis_label(figure, height, FST_SIDE_BELOW, x_label, FST_COLOUR_BLACK, frame);
+    if (y_label)
+        fst_figure_axis_label(figure, height, FST_SIDE_LEFT, y_label, FST_COLOUR_BLACK, frame);
+    (void)fputs("set autoscale\nset xtics auto\nset ytics auto\n", figure->script);
 }
 
 /* Draw columns of the track, rejected places as crosses. */
 static void plot_places(FILE *script, const char *columns)
 {
-    (void)fprintf(
-        script,
-        "plot data index 'seen' using %s with points pt 7 ps 0.28 lc rgb '%s' title 'track', \\\n"
-        "     data index 'rejected' using %s with points pt 2 ps 0.8 lw 1.5 lc rgb '%s' title 'rejected'",
-        columns, fst_colour_code(FST_COLOUR_BLUE), columns, fst_colour_code(FST_COLOUR_BLACK));
+    (void)fprintf(script,
+                  "plot data index 'seen' using %s with points pt 7 ps 0.28 lc rgb '%s', \\\n"
+                  "     data index 'rejected' using %s with points pt 2 ps 0.8 lw 1.5 lc rgb '%s'",
+                  columns, fst_colour_code(FST_COLOUR_BLUE), columns, fst_colour_code(FST_COLOUR_BLACK));
 }
 
 static void plot_curve(FILE *script, const char *name)
 {
-    (void)fprintf(script, ", \\\n     data index '%s' using 1:2 with lines lw 1.6 lc rgb '%s' title 'scene'",
-                  name, fst_colour_code(FST_COLOUR_VERMILION));
+    (void)fprintf(script, ", \\\n     data index '%s' using 1:2 with lines lw 1.6 lc rgb '%s'", name,
+                  fst_colour_code(FST_COLOUR_VERMILION));
 }
 
 /* The range of r, or of what the fit leaves of it, from the places that were not rejected. */
@@ -316,69 +325,80 @@ static void write_ranges(FILE *script, const plane_track *p, const fst_track *tr
     for (size_t i = 0; i < p->count; ++i)
         if (track->flag[p->row[i]] == FST_FRAME_SEEN)
             most = fmax(most, sqrt(p->x[i] * p->x[i] + p->y[i] * p->y[i]));
-    (void)fprintf(script, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\n", -1.1 * most, 1.1 * most,
-                  -1.1 * most, 1.1 * most);
+    (void)fprintf(script, "set xrange [%.9g:%.9g]\nset yrange [%.9g:%.9g]\nset xtics %.9g\nset ytics %.9g\n",
+                  -1.1 * most, 1.1 * most, -1.1 * most, 1.1 * most, fst_round_step(0.5 * most),
+                  fst_round_step(0.5 * most));
 }
 
-static void write_script(fst_figure_file *figure, const fst_track *track, const fst_measurement *m,
-                         const plane_track *p, const closed_curve *curve)
+static void write_script(fst_figure_file *figure, int height, int top, const fst_track *track,
+                         const fst_measurement *m, const plane_track *p, const closed_curve *curve)
 {
-    char x[48], y[48], t[48];
+    char x[64], y[48], t[48];
     FILE *script = figure->script;
+    const double left = LEFT, right = FST_FIGURE_WIDTH - RIGHT, square = top + SQUARE;
+    const double around = square + AXIS, after = around + TALL + AXIS;
+    fst_figure_panels(figure);
+    (void)fputs("set grid ls 101\nset tics font ',12'\nunset key\n", script);
     (void)snprintf(x, sizeof x, "x (%s)", p->unit);
     (void)snprintf(y, sizeof y, "y (%s)", p->unit);
-    begin_panel(script, 0, 0, x, y, 1);
+    begin_panel(figure, height, (const double[4]){left, left + SQUARE, top, square}, x, y);
     write_ranges(script, p, track);
     plot_places(script, "2:3");
     if (curve)
         plot_curve(script, "model-lab");
     (void)fputc('\n', script);
     if (isfinite(m->drive_from_track_hz)) {
-        begin_panel(script, 1, 0, "in the frame of the magnet, up to an angle", "", 1);
+        (void)snprintf(x, sizeof x, "X (%s), magnet's frame", p->unit);
+        begin_panel(figure, height, (const double[4]){right - SQUARE, right, top, square}, x, NULL);
         write_ranges(script, p, track);
-        (void)fputs("set key top right samplen 1.5\n", script);
         plot_places(script, "4:5");
         if (curve)
             plot_curve(script, "model-magnet");
         (void)fputc('\n', script);
     }
     (void)snprintf(y, sizeof y, "r (%s)", p->unit);
-    begin_panel(script, 0, 1, "α (degrees)", y, 0);
-    (void)fputs("set xrange [0:360]\nset xtics 90\n", script);
+    begin_panel(figure, height, (const double[4]){left, right, around, around + TALL}, "α (degrees)", y);
+    (void)fputs("set xrange [0:360]\nset xtics 45\n", script);
     write_range_of_r(script, p, track, m, 0);
     plot_places(script, "6:7");
+    (void)fputs("\n", script);
     (void)snprintf(t, sizeof t, "time (%s)", p->clock);
-    (void)snprintf(y, sizeof y, "r - fit (%s)", p->unit);
-    (void)fputc('\n', script);
-    begin_panel(script, 1, 1, t, y, 0);
+    (void)snprintf(y, sizeof y, "r − fit (%s)", p->unit);
+    begin_panel(figure, height, (const double[4]){left, right, after, after + TALL}, t, y);
     write_range_of_r(script, p, track, m, 1);
     plot_places(script, "1:8");
-    (void)fputs("\nunset multiplot\n", script);
+    (void)fputs("\n", script);
 }
 
-/* The head: what was measured and, below it, what the scene has. */
-static void write_head(fst_figure_file *figure, const fst_measurement *m, const closed_curve *curve,
-                       int same_scale)
+/* The words around the figure: what was measured, and what the scene has. */
+static fst_legend make_legend(const fst_track *track, const fst_measurement *m, const closed_curve *curve,
+                              int same_scale)
 {
-    char title[512];
-    int length =
-        snprintf(title, sizeof title, "<r> = %.5g ± %.2g %s,  δr = %.4g ± %.2g %s,  bead %.5g Hz,  N = %.5g",
-                 m->mean_r, m->mean_r_error, m->length_unit, m->std_r, m->std_r_error, m->length_unit,
-                 m->bead_frequency_hz, m->festoons);
-    if (curve && length > 0 && (size_t)length < sizeof title)
-        (void)snprintf(title + length, sizeof title - (size_t)length,
-                       "\nscene: %s<r> = %.5g %s,  δr = %.4g %s,  N = %.5g",
-                       same_scale ? "drawn with the same " : "", curve->mean_r, m->length_unit, curve->std_r,
-                       m->length_unit, curve->festoons);
-    (void)fputs("set multiplot title ", figure->script);
-    for (char *line = title; line; line = strchr(line, '\n') ? strchr(line, '\n') + 1 : NULL) {
-        char one[512];
-        (void)snprintf(one, sizeof one, "%.*s", (int)strcspn(line, "\n"), line);
-        if (line != title)
-            (void)fputs(".\"\\n\".", figure->script);
-        fst_figure_quote(figure, one);
-    }
-    (void)fputs(" noenhanced\nset grid ls 101\n", figure->script);
+    char style[96], words[128];
+    size_t rejected = 0;
+    fst_legend legend = {.title = "The track of the bead", .count = 0};
+    int length = snprintf(legend.about, sizeof legend.about, "⟨r⟩ = %.5g ± %.2g %s, δr = %.4g ± %.2g %s",
+                          m->mean_r, m->mean_r_error, m->length_unit, m->std_r, m->std_r_error, m->length_unit);
+    if (isfinite(m->bead_frequency_hz))
+        length += snprintf(legend.about + length, sizeof legend.about - (size_t)length, ", bead %.5g Hz",
+                           m->bead_frequency_hz);
+    if (isfinite(m->festoons))
+        (void)snprintf(legend.about + length, sizeof legend.about - (size_t)length, ", N = %.5g", m->festoons);
+    (void)snprintf(style, sizeof style, "pt 7 ps 0.5 lc rgb '%s'", fst_colour_code(FST_COLOUR_BLUE));
+    fst_legend_add(&legend, FST_SAMPLE_POINT, style, "track");
+    for (size_t i = 0; i < track->rows; ++i)
+        rejected += track->flag[i] == FST_FRAME_REJECTED;
+    (void)snprintf(style, sizeof style, "pt 2 ps 0.8 lw 1.5 lc rgb '%s'", fst_colour_code(FST_COLOUR_BLACK));
+    if (rejected)
+        fst_legend_add(&legend, FST_SAMPLE_POINT, style, "rejected");
+    if (!curve)
+        return legend;
+    (void)snprintf(style, sizeof style, "lw 1.6 lc rgb '%s'", fst_colour_code(FST_COLOUR_VERMILION));
+    (void)snprintf(words, sizeof words, "scene%s: ⟨r⟩ = %.5g %s, δr = %.4g %s, N = %.5g",
+                   same_scale ? ", to the same scale" : "", curve->mean_r, m->length_unit, curve->std_r,
+                   m->length_unit, curve->festoons);
+    fst_legend_add(&legend, FST_SAMPLE_LINE, style, words);
+    return legend;
 }
 
 fst_status fst_figure_measurement(const fst_track *track, const fst_measurement *m, const fst_params *compare,
@@ -387,6 +407,7 @@ fst_status fst_figure_measurement(const fst_track *track, const fst_measurement 
     plane_track p = {.count = 0};
     fst_figure_file figure;
     closed_curve *curve = NULL;
+    fst_legend legend = {.count = 0};
     if (compare && m->motion != FST_MOTION_TURNING)
         return fst_fail(
             error, FST_BAD_INPUT, "fst_figure_measurement.compare",
@@ -402,13 +423,17 @@ fst_status fst_figure_measurement(const fst_track *track, const fst_measurement 
             lay_over(curve, &p, m);
     }
     if (status == FST_OK)
-        status = fst_figure_begin(&figure, out, WIDTH, HEIGHT, error);
+        legend = make_legend(track, m, curve, strcmp(m->length_unit, "px") == 0);
+    const int top = fst_legend_head(&legend) + 6,
+              height = top + SQUARE + 2 * TALL + 3 * AXIS + fst_legend_foot(&legend);
+    if (status == FST_OK)
+        status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, height, error);
     if (status == FST_OK) {
         write_track(&figure, track, m, &p);
         if (curve)
             write_curve(&figure, m, &p, curve);
-        write_head(&figure, m, curve, strcmp(m->length_unit, "px") == 0);
-        write_script(&figure, track, m, &p, curve);
+        write_script(&figure, height, top, track, m, &p, curve);
+        fst_legend_write(&figure, &legend, height);
         status = fst_figure_finish(&figure, error);
     }
     free(curve);

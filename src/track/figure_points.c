@@ -1,7 +1,8 @@
 /* figure_points.c - measured points over the curves of a sweep or of a branch, with chi^2.
  *
  * A curve is made of straight pieces between neighbouring rows of a sweep with the same regime, or between
- * neighbouring points of a branch with the same stability.
+ * neighbouring points of a branch.  What was measured is compared with stable states alone: no bead stays on
+ * others.
  */
 #include <festoon/festoon_tools.h>
 
@@ -158,8 +159,10 @@ static fst_status take_branch(const char *path, pieces *p, fst_error *error)
         const double x[2] = {hertz * a->value, hertz * b->value};
         add_piece(p, FST_MEASURED_MEAN_R, x, branch.half_length * a->mean_r, branch.half_length * b->mean_r,
                   a->stable && b->stable);
-        add_piece(p, FST_MEASURED_BEAD_FREQUENCY, x, rate * a->mean_alpha_dot, rate * b->mean_alpha_dot,
-                  a->stable && b->stable);
+        /* Where an orbit passes the axis the bead's frequency jumps by the drive's. */
+        if (fabs(b->mean_alpha_dot - a->mean_alpha_dot) * rate < 0.5 * fmin(x[0], x[1]))
+            add_piece(p, FST_MEASURED_BEAD_FREQUENCY, x, rate * a->mean_alpha_dot, rate * b->mean_alpha_dot,
+                      a->stable && b->stable);
     }
     fst_branch_free(&branch);
     return status;
@@ -167,19 +170,18 @@ static fst_status take_branch(const char *path, pieces *p, fst_error *error)
 
 /* ---------------------------------------------------------------- chi^2 */
 
-/* The piece at a frequency that is nearest to a value, a stable one before others; NULL: there is none. */
+/* The stable piece at a frequency that is nearest to a value; NULL: there is none. */
 static const piece *nearest_piece(const pieces *p, int quantity, double x, double value)
 {
     const piece *best = NULL;
     double nearest = INFINITY;
     for (size_t i = 0; i < p->count[quantity]; ++i) {
         const piece *here = &p->list[quantity][i];
-        if (x < fmin(here->x[0], here->x[1]) || x > fmax(here->x[0], here->x[1]) || here->x[0] == here->x[1])
+        if (!here->stable || x < fmin(here->x[0], here->x[1]) || x > fmax(here->x[0], here->x[1]) ||
+            here->x[0] == here->x[1])
             continue;
         const double y = here->y[0] + (x - here->x[0]) / (here->x[1] - here->x[0]) * (here->y[1] - here->y[0]);
-        const int better =
-            !best || here->stable > best->stable || (here->stable == best->stable && fabs(y - value) < nearest);
-        if (better) {
+        if (fabs(y - value) < nearest) {
             best = here;
             nearest = fabs(y - value);
         }
@@ -311,7 +313,7 @@ static fst_status draw(const pieces *p, const fst_points *points, const char *ou
     }
     const double margin = 0.02 * (high - low) + 1e-3;
     (void)snprintf(about, sizeof about, "χ² = %.4g of %d measured numbers%s", fit->chi2, fit->counted,
-                   fit->counted < fit->all ? ", where there is a curve" : "");
+                   fit->counted < fit->all ? ", where there is a stable curve" : "");
     const fst_chart chart = {.title = "Measured points over the computed curves",
                              .about = about,
                              .x_label = "drive frequency (Hz)",

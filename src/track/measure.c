@@ -136,7 +136,7 @@ static double oscillation(const track_work *work)
 static fst_status measure(track_work *work, const fst_measure_options *options, fst_measurement *measured,
                           fst_error *error)
 {
-    track_drive drive = {FST_MOTION_UNKNOWN, 0, 1, NAN};
+    track_drive drive = {.motion = FST_MOTION_UNKNOWN, .relative = 1, .radial = NAN};
     fst_status status = find_motion(work, error);
     if (status == FST_OK)
         status = track_find_drive(work, options, &drive, measured, error);
@@ -151,6 +151,10 @@ static fst_status measure(track_work *work, const fst_measure_options *options, 
     measured->symmetry = drive.motion == FST_MOTION_TURNING ? drive.symmetry : 0;
     if (status == FST_OK)
         status = track_find_errors(work, &drive, measured, error);
+    /* What blurred the oscillation away blurred the mean radius too, by an unknown part. */
+    if (status == FST_OK && options->exposure > 0 && drive.radial > 0 &&
+        kept(drive.radial, options->exposure) < TRACK_LEAST_KEPT)
+        measured->std_r = measured->std_r_error = measured->mean_r_error = NAN;
     if (status == FST_OK && measured->wave_mean < 3.0 * measured->noise)
         status = fst_fail(
             error, FST_NO_CONVERGENCE, "",

@@ -32,7 +32,7 @@ static int choose_waves(const track_work *work, double exposure, wave waves[2 * 
         const double angle = FST_PI * f * exposure, kept = fabs(angle) > 1e-9 ? sin(angle) / angle : 1.0;
         if (hidden)
             continue;
-        if (kept < 0.3) { /* what is left of it is mostly noise */
+        if (kept < TRACK_LEAST_KEPT) { /* what is left of it is mostly noise */
             *too_long |= k == 1 || k == 2;
             continue;
         }

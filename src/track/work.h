@@ -72,15 +72,20 @@ int track_angular_row(const track_work *work, size_t i, double *row);
 /* What the rates tell of the drive. */
 typedef struct track_drive {
     fst_motion motion;
-    int symmetry;  /* a; 0: unknown */
-    int relative;  /* 1: the bead goes round with the magnet, -1: against it */
-    double radial; /* f_r in Hz, as it is and not as the film shows it; NAN: unknown */
+    int symmetry;                       /* a; 0: unknown */
+    int relative;                       /* 1: the bead goes round with the magnet, -1: against it */
+    double radial;                      /* f_r in Hz, as it is and not as the film shows it; NAN: unknown */
+    double drive_apart, festoons_apart; /* how far another reading of a folded line puts them; 0: none does */
+    int clock_follows;                  /* the file has no clock, and the drive gave it one */
 } track_drive;
 
 /* Compare rates and drive: f0, symmetry and sense follow, and the clock is corrected where only another one
  * agrees. Warnings go into `measured`. */
 fst_status track_find_drive(track_work *work, const fst_measure_options *options, track_drive *drive,
                             fst_measurement *measured, fst_error *error);
+
+/* What an exposure must leave of an oscillation so that the rest can be restored. */
+#define TRACK_LEAST_KEPT 0.3
 
 /* Undo what an exposure of so many seconds blurs. */
 void track_sharpen(track_work *work, double exposure, fst_measurement *measured);
