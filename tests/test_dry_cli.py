@@ -3,6 +3,7 @@ import csv
 import json
 import math
 import os
+import re
 import unittest
 
 from sweep_tools import Case
@@ -65,6 +66,31 @@ class Runs(Case):
                               (("friction.stribeck_speed=3 kg",), "friction.stribeck_speed")):
             sets = [word for text in words for word in ("--set", text)]
             self.assertIn(wanted, self.refused("run", *DRY, *SHORT, *sets))
+
+
+class Neighbours(Case):
+    """What is not known of the neighbours of a bead is said, with the results of a run that tell more."""
+
+    def refused_by(self, command, *sets):
+        words = [word for text in sets for word in ("--set", text)]
+        return self.refused(command, *DRY, "--set", "run.periods=10", "--set", "run.discard=5", *words, status=1)
+
+    def test_flights_and_held_discs(self):
+        flies = ("friction.mu=0.2", "drive.frequency=84Hz", "impact.restitution=0")
+        held = ("friction.mu=0.5", "drive.frequency=1Hz", "start.r=0.7", "contact.patch=hertz", "contact.radius=1mm")
+        results = self.run_keys()
+        for sets, wanted in ((flies, "leaves the plate"), (held, "holds its disc|stops a disc")):
+            for command in ("lyapunov", "orbit"):
+                err = self.refused_by(command, *sets)
+                self.assertRegex(err, wanted)
+                self.assertRegex(err, "not followed through")
+                self.assertNotIn("festoon lyapunov tells", err)
+                for named in re.findall(r"\((\w+)\)", err):
+                    self.assertIn(named, results, err)
+        self.assertIn("(period)", self.refused_by("orbit", *flies))
+
+    def run_keys(self):
+        return json.loads(self.good("run", *DRY, "--set", "run.periods=2", "--set", "run.discard=1", "--json"))
 
 
 class Trajectories(Case):

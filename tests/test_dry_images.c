@@ -7,7 +7,21 @@
 #include "physics.h"
 #include "same_results.h"
 
-enum { JOBS = 12 };
+enum { JOBS = 16 };
+
+/* What only the last step of a row tells: the turns of the moment and of Phi, where no return ends the means,
+ * and the greatest r of a bead on its way out.  And slips that become ever shorter, so short that they lie
+ * between the places at which a step is looked at. */
+static void special_rows(int which, fst_params *p)
+{
+    static const double drives[] = {2.2, 1.6, 0.1608, 0.1608}, mu[] = {0.3, 0.3, 0.2, 0.5};
+    *p = bead_at(drives[which], FST_DYNAMICS_RIGID);
+    p->friction_law = FST_FRICTION_COULOMB;
+    p->friction_mu = mu[which];
+    p->run_rtol = 1e-8;
+    p->run_discard = which == 2 ? 0.1 : 1;
+    p->run_periods = which == 2 ? 1.1 : which == 3 ? 60 : 2; /* too short for two returns */
+}
 
 static fst_params job_params(int i)
 {
@@ -35,6 +49,8 @@ static fst_params job_params(int i)
     p.run_periods = i < 10 ? 20 : 6;
     p.run_discard = 4;
     p.run_rtol = 1e-8;
+    if (i >= 12)
+        special_rows(i - 12, &p);
     return p;
 }
 
@@ -151,7 +167,7 @@ static void check_close(const store *s, const store *runs)
         const fst_run_result *a = &s->results[i], *b = &runs->results[i];
         assert_int_equal(a->regime, b->regime);
         if (fabs(a->mean_r - b->mean_r) > 1e-6 || fabs(a->sticking - b->sticking) > 1e-6 ||
-            fabs(a->max_slip - b->max_slip) > 1e-6 ||
+            fabs(a->max_slip - b->max_slip) > 1e-6 || fabs(a->max_r - b->max_r) > 1e-6 ||
             fabs(a->mean_friction_power - b->mean_friction_power) > 1e-6)
             fail_msg("job %d: mean_r %.12g, sticking %.12g, max_slip %.12g; of the run %.12g, %.12g, %.12g", i,
                      a->mean_r, a->sticking, a->max_slip, b->mean_r, b->sticking, b->max_slip);

@@ -22,7 +22,8 @@ static fst_status refuse(const fst_flow *flow, fst_error *error)
             error, FST_NO_CONVERGENCE, "tangents",
             "the bead leaves the plate at t = %.6g, and neighbours, which land elsewhere and at other "
             "times, are not followed through a flight: there are no multipliers and no exponents of "
-            "this motion; run tells whether it repeats itself (closure, impacts_per_return)",
+            "this motion; run tells whether it repeats itself (period), and how often the bead comes down "
+            "(impacts_per_return)",
             flow->t.high);
     return fst_fail(
         error, FST_NO_CONVERGENCE, "tangents",

@@ -29,6 +29,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "ode/flow.h"
+#include "ode/neighbours.h"
 #include "orbit/departure.h"
 #include "orbit/describe.h"
 #include "study/conclude.h"
@@ -38,7 +39,7 @@
 /* The speed that is taken for rest: what the errors of the steps leave of it. */
 #define REST (10.0 * SEARCH_TOLERANCE)
 
-enum { PEAKS = 48 };
+enum { PEAKS = 48, RECENT = 20 }; /* RECENT: drive periods */
 
 /* A trajectory that is watched for returns. */
 typedef struct search {
@@ -62,6 +63,7 @@ typedef struct search {
     int leaves;  /* ... at one that does not: the bead is leaving it, or will */
     int tried_departure;
     double slipped;              /* the time at which a contact that can stick last slipped */
+    double unfollowed;           /* the time at which neighbours of the bead were last not known */
     double rest[FST_STATE_SIZE]; /* that equilibrium */
     fst_orbit_outcome outcome;
 } search;
@@ -309,6 +311,19 @@ static fst_status went_elsewhere(search *s, fst_orbit_outcome outcome, fst_error
                     atan2(y[FST_Y], y[FST_X]) * 360.0 / FST_TWO_PI);
 }
 
+/* The bead flew, or the plate held its disc of contact, until lately: Newton's method, which needs neighbours,
+ * is of no use. */
+static fst_status not_followed(search *s, fst_error *error)
+{
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "orbit",
+        "the bead leaves the plate, or the plate holds its disc of contact (the last time after %.4g "
+        "drive periods at omega = %.10g), and neighbours of a bead, which Newton's method and "
+        "multipliers need, are not followed through that. Try another start; run tells whether the "
+        "motion repeats itself (period)",
+        s->unfollowed / s->drive_period, s->model->groups.omega);
+}
+
 static fst_status never_settled(search *s, double t_end, fst_error *error)
 {
     char motion[120];
@@ -331,13 +346,18 @@ static fst_status never_settled(search *s, double t_end, fst_error *error)
  * rolling beads come in continua. */
 static int only_rolls(search *s)
 {
-    enum { DRIVE_PERIODS = 20 };
     const fst_coefficients_double *c = &s->flow->step.context.coefficients;
     if (!c->kinds.dry || c->resistance.arm > 0.0)
         return 0;
     if (!(fst_sticks_double(c) > 0.5))
         s->slipped = s->flow->t.high;
-    return s->flow->t.high - s->slipped > DRIVE_PERIODS * s->drive_period;
+    return s->flow->t.high - s->slipped > RECENT * s->drive_period;
+}
+
+static void note_unfollowed(search *s)
+{
+    if (!fst_neighbours_known(s->flow))
+        s->unfollowed = s->flow->t.high;
 }
 
 static fst_status rolls_for_ever(search *s, fst_error *error)
@@ -364,6 +384,7 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
         if (r > 50.0)
             return went_elsewhere(s, FST_ORBIT_EJECTED, error);
         fst_error ignored;
+        note_unfollowed(s);
         if (only_rolls(s))
             continue;
         if (note_passage(s)) {
@@ -393,7 +414,10 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
     const fst_status status = fst_watch_ask(s->family->watch, error);
     if (status != FST_OK)
         return status;
-    return only_rolls(s) ? rolls_for_ever(s, error) : never_settled(s, t_end, error);
+    if (only_rolls(s))
+        return rolls_for_ever(s, error);
+    return t_end - s->unfollowed < RECENT * s->drive_period ? not_followed(s, error)
+                                                            : never_settled(s, t_end, error);
 }
 
 fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_orbit_outcome *outcome,
@@ -405,6 +429,7 @@ fst_status fst_search_orbit(const fst_family *family, fst_solution *out, fst_orb
         return fst_fail(error, FST_NO_MEMORY, "orbit", "out of memory");
     s->family = family;
     s->half_distance = s->full_distance = INFINITY;
+    s->unfollowed = -INFINITY;
     double start[FST_STATE_SIZE];
     fst_model *model = NULL;
     fst_status status = fst_model_new(&family->params, &model, error);
