@@ -9,8 +9,8 @@ enum {
 #include "io/columns.def"
 #undef FST_COLUMN
     FST_COLUMN_COUNT,
-    /* Trajectories of before beads could fly end here.  Their beads stay on the plate: the columns from here on,
-     * z, vz and flying, are zeros, and readers fill them. */
+    /* Trajectories of before beads could fly end here.  Their beads stay on the plate: the columns from here
+     * on, z, vz and flying, are zeros, and readers fill them. */
     FST_COLUMNS_BEFORE_FLIGHTS = FST_COLUMN_z
 };
 

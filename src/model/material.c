@@ -71,8 +71,8 @@ const char *fst_param_missing_choice(const fst_params *params, const char *key, 
     return NULL;
 }
 
-/* A key of the contact that is given, and what is wanted for it. Under another law it waits, as friction.mu does:
- * scenes are compared by changing friction.law alone. */
+/* A key of the contact that is given, and what is wanted for it. Under another law it waits, as friction.mu
+ * does: scenes are compared by changing friction.law alone. */
 static fst_status check_contact(const fst_params *params, const char *key, double value, fst_error *error)
 {
     const int waits = isnan(value) || params->friction_law != FST_FRICTION_COULOMB;

@@ -98,8 +98,8 @@ static void take_value(project *p, const track_xml *xml)
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; ++i)
         if (strcmp(object, numbers[i].object) == 0 && strcmp(property, numbers[i].property) == 0)
             (void)track_number(xml->text, numbers[i].value);
-    /* The control's class is StepperClipControl or VideoClipControl.  Videos of images have a delta_t too, which
-     * is not the one in use. */
+    /* The control's class is StepperClipControl or VideoClipControl.  Videos of images have a delta_t too,
+     * which is not the one in use. */
     if (strcmp(property, "delta_t") == 0 && strcmp(property_of(p, depth - 1), "clipcontrol") == 0)
         (void)track_number(xml->text, &p->raw->interval);
     if (strcmp(property, "length_unit") == 0)
