@@ -177,7 +177,7 @@ static void check_close(const store *s, const store *runs)
 static void check_form(fst_arithmetic form, int lanes, const store *runs)
 {
     static store rows, again;
-    do_all(&rows, form, lanes, 5, 0);
+    do_all(&rows, form, lanes, 4, 0);
     if (form == FST_ARITHMETIC_PORTABLE) {
         check_rows(&rows, runs, "portable rows");
     } else {

@@ -249,8 +249,9 @@ static fst_legend make_legend(const field_map *map)
     fst_legend legend = {.title = "The magnet's field at the height of the bead's centre"};
     char words[128], unit[32];
     fst_unit_symbols("l", unit, sizeof unit);
-    (void)snprintf(legend.about, sizeof legend.about, "half length of the magnet's lines: %s = %.4g mm%s", unit,
-                   1e3 * map->groups.length_unit, map->bar ? "" : " (a scale only)");
+    (void)snprintf(legend.about, sizeof legend.about, "%s: %s = %.4g mm",
+                   map->bar ? "half length of the magnet's lines" : "unit of length", unit,
+                   1e3 * map->groups.length_unit);
     fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#6f8fae' lw 0.8", "lines of equal |B|");
     if (map->maximum_count > 0)
         fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 2 ps 1.2 lw 3 lc rgb '#000000'", "maxima of |B|");
