@@ -96,8 +96,7 @@ class Documentation(unittest.TestCase):
             subprocess.run([FESTOON, "paper", "-o", scratch], check=True, capture_output=True)
             data = (Path(scratch) / "remanence.dat").read_text()
         curves = [[tuple(map(float, line.split()[:2])) for line in block.splitlines() if line and line[0] != "#"]
-                  for block in data.split("\n\n\n")]
-        curves = [curve for curve in curves if curve]
+                  for block in data.split("\n\n\n") if re.search(r"^# panel\d+-curve", block, re.M)]
         self.assertEqual((len(curves), len(rows)), (2, len(curves[0])))
         for column, curve in enumerate(curves):
             for row, (strength, percent) in zip(rows, curve):
