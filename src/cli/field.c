@@ -104,15 +104,16 @@ static fst_status set_height(const char *height, fst_params *params, fst_error *
     return FST_OK;
 }
 
-static fst_status print_point(const arguments *given, fst_params *params, fst_shown_units units, FILE *out,
+static fst_status print_point(const arguments *given, const fst_params *scene, fst_shown_units units, FILE *out,
                               fst_error *error)
 {
+    fst_params params = *scene;
     double at[2] = {0.0, 0.0};
     fst_model *model = NULL;
     const char *height = option_value(given, "height");
-    fst_status status = set_height(height, params, error);
+    fst_status status = set_height(height, &params, error);
     if (status == FST_OK)
-        status = fst_model_new(params, &model, error);
+        status = fst_model_new(&params, &model, error);
     if (status == FST_OK)
         status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
     static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
@@ -142,11 +143,10 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = read_scene(given, operand(given), &params, error);
     if (units == FST_SHOWN_AS_GIVEN)
         units = FST_SHOWN_SCALED;
-    const fst_params scene = params;
     if (status == FST_OK && at)
         status = print_point(given, &params, units, out, error);
     if (status == FST_OK && figure)
-        status = fst_figure_field(&scene, units, figure, error);
+        status = fst_figure_field(&params, units, figure, error);
     if (status == FST_OK && figure)
         tell_written(figure, "");
     return status;
