@@ -26,7 +26,7 @@ FST_API fst_film_track_options fst_default_film_track_options(void);
 /* What is known of a tracked film. */
 typedef struct fst_film_track_report {
     int width, height;       /* of its pictures, after turning them as the film says */
-    int frames, lost, twins; /* all; those in which the bead was not found; those that repeat the one before */
+    int frames, lost, twins; /* all frames; frames without the bead; frames that repeat the one before */
     int first_lost, missing; /* the first lost frame (-1: none); frames that the clock leaves room for */
     double fps, least_step, most_step; /* mean frames a second; shortest and longest time between frames, s */
     double tick;                       /* of the film's clock, s; 0: unknown */

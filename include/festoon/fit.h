@@ -126,7 +126,7 @@ typedef struct fst_fit {
     fst_params params; /* with the values that were found */
     fst_fit_parameter parameters[FST_FIT_MOST_KEYS];
     int count;      /* of all parameters */
-    int free_count; /* the first are the free ones, in the order asked for; those that were given only follow */
+    int free_count; /* free parameters come first, in the order asked for; given ones follow */
     double correlation[FST_FIT_MOST_KEYS][FST_FIT_MOST_KEYS];
     double kappa_gamma2, kappa_gamma2_error; /* mu B0/(m R^2), 1/s^2 */
     double chi2;                             /* with the priors' */

@@ -20,9 +20,9 @@ static fst_status refuse(const fst_flow *flow, fst_error *error)
     if (fst_contact_mode(flow) == FST_MODE_FLIGHT || flow->contact.next_mode == FST_MODE_FLIGHT)
         return fst_fail(
             error, FST_NO_CONVERGENCE, "tangents",
-            "the bead leaves the plate at t = %.6g, and neighbours, which land elsewhere and at other "
-            "times, are not followed through a flight: there are no multipliers and no exponents of "
-            "this motion; run tells whether it repeats itself (period), and how often the bead comes down "
+            "the bead leaves the plate at t = %.6g. Its neighbours land at other places and times, and are "
+            "not followed through a flight, so this motion has no multipliers and no exponents; run tells "
+            "whether it repeats itself (period), and how often the bead comes down "
             "(impacts_per_return)",
             flow->t.high);
     return fst_fail(

@@ -106,7 +106,7 @@ FST_MEASURE(most_slow_friction) /* and in the one that loses most */
 FST_MEASURE(slow_drag)          /* slip over the bead's speed in the slowest run, % */
 FST_MEASURE(unlocking)          /* -d ln(omega_c)/d ln(gamma) */
 FST_MEASURE(locked_again)       /* runs under 7 Hz that do not go with the magnet */
-FST_MEASURE(not_at_rest)        /* and those that are not locked */
+FST_MEASURE(not_at_rest)        /* runs that are not locked, too */
 FST_MEASURE(sine_law)           /* the part of the averages beside sin(chi) and cos(chi) */
 FST_MEASURE(least_energy)       /* mean magnetic energy at chi = pi over that at 0 */
 FST_MEASURE(theta)              /* rms of n_r at omega = 0.4 */

@@ -341,7 +341,7 @@ static void give_up(fst_row_worker *w, fst_lane_batch *b, int l)
     finish(w, b, l, fst_flow_fail(flow, &error), &error);
 }
 
-/* A step in every lane of those that are observed. */
+/* Make a step in every lane whose run is observed. */
 static void step_observed(fst_row_worker *w)
 {
     fst_lane_batch *b = &w->observed;
@@ -419,7 +419,7 @@ static unsigned look_at_run_up(fst_row_worker *w, fst_lane_events events)
     return over;
 }
 
-/* A step in every lane of those that are not. */
+/* Make a step in every lane whose run is not observed. */
 static void step_run_up(fst_row_worker *w)
 {
     fst_lane_batch *b = &w->run_up;

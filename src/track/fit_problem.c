@@ -154,8 +154,8 @@ void fit_plain_slope(const fit_problem *p, int number, double slope[FIT_MOST])
         slope[k] = p->slopes[n->row * p->space.count + k][n->what] / (n->error * widening(p, n));
 }
 
-/* From the residuals r of the numbers to those that are squared: by the best d of each row, and weighted.  A
- * linear map, which serves the derivatives too. */
+/* Turn the residuals r of the numbers into weighted ones, whose squares are summed, at the best d of each row.
+ * The map is linear, so it serves the derivatives too. */
 static void join_rows(const fit_problem *p, const double *r, double *f)
 {
     double *d = f + p->count;

@@ -64,7 +64,7 @@ fst_status fit_solve(fit_problem *p, double *u, double *chi2, fst_error *error);
 /* Take d value/d frequency anew where the rows stand; a no-op where no frequency has an error. */
 fst_status fit_take_frequency_slopes(fit_problem *p, fst_error *error);
 
-/* Numbers that are not left out; all parameters less those that a prior holds. */
+/* How many numbers are used; how many parameters no prior holds. */
 int fit_used(const fit_problem *p);
 int fit_unheld(const fit_problem *p);
 

@@ -16,7 +16,7 @@ typedef struct fit_key {
 
 typedef struct fit_space {
     fst_params base;
-    int count, free_count; /* free ones first, then those that were only given */
+    int count, free_count; /* free parameters first, then given ones */
     fit_key keys[FIT_MOST];
     /* Where kappa and gamma are both sought: their indices.  The coordinate of kappa is then that of kappa
      * gamma^2, which the data know ten times better than either. */
