@@ -117,6 +117,27 @@ typedef enum {
     FST_UNIT_PRESSURE      /* Pa; Pa kPa MPa GPa */
 } fst_unit;
 
+/* A part of a real magnet (magnet.shape: parts), uniformly magnetised, in SI units.  The magnet's frame has its
+ * origin on the axis of rotation at the magnet's reference plane, which lies magnet.depth below the plate; z
+ * points up.  Remanence and moment are vectors of the part's own axes, and turn with it. */
+typedef enum {
+    FST_PART_CUBOID,
+    FST_PART_CYLINDER,
+    FST_PART_SPHERE,
+    FST_PART_DIPOLE,
+    FST_PART_KINDS
+} fst_part_kind;
+typedef struct fst_magnet_part {
+    int kind;         /* fst_part_kind */
+    double centre[3]; /* m, in the magnet's frame */
+    double size[3];   /* m: edges of a cuboid; diameter and height (along the own z) of a cylinder; diameter */
+    double remanence[3]; /* T; not of a dipole */
+    double moment[3];    /* A m^2; of a dipole */
+    double rotation[4];  /* degrees about the axis (x, y, z) that follows, through the centre */
+} fst_magnet_part;
+
+enum { FST_PARTS_MAX = 16 };
+
 /* A setup in SI units: what a scene says.  Get one from fst_default_params(), change fields, and make a model
  * of it.  A field that is NAN was not given and follows from others; params.def says how. */
 typedef struct fst_params {
@@ -128,6 +149,8 @@ typedef struct fst_params {
 #undef FST_REAL
 #undef FST_INT
 #undef FST_CHOICE
+    int magnet_part_count; /* of magnet.shape: parts */
+    fst_magnet_part magnet_parts[FST_PARTS_MAX];
 } fst_params;
 
 /* The paper's bead at 10.7 Hz with the dynamics `rigid`. */

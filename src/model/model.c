@@ -18,6 +18,8 @@ static void set_strength(const fst_params *p, fst_groups *g)
         p->bead_mass * (p->bead_radius * p->bead_radius) * (p->friction_gamma * p->friction_gamma);
     g->kappa = p->model_kappa;
     g->field_unit = p->magnet_b0;
+    if (p->magnet_shape == FST_MAGNET_PARTS && isnan(p->magnet_b0))
+        g->field_unit = FST_PARTS_FIELD_UNIT;
     if (!isnan(p->bead_moment) && !isnan(p->magnet_b0))
         g->kappa = p->bead_moment * p->magnet_b0 / unit;
     else if (!isnan(p->bead_moment) && p->bead_moment > 0)
