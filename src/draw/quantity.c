@@ -1,5 +1,5 @@
 /* quantity.c - the words and units of axes. */
-#include "draw/quantity.h"
+#include <festoon/festoon_tools.h>
 
 #include "base/constants.h"
 #include "draw/style.h"
