@@ -207,6 +207,27 @@ FST_API fst_quantity fst_quantity_of_column(const fst_column_info *column, fst_s
 /* The units in which a figure over this parameter is shown where nobody asked for any. */
 FST_API fst_shown_units fst_units_of_parameter(const char *key);
 
+/* Colours of curves (Okabe and Ito's palette), which colour-blind readers can tell apart. */
+typedef enum {
+    FST_COLOUR_BLACK,
+    FST_COLOUR_BLUE,
+    FST_COLOUR_VERMILION,
+    FST_COLOUR_GREEN,
+    FST_COLOUR_PURPLE,
+    FST_COLOUR_GREY,
+    FST_COLOUR_SKY,
+    FST_COLOUR_ORANGE
+} fst_colour;
+
+/* "#0072b2" */
+FST_API const char *fst_colour_code(fst_colour colour);
+
+/* Colours of a quantity: of both signs from blue over grey to vermilion; of one sign by its use.  `line`, from
+ * light green to dark violet, is for lines on white; `map`, from nearly white to blue, is for areas with dark
+ * lines on them. The definition is a list of places and colours, "0 '#fbfdff', 0.35 '#d3e3f2', ...". */
+typedef enum { FST_PALETTE_DIVERGING, FST_PALETTE_LINE, FST_PALETTE_MAP } fst_palette;
+FST_API const char *fst_palette_definition(fst_palette palette);
+
 /* How all figures name and colour a regime and a type of special points: "families cross", "#009e73". */
 typedef struct fst_look {
     const char *words, *colour;
