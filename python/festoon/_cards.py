@@ -51,7 +51,7 @@ def _short_path(bead: Any) -> str:
     path = run.trajectory
     if not len(path):
         return f"<p>{html.escape(run.regime)}</p>"
-    return path_svg(path.x, path.y) + "<br><small>path of drive periods 60 to 110, from above</small>"
+    return path_svg(path.x, path.y) + "<br/><small>path of drive periods 60 to 110, from above</small>"
 
 
 def bead_card(bead: Any) -> str:
@@ -88,4 +88,4 @@ def run_card(run: Any) -> str:
             shown = "" if there == unit else f"{number(getattr(lab, name))} {there}"
             rows.append(_row([name, number(value) + ("" if unit == "1" else f" {unit}"), shown], doc))
     head = html.escape(run.regime + (f", {run.symmetry}" if run.symmetry else ""))
-    return f"<b>{head}</b><br>{html.escape(run.reason)}<table {STYLE}>{''.join(rows)}</table>"
+    return f"<b>{head}</b><br/>{html.escape(run.reason)}<table {STYLE}>{''.join(rows)}</table>"

@@ -1,9 +1,9 @@
 """The library behind the module: errors as exceptions, calls that obey Ctrl-C, arrays over C memory."""
 
-from typing import Any, Callable, Iterator, List, Optional, Tuple, Type
+import os
+from typing import TYPE_CHECKING, Any, Callable, Iterator, List, Optional, Tuple, Type
 
 import numpy as np
-from typing import TYPE_CHECKING
 
 from ._errors import ERRORS, FestoonError, Interrupted
 from ._festoon import ffi, lib
@@ -30,7 +30,7 @@ __all__ = [
 
 def text_of(pointer: Any) -> str:
     """A C string as str; "" for NULL."""
-    return ffi.string(pointer).decode("utf-8", "replace") if pointer else ""
+    return str(ffi.string(pointer).decode("utf-8", "replace")) if pointer else ""
 
 
 def take_text(pointer: Any) -> str:
@@ -45,8 +45,6 @@ def take_text(pointer: Any) -> str:
 
 def path_bytes(path: Any) -> bytes:
     """A path as C wants it."""
-    import os
-
     return os.fsencode(path)
 
 

@@ -224,8 +224,8 @@ class FitParameter:
 class Fit:
     """Parameters that follow from measured points, and how well they are known."""
 
-    def __init__(self, fit: Any, points: Any) -> None:
-        self._fit, self._points = fit, points
+    def __init__(self, fit: Any, points: Any, begun: Bead) -> None:
+        self._fit, self._points, self._begun = fit, points, begun
         #: The bead with the values that were found.
         self.bead = Bead._of(fit.params)
         self.parameters = [FitParameter(fit.parameters[i]) for i in range(fit.free_count)]
@@ -248,7 +248,7 @@ class Fit:
 
     def to_dict(self) -> Dict[str, Any]:
         """What `festoon fit --json` prints."""
-        text: Dict[str, Any] = json.loads(take_text(lib.fst_fit_json(self.bead._params, self._fit)))
+        text: Dict[str, Any] = json.loads(take_text(lib.fst_fit_json(self._begun._params, self._fit)))
         return text
 
     def plot(self, y: Optional[str] = None, **options: Any) -> Any:
@@ -291,7 +291,7 @@ def fit(
     """
     if (points is None) == (track is None):
         raise BadInput("fit", "give a table of points, or a track")
-    bead = bead or Bead()
+    bead = (bead or Bead())._asked()
     options = options_of(lib.fst_default_fit_options())
     free_words, kept_free = strings([key_of(word) for word in free])
     given_words, kept_given = strings(list(given))
@@ -316,7 +316,7 @@ def fit(
             watch.call(lib.fst_fit_points, bead._params, table, options, found)
         else:
             watch.call(lib.fst_fit_track, bead._params, track._track, options, found)  # type: ignore[union-attr]
-    return Fit(found, table)
+    return Fit(found, table, bead)
 
 
 __all__: List[str] = ["Fit", "FitParameter", "Measurement", "Track", "fit", "measure", "read_track"]

@@ -66,7 +66,7 @@ class Orbit(Run):
     @property
     def symmetry(self) -> Optional[str]:
         """S1, S2 or None."""
-        return SYMMETRIES[self._orbit.symmetry]
+        return SYMMETRIES[int(self._orbit.symmetry)]
 
     @property
     def turns(self) -> int:

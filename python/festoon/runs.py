@@ -72,12 +72,12 @@ class Run(RunNumbers):
     @property
     def regime(self) -> str:
         """counter-rotating, corotating, locked, librating, chaotic, ejected, lifted or undecided."""
-        return REGIMES[self._result.regime]
+        return REGIMES[int(self._result.regime)]
 
     @property
     def symmetry(self) -> Optional[str]:
         """S1, S2 or None."""
-        return SYMMETRIES[self._result.symmetry]
+        return SYMMETRIES[int(self._result.symmetry)]
 
     @property
     def reason(self) -> str:

@@ -36,7 +36,7 @@ class TrajectoryIn(Columns):
         return self._scales.column(PLACES[name])[1]
 
 
-class Trajectory(Columns, np.ndarray):
+class Trajectory(Columns, np.ndarray):  # type: ignore[type-arg]
     """Samples as an array of numpy; columns are attributes and fields, scaled (l, 1/gamma, B0).
 
     >>> tr = Bead().run(periods=20, trajectory=True).trajectory
