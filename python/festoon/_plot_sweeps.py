@@ -160,8 +160,11 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, ax: Any)
     title = f"{words} over the {sides[0].words}"
     title = title[0].upper() + title[1:]
     _style.dress(ax, title, _about_sweep(s), sides[0].label, label)
-    if y == "regime":
-        ax.set_yticks(range(len(REGIMES)), REGIMES)
+    if y == "regime":  # a row for each of those that there are
+        there = np.unique(values[np.isfinite(values)])
+        rows = np.searchsorted(there, values).astype(float)
+        values = np.where(np.isfinite(values), rows, np.nan)
+        ax.set_yticks(range(len(there)), [REGIMES[int(i)] for i in there])
     if len(sides) == 1:
         ax.plot(across, values[:, 0], color="#b0b0b0", linewidth=0 if y == "regime" else 1.2, zorder=2)
         _regime_marks(ax, across, values[:, 0], _regime_index(s)[order])
@@ -172,7 +175,8 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, ax: Any)
             label=sides[1].text(i),
         )
     sides[0].dress(ax.xaxis, ax.set_xscale)
-    _style.key_below(ax, title=sides[1].label if len(sides) == 2 else None)
+    if y != "regime" or len(sides) == 2:
+        _style.key_below(ax, title=sides[1].label if len(sides) == 2 else None)
     return ax
 
 
