@@ -121,6 +121,9 @@ typedef struct fst_column_info {
 FST_API int fst_column_count(void);
 FST_API const fst_column_info *fst_column_at(int index);
 
+/* The values of a sample in all columns, fst_column_count() of them, in their order. */
+FST_API void fst_column_values(const fst_sample *sample, double *values);
+
 /* As fst_unit_shown(), for a column: angular velocities are in rad/s. */
 FST_API double fst_column_shown(const fst_column_info *column, fst_shown_units units, const fst_scales *scales,
                                 const char **name);
