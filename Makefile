@@ -3,7 +3,7 @@
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 PACKAGES = tools/install-packages.sh
-C_FILES = $(shell find src include tests bench docs examples tools -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp')
+C_FILES = $(shell find src include tests bench docs examples tools lab -name node_modules -prune -o \( -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp' \) -print)
 
 .PHONY: build demo test test-long reliability mutants bench install deb docs format check-format clean help
 
