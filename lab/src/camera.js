@@ -7,7 +7,7 @@ import { COLUMN } from "./core.js";
 export const CAMERAS = ["above", "free", "magnet", "bead"];
 const START = {
     above: { azimuth: -90, elevation: 90, zoom: 1 },
-    free: { azimuth: -60, elevation: 32, zoom: 1 },
+    free: { azimuth: -60, elevation: 34, zoom: 0.95 },
     magnet: { azimuth: -90, elevation: 90, zoom: 1 },
     bead: { azimuth: -115, elevation: 24, zoom: 1 },
 };
@@ -52,7 +52,7 @@ export class Camera {
         const seen = (close ? 4.2 * eps : reach) / zoom;
         const distance = seen / Math.tan((fov * RADIANS) / 2) / Math.min(1, aspect);
         const h = [Math.cos(a), Math.sin(a)];
-        const target = close ? [row[COLUMN.x], row[COLUMN.y], eps] : [0, 0, 0];
+        const target = close ? [row[COLUMN.x], row[COLUMN.y], eps] : [0, 0, -0.25 * Math.cos(e)];
         return {
             target, up: [-h[0] * Math.sin(e), -h[1] * Math.sin(e), Math.cos(e)],
             eye: [target[0] + distance * h[0] * Math.cos(e), target[1] + distance * h[1] * Math.cos(e),

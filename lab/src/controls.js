@@ -1,6 +1,8 @@
 /* controls.js - the parameters as controls, made from the library's own table.  A row has a name, a field that takes a
  * value with a unit, and where it makes sense a slider; what the library refuses is said below, in its own words. */
 
+import { T } from "./texts.js";
+
 /* Where sliders begin and end, in the unit that is shown; other rows go from a quarter to four times their default. */
 const SLIDERS = {
     "drive.frequency": [1, 30, 0.1], "bead.radius": [1, 5, 0.05], "bead.mass": [0.05, 3, 0.01], "magnet.depth": [5, 40, 0.1],
@@ -57,15 +59,15 @@ export class Controls {
             if (this.rows.has(key))
                 main.append(this.rows.get(key).box);
         for (const [name, boxes] of groups)
-            others.append(element("details", {}, element("summary", {}, name), ...boxes));
+            others.append(element("details", {}, element("summary", {}, T.groups[name] || name), ...boxes));
     }
 
     row(info) {
         const id = `p-${info.key.replace(/\W/g, "-")}`, [unit, factor] = SHOWN[info.unit] || ["", 1];
-        const label = element("label", { for: id }, info.key);
+        const name = T.names[info.key] || info.key, label = element("label", { for: id, title: info.key }, name);
         const error = element("p", { class: "error", id: `${id}-error`, role: "alert" });
-        const help = element("p", { class: "help", id: `${id}-help` }, `${info.doc}`);
-        const more = element("button", { type: "button", class: "more", "aria-label": `About ${info.key}`, "aria-expanded": "false", "aria-controls": `${id}-help` }, "?");
+        const help = element("p", { class: "help", id: `${id}-help` }, `${info.key}: ${info.doc}`);
+        const more = element("button", { type: "button", class: "more", "aria-label": T.about(name), "aria-expanded": "false", "aria-controls": `${id}-help` }, "?");
         help.hidden = true;
         more.addEventListener("click", () => {
             help.hidden = !help.hidden;
@@ -93,7 +95,7 @@ export class Controls {
         if (!limits || ["run", "impact"].includes(info.key.split(".")[0]))
             return null;
         const [min, max, step] = limits;
-        const made = element("input", { type: "range", min: plain(min), max: plain(max), step: plain(step), "aria-label": `${info.key}, slider` });
+        const made = element("input", { type: "range", min: plain(min), max: plain(max), step: plain(step), "aria-label": T.slider(T.names[info.key] || info.key) });
         made.addEventListener("input", () => this.take(row, `${made.value}${row.unit && ` ${row.unit}`}`, made));
         return made;
     }
@@ -120,7 +122,7 @@ export class Controls {
                 continue;
             }
             row.field.value = texts[key] ?? (said === "" ? "" : `${plain(value * factor)}${unit && ` ${unit}`}`);
-            row.field.placeholder = said === "" ? "not given" : "";
+            row.field.placeholder = said === "" ? T.notGiven : "";
             if (row.slider && row.slider !== from && said !== "")
                 row.slider.value = String(value * factor);
         }

@@ -20,6 +20,7 @@ export class Lesson {
         if (this.at < 0)
             return;
         this.at = -1;
+        this.lab.hideTrail = false;
         this.box.hidden = true;
         document.body.classList.remove("lesson-on");
         document.getElementById("lesson-open").textContent = T.lesson;
@@ -41,6 +42,7 @@ export class Lesson {
             this.body.append(button);
         });
         this.box.replaceChildren(this.heading, element("h3", {}, T.predict), element("p", {}, step.question), this.body, this.reply, this.steps());
+        lab.hideTrail = true;
         lab.open({ scene: step.scene, view: { "ui.settle": String(step.settle ?? 0), ...step.view } });
         lab.play(false);
         this.heading.focus({ preventScroll: false });

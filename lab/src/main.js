@@ -153,9 +153,12 @@ class Lab {
             this.tell("");
             this.furnish();
             if (this.settings.settle > 0) {
-                const done = this.core.go(this.settings.settle / this.driveFrequency(), 1);
+                const shown = this.hideTrail ? 0 : Math.min(this.settings.turns, this.settings.settle / 2);
+                const done = this.core.go((this.settings.settle - shown) / this.driveFrequency(), 1);
                 this.row = Float64Array.from(done.rows.subarray(0, COLUMNS));
                 this.leave(done.stop);
+                if (shown)
+                    this.advance(shown / this.driveFrequency());
             }
             if (this.settings.ramp)
                 this.beginRamp();
@@ -317,6 +320,7 @@ class Lab {
     }
 
     openPreset(preset) {
+        this.hideTrail = false;
         this.open({ scene: preset.scene, view: { "ui.settle": String(preset.settle ?? 0), ...preset.view } });
         this.play(true);
     }

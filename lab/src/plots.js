@@ -9,7 +9,7 @@ export function ticks(least, most, count) {
     const step = power * steps.find((s) => s * power >= raw * 0.999);
     const marks = [];
     for (let i = Math.ceil(least / step - 1e-9); i * step <= most + 1e-9 * step; ++i)
-        marks.push(Math.round(i * step * 1e9) / 1e9);
+        marks.push(Math.round(i * step * 1e9) / 1e9 + 0);
     return marks;
 }
 

@@ -1,7 +1,7 @@
 /* view2d.js - the stirrer from above on a plain canvas, for browsers without WebGL. */
 import { COLUMN } from "./core.js";
 import { PALETTE } from "./trail.js";
-import { ARROWS, NORTH, SOUTH } from "./colours.js";
+import { ARROWS, FRICTION, NORTH, SOUTH } from "./colours.js";
 
 export class View2D {
     constructor(canvas) {
@@ -148,7 +148,7 @@ export class View2D {
         const vectors = {
             moment: [3.2 * e * row[COLUMN.n], 3.2 * e * row[COLUMN.n + 1]],
             field: [3.2 * e * row[COLUMN.b] / setup.fieldScale, 3.2 * e * row[COLUMN.b + 1] / setup.fieldScale],
-            friction: [4 * e * row[COLUMN.force], 4 * e * row[COLUMN.force + 1]],
+            friction: [FRICTION * e * row[COLUMN.force], FRICTION * e * row[COLUMN.force + 1]],
         };
         for (const [name, v] of Object.entries(vectors)) {
             const length = Math.hypot(...v);

@@ -5,7 +5,7 @@ import {
     PlaneGeometry, Quaternion, RingGeometry, Scene, SphereGeometry, SRGBColorSpace, Vector3, WebGLRenderer, BoxGeometry,
 } from "three";
 import { COLUMN } from "./core.js";
-import { ARROWS, NORTH, SOUTH } from "./colours.js";
+import { ARROWS, FRICTION, LOAD, NORTH, SOUTH } from "./colours.js";
 import { PALETTE } from "./trail.js";
 
 const FOV = 34;
@@ -247,8 +247,8 @@ export class View3D {
         const vectors = {
             moment: Array.from(row.subarray(COLUMN.n, COLUMN.n + 3), (v) => 3.2 * eps * v),
             field: Array.from(row.subarray(COLUMN.b, COLUMN.b + 3), (v) => (3.2 * eps * v) / this.setup.fieldScale),
-            friction: [4 * eps * row[COLUMN.force], 4 * eps * row[COLUMN.force + 1], 0],
-            load: [0, 0, 1.4 * eps * row[COLUMN.load]],
+            friction: [FRICTION * eps * row[COLUMN.force], FRICTION * eps * row[COLUMN.force + 1], 0],
+            load: [0, 0, LOAD * eps * row[COLUMN.load]],
         };
         for (const [name, arrow] of Object.entries(this.arrows)) {
             arrow.group.visible = wanted.has(name);
