@@ -442,6 +442,19 @@ FST_API fst_status fst_paper_dry_maps(const char *directory, const fst_progress 
  * it.  NULL: no memory. */
 FST_API char *fst_paper_statements_text(void);
 
+/* ------------------------------------------------------------------ the lab: a page with the same physics */
+
+/* The longest address, and the longest value in it, with the zero behind. */
+enum { FST_LAB_ADDRESS_SIZE = 8192, FST_LAB_VALUE_SIZE = 256 };
+
+/* The address of the page festoon-lab.html, which lies beside this library or in share/festoon, with `params`
+ * behind its "#": what differs from the default scene.  FST_UNAVAILABLE: the page was not built. */
+FST_API fst_status fst_lab_address(const fst_params *params, char address[FST_LAB_ADDRESS_SIZE],
+                                   fst_error *error);
+
+/* Open such an address in the desktop's browser, by xdg-open.  *opened is 0 where there is no desktop. */
+FST_API fst_status fst_lab_open(const char *address, int *opened, fst_error *error);
+
 /* "gnuplot yes, hdf5 yes, ...": the optional parts, and whether this build and machine have them. */
 FST_API const char *fst_tools_components(void);
 
