@@ -64,6 +64,9 @@ def bead_card(bead: Any) -> str:
             continue
         shown = number(value) + ("" if kind == "str" or unit == "1" else f" {unit}")
         rows.append(_row([key, shown, "given" if key in given else ""], doc))
+    for i, part in enumerate(bead.magnet__parts):
+        words = ", ".join(f"{name} {value}" for name, value in part.items() if name != "kind")
+        rows.append(_row([f"magnet.parts[{i}]", part["kind"], words]))
     groups = [
         _row([name.rstrip("_"), number(value)])
         for name, value in bead.groups

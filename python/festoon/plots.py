@@ -4,7 +4,8 @@ from typing import Any, Optional
 
 import numpy as np
 
-from ._tables import COLUMNS, PARAMETERS, RESULTS
+from ._tables import COLUMNS, RESULTS
+from .bead import row_of
 
 
 def _axes(ax: Optional[Any]) -> Any:
@@ -48,7 +49,7 @@ def branch(branches: Any, y: str = "mean_r", ax: Optional[Any] = None) -> Any:
         at = getattr(special._special.at, y)
         ax.plot(special.value, at, "o", color="C3", markersize=4)
         ax.annotate(special.type, (special.value, at), textcoords="offset points", xytext=(4, 4), fontsize=8)
-    unit = PARAMETERS[branches.key][1]
+    unit = row_of(branches.key)[1]
     ax.set_xlabel(branches.key if unit == "1" else f"{branches.key} [{unit}]")
     ax.set_ylabel(f"{y} [{RESULTS[y][0]}]" if y in RESULTS and RESULTS[y][0] != "1" else y)
     return ax

@@ -26,8 +26,8 @@ from ._native import (
 )
 from ._progress import Progress, bar_for
 from ._quantities import Scales, value_text
-from ._tables import PARAMETERS, RESULTS, SweepNumbers
-from .bead import Bead, key_of, keyword_of
+from ._tables import RESULTS, SweepNumbers
+from .bead import Bead, key_of, keyword_of, row_of
 from .runs import REGIMES, SYMMETRIES, Run
 
 Path = Union[str, "os.PathLike[str]"]
@@ -46,7 +46,7 @@ class Axis:
         self.stride = int(lib.fst_grid_axis_stride(grid, number))
         count = int(lib.fst_grid_axis_points(grid, number))
         values = np.array([lib.fst_grid_value(grid, number, i * self.stride) for i in range(count)])
-        kind, names, _ = PARAMETERS[self.key]
+        kind, names, _ = row_of(self.key)
         if kind == "str":
             self.values = np.array(names.split(", "))[values.astype(int)]
         else:
@@ -267,7 +267,7 @@ class Sweep(SweepNumbers):
 
         coords: Dict[str, Any] = {}
         for axis in self.axes:
-            kind, unit, doc = PARAMETERS[axis.key]
+            kind, unit, doc = row_of(axis.key)
             attrs = {"long_name": axis.key, "description": doc, **({} if kind == "str" else {"units": unit})}
             if axis.keyword in self.dims:
                 along = self.dims.index(axis.keyword)

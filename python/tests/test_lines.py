@@ -381,3 +381,41 @@ def test_the_page_or_a_sentence(tmp_path, monkeypatch):
     assert shown.url.startswith("file://") and shown.url.endswith(shown.fragment)
     page = shown._repr_html_()
     assert page.startswith("<iframe srcdoc=") and "v=1&amp;friction.law" in page
+
+
+# ---------------------------------------------------------------------------------------- real magnets
+
+BALL = {"kind": "sphere", "centre": [0, 0, "-5 mm"], "size": "20 mm", "remanence": [1.2, 0, 0]}
+
+
+def test_parts_of_a_magnet(tmp_path):
+    bead = fs.Bead(magnet__parts=[BALL, {**BALL, "kind": "sphere", "rotation": [30, 0, 0, 1]}], magnet__depth="40 mm")
+    assert bead.magnet__shape == "parts" and len(bead.magnet__parts) == 2
+    assert bead.magnet__parts[0] == {
+        "kind": "sphere", "centre": [0, 0, -0.005], "size": [0.02], "remanence": [1.2, 0, 0]
+    }
+    assert bead.magnet__parts[1]["rotation"] == [30, 0, 0, 1]
+    bead.save(tmp_path / "magnet.yaml")
+    assert fs.Bead.load(tmp_path / "magnet.yaml") == bead == eval(repr(bead), {"Bead": fs.Bead})
+    assert bead.replace(kappa=1.2).magnet__parts == bead.magnet__parts
+    assert "magnet.parts[1]" in bead._repr_html_()
+    one = bead.replace(magnet__parts=[BALL])
+    assert len(one.magnet__parts) == 1 and one != bead
+    with pytest.raises(fs.BadInput, match="kind"):
+        fs.Bead(magnet__parts=[{"size": 1}])
+    with pytest.raises(fs.BadInput, match="remanence"):
+        fs.Bead(magnet__parts=[{**BALL, "remanenz": [1, 0, 0]}])
+
+
+def test_a_sphere_s_field_is_a_dipole_s():
+    """Outside, a magnetised ball is a dipole of moment V J/mu_0 at its centre: B on its axis is 2 J R^3/(3 d^3)."""
+    bead = fs.Bead(magnet__parts=[{**BALL, "centre": [0, 0, 0], "remanence": [0, 0, 1.2]}], magnet__depth="40 mm")
+    b, _ = bead.field(0, 0, height="45 mm", units="si")
+    assert b == pytest.approx([0, 0, 2 * 1.2 * 0.01**3 / (3 * 0.045**3)], rel=1e-12)
+
+
+def test_sweep_over_a_part():
+    bead = fs.Bead(magnet__parts=[BALL], magnet__depth="40 mm", run__periods=2)
+    s = fs.sweep(bead, **{"magnet.parts[0].centre[2]": ["-6 mm", -0.005]})
+    assert s.shape == (2,) and s.bead(0).magnet__parts[0]["centre"][2] == -0.006
+    assert s.parameter("magnet.parts[0].centre[2]").tolist() == [-0.006, -0.005]
