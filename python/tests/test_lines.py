@@ -84,6 +84,10 @@ def test_every_parameter_is_a_keyword():
     assert columns == list(fs._tables.COLUMNS)
 
 
+def test_schema(program):
+    assert fs.schema() == ask(program, "schema", "--json")
+
+
 def test_card():
     bead = fs.Bead(friction__law="coulomb")
     page = bead._repr_html_()
@@ -220,6 +224,10 @@ def test_sweep_in_a_file_goes_on(tmp_path):
     assert np.array_equal(first.mean_r, again.mean_r) and len(before) > 0
     with pytest.raises(fs.BadInput):
         fs.sweep(bead, frequency=[9, 11], file=file)
+    fs.export(file, tmp_path / "rows.json")
+    assert [row["mean_r"] for row in json.loads((tmp_path / "rows.json").read_text())] == first.mean_r.tolist()
+    fs.export(file, tmp_path / "rows.csv", ["mean_r"], units="lab")
+    assert (tmp_path / "rows.csv").read_text().startswith("drive.frequency [Hz],mean_r [mm]")
     carried = fs.sweep(bead, frequency=[9, 10], carry="up")
     assert carried.mean_r[0] == first.mean_r[0] and carried.mean_r[1] != first.mean_r[1]
 
@@ -327,6 +335,7 @@ def test_measure(program, bead, tmp_path):
     track = tmp_path / "track.csv"
     rows = np.column_stack([lab.t, lab.x + noise[0], lab.y + noise[1]])
     np.savetxt(track, rows, delimiter=",", header="t [s],x [mm],y [mm]", comments="")
+    (tmp_path / "px.csv").write_text(track.read_text().replace("[mm]", "[px]"))
     measured = fs.measure(track, drive="10.7 Hz")
     assert measured.length_unit == "mm" and measured.motion == "turning" and len(measured.track) == len(rows)
     assert abs(measured.mean_r - run.lab.mean_r) < 5 * measured.mean_r_error
@@ -335,6 +344,12 @@ def test_measure(program, bead, tmp_path):
     assert np.array_equal(fs.read_track(track).x, rows[:, 1])
     with pytest.raises(fs.BadInput):
         fs.measure(track, drive="10.7 mm")
+    fs.save_points(tmp_path / "points.csv", [measured, measured])
+    subprocess.run([program, "measure", track, track, "--drive", "10.7Hz", "-o", tmp_path / "theirs.csv"],
+                   check=True, capture_output=True)
+    assert (tmp_path / "points.csv").read_bytes() == (tmp_path / "theirs.csv").read_bytes()
+    with pytest.raises(fs.BadInput, match="scale"):
+        fs.save_points(tmp_path / "points.csv", [fs.measure(track.with_name("px.csv"))])
 
 
 def test_fit(program, tmp_path):
