@@ -109,6 +109,8 @@ def test_run_in_units(bead):
     assert run.si.mean_r == run.mean_r * 0.023 and run.lab.mean_r == pytest.approx(23 * run.mean_r)
     assert (run.si.unit("mean_r"), run.lab.unit("mean_r")) == ("m", "mm")
     assert run.si.mean_alpha_dot == pytest.approx(run.mean_alpha_dot * bead.gamma)
+    again = pickle.loads(pickle.dumps(run))
+    assert again.to_dict() == run.to_dict() and again.reason == run.reason
     assert math.isnan(run.sticking) and run.never_slips is None and run.trajectory is None and run.complete
 
 
@@ -257,6 +259,7 @@ def test_orbit():
     assert orbit.multipliers.shape == (8,) and np.all(abs(orbit.multipliers) < 1)
     leading = np.max(abs(orbit.multipliers))
     assert orbit.relaxation_time == pytest.approx(-orbit.period / math.log(leading))
+    assert pickle.loads(pickle.dumps(orbit)).to_dict() == orbit.to_dict()
     assert orbit.mean_r == pytest.approx(fs.Bead().run().mean_r, rel=1e-9)
 
 
