@@ -7,8 +7,8 @@ import numpy as np
 from . import _style
 from ._errors import BadInput
 from ._native import lib
-from ._tables import PARAMETERS, RESULTS
-from .bead import Bead
+from ._tables import RESULTS
+from .bead import Bead, row_of
 from .orbits import _choose
 from .runs import REGIMES
 
@@ -29,8 +29,9 @@ class _Side:
             raise BadInput("units", f"the units of {axis.key} do not follow from the scene: leave units=\"given\"")
         values = np.moveaxis(sweep.parameter(axis.keyword), along, 0).reshape(sweep.shape[along], -1)[:, 0]
         self.names: Optional[List[str]] = None
-        if PARAMETERS[axis.key][0] == "str":
-            self.names = PARAMETERS[axis.key][1].split(", ")
+        kind, names, _ = row_of(axis.key)
+        if kind == "str":
+            self.names = names.split(", ")
             values = np.array([self.names.index(name) for name in values])
         self.values = values.astype(float) * (1.0 if self.names else shown.factor)
         self.label, self.words = shown.label, shown.words
