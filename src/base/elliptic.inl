@@ -51,7 +51,8 @@ static inline FN(elliptic) FN(elliptic_mean)(REAL a, REAL product, REAL c)
     return e;
 }
 
-/* The sum of Q_n, n >= 1, from p_0. */
+/* The sum of Q_n, n >= 1, from p_0, which must not be much less than b_0 nor much greater than a_0: p_n then
+ * comes to M as fast as a_n does. */
 static inline REAL FN(elliptic_third)(const FN(elliptic) * e, REAL p)
 {
     REAL q = R(1.0), sum = R(0.0);
