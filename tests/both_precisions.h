@@ -15,6 +15,9 @@
 #undef FN
 #undef REAL_SQRT
 #undef REAL_ABS
+#undef REAL_BITS
+#undef REAL_AS_BITS
+#undef REAL_OF_BITS
 
 #include "physics_ld.h"
 
