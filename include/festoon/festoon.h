@@ -156,6 +156,16 @@ typedef struct fst_params {
                               was given its default too; set by fst_params_set() */
 } fst_params;
 
+/* The height of a part's highest point in the magnet's frame, m.  A part of which it exceeds magnet.depth would
+ * reach into the plate. */
+FST_API double fst_part_top(const fst_magnet_part *part);
+
+/* How far a place in the magnet's frame is from a part, m; 0 inside it and on its surface. */
+FST_API double fst_part_distance(const fst_magnet_part *part, const double place[3]);
+
+/* The first part that a ball of this radius about the place touches; -1 if none. */
+FST_API int fst_part_touched(const fst_params *params, const double place[3], double radius);
+
 /* The paper's bead at 10.7 Hz with the dynamics `rigid`. */
 FST_API fst_params fst_default_params(void);
 
