@@ -2,6 +2,7 @@
 #include "draw/figure_trajectory.h"
 
 #include "base/error.h"
+#include "draw/poles.h"
 #include "draw/style.h"
 #include "draw/view.h"
 
@@ -88,25 +89,33 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
     return FST_OK;
 }
 
-/* Of a magnet that is another source than the bar of lines the figure does not know the outline. */
-static int has_outline(const fst_view *view)
+/* The magnet where it is when the path begins: of lines of dipoles their faint outline, else the poles. */
+typedef struct path_magnet {
+    fst_magnet_body bodies[FST_PARTS_MAX];
+    int count, bar, poles;
+} path_magnet;
+
+static void find_magnet(const fst_view *view, path_magnet *magnet)
 {
-    return view->table->params.magnet_shape == FST_MAGNET_LINES;
+    const fst_params *p = &view->table->params;
+    magnet->count = fst_magnet_bodies(p, view->length / p->magnet_half_length, 1.0, magnet->bodies);
+    magnet->bar = p->magnet_shape == FST_MAGNET_LINES;
 }
 
-/* Draw the bar of lines where it is when the path begins: a faint rectangle. */
-static void draw_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
+static void write_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns,
+                         path_magnet *magnet)
 {
-    double turned = columns->alpha[view->first] - columns->bead_angle[view->first];
-    double length = view->length, width = view->length * view->table->params.magnet_width /
-                                          view->table->params.magnet_half_length / 2.0;
-    double cosine = cos(turned), sine = sin(turned);
-    static const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    fst_figure_block(figure, "magnet", "x y: the outline of the magnet's lines when the path begins");
-    for (int i = 0; i <= 4; ++i) {
-        double along = corners[i % 4][0] * length, across = corners[i % 4][1] * width;
-        (void)fprintf(figure->data, "%.6g %.6g\n", along * cosine - across * sine,
-                      along * sine + across * cosine);
+    const double turned = columns->alpha[view->first] - columns->bead_angle[view->first];
+    const double cosine = cos(turned), sine = sin(turned);
+    const fst_part_shape *seen = &magnet->bodies[0].seen;
+    if (!magnet->bar)
+        magnet->poles = fst_figure_write_poles(figure, magnet->bodies, magnet->count, turned);
+    else
+        fst_figure_block(figure, "magnet", "x y: the outline of the magnet's lines when the path begins");
+    for (int i = 0; magnet->bar && i <= seen->count; ++i) {
+        const double *corner = seen->corners[i % seen->count];
+        (void)fprintf(figure->data, "%.6g %.6g\n", corner[0] * cosine - corner[1] * sine,
+                      corner[0] * sine + corner[1] * cosine);
     }
 }
 
@@ -252,10 +261,12 @@ static void write_arrows(fst_figure_file *figure, const fst_view *view, const pa
 /* ------------------------------------------------------------------ the figure */
 
 static fst_legend make_legend(const fst_view *view, const fst_figure_options *options,
-                              const path_columns *columns, const double box[4])
+                              const path_columns *columns, const double box[4], const path_magnet *magnet)
 {
     fst_legend legend = fst_view_legend(view, "Path of the bead over the plate, from above");
-    if (has_outline(view))
+    if (!magnet->bar)
+        fst_legend_add_poles(&legend, magnet->bodies, magnet->count);
+    else
         fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#b4b4b4' lw 1",
                        "outline of the magnet's lines at the beginning; it turns anticlockwise");
     if (is_within(box, view->length * columns->x[view->first], view->length * columns->y[view->first]))
@@ -269,10 +280,11 @@ static fst_legend make_legend(const fst_view *view, const fst_figure_options *op
     return legend;
 }
 
-static void write_plots(fst_figure_file *figure, const fst_view *view, const fst_figure_options *options)
+static void write_plots(fst_figure_file *figure, const path_magnet *magnet, const fst_figure_options *options)
 {
     fputs("plot \\\n", figure->script);
-    if (has_outline(view))
+    fst_figure_plot_poles(figure->script, magnet->poles);
+    if (magnet->bar)
         fputs("     data index 'magnet' using 1:2 with filledcurves closed fc rgb '#f4f4f4' notitle, \\\n"
               "     data index 'magnet' using 1:2 with lines lc rgb '#b4b4b4' lw 1 notitle, \\\n",
               figure->script);
@@ -301,21 +313,22 @@ fst_status fst_figure_path(const fst_table *table, const char *out, const fst_fi
         status = choose_box(&view, &columns, options, box, error);
     if (status != FST_OK)
         return status;
-    const fst_legend legend = make_legend(&view, options, &columns, box);
+    path_magnet magnet = {.count = 0};
+    find_magnet(&view, &magnet);
+    const fst_legend legend = make_legend(&view, options, &columns, box, &magnet);
     const path_layout l = lay_out(&legend, options->inset);
     fst_figure_file figure;
     status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, l.height, error);
     if (status != FST_OK)
         return status;
-    if (has_outline(&view))
-        draw_magnet(&figure, &view, &columns);
+    write_magnet(&figure, &view, &columns, &magnet);
     write_path(&figure, &view, &columns);
     fst_figure_panels(&figure);
     write_frame(&figure, &view, &l, box);
     write_colour(&figure, &view, &columns, &l);
     if (options->arrows)
         write_arrows(&figure, &view, &columns, box);
-    write_plots(&figure, &view, options);
+    write_plots(&figure, &magnet, options);
     if (options->inset)
         write_inset(&figure, &view, &columns, &l);
     fst_legend_write(&figure, &legend, l.height);
