@@ -175,8 +175,9 @@ static fst_coefficients_double in_mode_of(const fst_model *model, const double *
         return c;
     fst_pull_double p;
     fst_magnetic_pull_double(&c, state, &p);
+    const double sliding[2] = {state[FST_VX] - c.eps * state[FST_WY], state[FST_VY] + c.eps * state[FST_WX]};
     if (model->groups.friction == FST_FRICTION_ROLLING ||
-        hypot(state[FST_VX] - c.eps * state[FST_WY], state[FST_VY] + c.eps * state[FST_WX]) < no_slip)
+        sqrt(sliding[0] * sliding[0] + sliding[1] * sliding[1]) < no_slip)
         c.law.coulomb.mode = FST_MODE_STICK;
     fst_find_rest_double(&c, state, &p);
     c.law.coulomb.mode = FST_MODE_SLIP;
@@ -241,7 +242,7 @@ fst_observation fst_observe_double(const fst_coefficients_double *c, double omeg
 double fst_angle_of_gap(double gap2)
 {
     const double half = 0.5 * sqrt(gap2);
-    return 2.0 * asin(half < 1.0 ? half : 1.0);
+    return 2.0 * fst_asin(half < 1.0 ? half : 1.0);
 }
 
 fst_observation fst_observe(const fst_model *model, const double state[FST_STATE_SIZE])
