@@ -242,7 +242,7 @@ static fst_legend make_legend(const field_figure *f)
     if (map->bar)
         fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#50d55e00' lw 3",
                        "the magnet's lines, below the plate");
-    fst_legend_add_poles(&legend, f->bodies, f->body_count);
+    fst_legend_add_poles(&legend, f->bodies, f->body_count, "below the plate");
     const double longest = map->value * f->strongest;
     (void)snprintf(text, sizeof text, "%s: this length is %.*g %s, others as its square root",
                    fst_field_map_of_bead(map) ? "horizontal force" : "in-plane part of B",

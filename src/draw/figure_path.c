@@ -65,7 +65,7 @@ static fst_status check_zoom(const fst_view *view, const path_columns *columns, 
 }
 
 /* The square of the plate that is shown, in the figure's unit: the zoom, or everything about the axis. */
-static fst_status choose_box(const fst_view *view, const path_columns *columns,
+static fst_status choose_box(const fst_view *view, const path_columns *columns, double magnet_reach,
                              const fst_figure_options *options, double box[4], fst_error *error)
 {
     const double *zoom = options->zoom;
@@ -82,8 +82,10 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
     reach = fmax(reach, fmax(-least, greatest));
     fst_view_range(view, columns->y, &least, &greatest);
     reach = fmax(reach, fmax(-least, greatest));
-    /* Leave room for the magnet's outline too. */
-    reach = fmax(1.12 * reach, 1.12) * view->length;
+    /* Leave room for the magnet's outline too.  Beside a magnet in tesla l means nothing. */
+    const int real = fst_magnet_in_tesla(&view->table->params) && magnet_reach > 0.0;
+    reach = fmax(1.12 * reach, real ? 0.0 : 1.12) * view->length;
+    reach = fmax(reach, 1.05 * magnet_reach);
     box[0] = box[2] = -reach;
     box[1] = box[3] = reach;
     return FST_OK;
@@ -93,6 +95,7 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
 typedef struct path_magnet {
     fst_magnet_body bodies[FST_PARTS_MAX];
     int count, bar, poles;
+    double reach; /* how far from the axis it reaches, in the figure's unit */
 } path_magnet;
 
 static void find_magnet(const fst_view *view, path_magnet *magnet)
@@ -100,6 +103,10 @@ static void find_magnet(const fst_view *view, path_magnet *magnet)
     const fst_params *p = &view->table->params;
     magnet->count = fst_magnet_bodies(p, view->length / p->magnet_half_length, 1.0, magnet->bodies);
     magnet->bar = p->magnet_shape == FST_MAGNET_LINES;
+    for (int i = 0; i < magnet->count && !magnet->bar; ++i)
+        for (int k = 0; k < magnet->bodies[i].seen.count; ++k)
+            magnet->reach = fmax(magnet->reach, hypot(magnet->bodies[i].seen.corners[k][0],
+                                                      magnet->bodies[i].seen.corners[k][1]));
 }
 
 static void write_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns,
@@ -265,7 +272,7 @@ static fst_legend make_legend(const fst_view *view, const fst_figure_options *op
 {
     fst_legend legend = fst_view_legend(view, "Path of the bead over the plate, from above");
     if (!magnet->bar)
-        fst_legend_add_poles(&legend, magnet->bodies, magnet->count);
+        fst_legend_add_poles(&legend, magnet->bodies, magnet->count, "when the path begins");
     else
         fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#b4b4b4' lw 1",
                        "outline of the magnet's lines at the beginning; it turns anticlockwise");
@@ -309,12 +316,13 @@ fst_status fst_figure_path(const fst_table *table, const char *out, const fst_fi
     fst_status status = fst_view_of(&view, table, &asked, 2.0, 30.0, error);
     if (status == FST_OK)
         status = find_columns(&view, options->colour, &columns, error);
+    path_magnet magnet = {.count = 0};
     if (status == FST_OK)
-        status = choose_box(&view, &columns, options, box, error);
+        find_magnet(&view, &magnet);
+    if (status == FST_OK)
+        status = choose_box(&view, &columns, magnet.reach, options, box, error);
     if (status != FST_OK)
         return status;
-    path_magnet magnet = {.count = 0};
-    find_magnet(&view, &magnet);
     const fst_legend legend = make_legend(&view, options, &columns, box, &magnet);
     const path_layout l = lay_out(&legend, options->inset);
     fst_figure_file figure;

@@ -134,11 +134,12 @@ void fst_figure_plot_poles(FILE *script, int which)
                           pole_names[pole], pole_styles[pole]);
 }
 
-void fst_legend_add_poles(fst_legend *legend, const fst_magnet_body *bodies, int count)
+void fst_legend_add_poles(fst_legend *legend, const fst_magnet_body *bodies, int count, const char *where)
 {
-    static const char *const words[2] = {"the magnet's north poles, below the plate",
-                                         "the magnet's south poles, below the plate"};
+    char words[64];
     for (int pole = 0; pole < 2; ++pole)
-        if (has_pole(bodies, count, pole))
-            fst_legend_add(legend, FST_SAMPLE_LINE, pole_styles[pole], words[pole]);
+        if (has_pole(bodies, count, pole)) {
+            (void)snprintf(words, sizeof words, "the magnet's %s poles, %s", pole_names[pole], where);
+            fst_legend_add(legend, FST_SAMPLE_LINE, pole_styles[pole], words);
+        }
 }

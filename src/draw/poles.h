@@ -22,6 +22,8 @@ int fst_magnet_bodies(const fst_params *params, double unit, double over_lines,
  * are, bits 1 and 2.  fst_figure_plot_poles() then plots their outlines, each clause ended by a comma. */
 int fst_figure_write_poles(fst_figure_file *figure, const fst_magnet_body *bodies, int count, double angle);
 void fst_figure_plot_poles(FILE *script, int which);
-void fst_legend_add_poles(fst_legend *legend, const fst_magnet_body *bodies, int count);
+
+/* The key to these lines; `where` they are: "below the plate". */
+void fst_legend_add_poles(fst_legend *legend, const fst_magnet_body *bodies, int count, const char *where);
 
 #endif
