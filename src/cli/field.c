@@ -13,7 +13,8 @@ static const option options[] = {
      "18.7mm, "
      "or in l"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
-    {"map", '\0', "WHAT", "what the map shows: strength (|B|), x, y, z, or of a bead force or load"},
+    {"map", '\0', "strength|x|y|z|force|load",
+     "what the map shows: |B| (the default), a component of B, or the force or the load of a bead"},
     UNITS_OPTION,
     {NULL, '\0', NULL, NULL},
 };
@@ -219,7 +220,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 const command field_command = {
     .name = "field",
     .synopsis =
-        "[SCENE.yaml] [--set KEY=VALUE]... [--height H] --at X,Y [--json] | [--map WHAT] -o FIG.(svg|pdf|png)",
+        "[SCENE.yaml] [--set KEY=VALUE]... [--height H] --at X,Y [--json] | [--map ...] -o FIG.(svg|pdf|png)",
     .summary = "The magnet's field and its gradient at a point, or drawn as a map",
     .details =
         "Positions without a unit are in l (half length of the magnet's lines); they are in the "

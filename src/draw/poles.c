@@ -82,8 +82,11 @@ int fst_magnet_bodies(const fst_params *params, double unit, double over_lines,
             seen->magnetisation[0] = 1.0;
         } else {
             *seen = fst_part_seen(&params->magnet_parts[i]);
-            if (seen->count == 0)
+            if (seen->count == 0) {
                 set_box(seen, centre, DIPOLE, DIPOLE);
+                seen->low -= DIPOLE;
+                seen->high += DIPOLE;
+            }
         }
         scale_shape(seen, unit);
         const double middle[2] = {unit * centre[0], unit * centre[1]};

@@ -232,7 +232,7 @@ static void paint_slab(cairo_t *pen, const fst_part_shape *body, double depth, d
     const double *end = towards > 0.0 ? north : south, *begin = towards > 0.0 ? south : north;
     cairo_pattern_add_color_stop_rgba(poles, 0.0, begin[0], begin[1], begin[2], 0.15 + 0.4 * fabs(towards));
     cairo_pattern_add_color_stop_rgba(poles, 1.0, end[0], end[1], end[2], 0.15 + 0.4 * fabs(towards));
-    cairo_rectangle(pen, left, low, right - left, fmax(high - low, 1.0)); /* a dipole has no height */
+    cairo_rectangle(pen, left, low, right - left, high - low);
     cairo_set_source(pen, poles);
     cairo_fill(pen);
     cairo_pattern_destroy(poles);
