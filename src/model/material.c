@@ -58,6 +58,13 @@ const char *fst_param_missing_choice(const fst_params *params, const char *key, 
         *of = "friction.law";
         return "coulomb";
     }
+    const int of_lines = strcmp(key, "magnet.lines") == 0 || strcmp(key, "magnet.width") == 0 ||
+                         strcmp(key, "model.lambda") == 0;
+    *of = "magnet.shape";
+    if (strncmp(key, "magnet.parts", strlen("magnet.parts")) == 0 && params->magnet_shape != FST_MAGNET_PARTS)
+        return "parts";
+    if (of_lines && params->magnet_shape == FST_MAGNET_PARTS)
+        return "lines";
     if (of_disc && params->contact_patch == FST_PATCH_POINT) {
         *of = "contact.patch";
         return "hertz or pade";
