@@ -3,7 +3,7 @@
 import math
 import os
 import warnings
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -14,6 +14,16 @@ from ._quantities import Value, value_text
 from ._tables import PARAMETERS, SHORT, Parameters
 
 Path = Union[str, "os.PathLike[str]"]
+
+
+def row_of(key: str) -> Tuple[str, str, str]:
+    """Kind (float, int or str), unit (or names of a choice) and doc of a key, of a magnet's part too."""
+    if key in PARAMETERS:
+        return PARAMETERS[key]
+    row = lib.fst_param_at(lib.fst_param_find(key.encode()))
+    if row.kind == lib.FST_KIND_CHOICE:
+        return "str", text_of(row.names).replace("|", ", "), text_of(row.doc)
+    return "int" if row.kind == lib.FST_KIND_INT else "float", text_of(lib.fst_unit_name(row.unit)), text_of(row.doc)
 
 
 class MaterialWarning(UserWarning):
@@ -92,14 +102,51 @@ class Bead(Parameters):
         given = {key_of(keyword): value for keyword, value in keywords.items() if value is not None}
         if len(given) < sum(value is not None for value in keywords.values()):
             raise BadInput("Bead", "a parameter is given twice, by its short keyword and by its long one")
+        if "magnet.parts" in given:
+            given.setdefault("magnet.shape", "parts")
         for key, value in given.items():
             other = lib.fst_param_other_form(key.encode())
             if other and text_of(other) in given:
                 raise BadInput("Bead", f"{key} and {text_of(other)} are two forms of one quantity: give one")
-            call(lib.fst_params_set, self._params, key.encode(), value_text(value).encode())
+            if key == "magnet.parts":
+                self._set_parts(value)
+            else:
+                call(lib.fst_params_set, self._params, key.encode(), value_text(value).encode())
         model = ffi.new("fst_model **")
         call(lib.fst_model_new, self._params, model)
         self._model = ffi.gc(model[0], lib.fst_model_free)
+
+    def _set_parts(self, parts: Iterable[Mapping[str, Any]]) -> None:
+        """The parts of a real magnet, each a dictionary as in a scene: kind, centre, size, remanence, ..."""
+        self._params.magnet_part_count = 0
+        for i, part in enumerate(parts):
+            if "kind" not in part:
+                raise BadInput(f"magnet.parts[{i}]", "a part needs its kind: cuboid, cylinder, sphere or dipole")
+            for name in sorted(part, key=lambda name: name != "kind"):
+                value, key = part[name], f"magnet.parts[{i}].{name}"
+                if name == "kind":
+                    call(lib.fst_params_set, self._params, key.encode(), str(value).encode())
+                    continue
+                single = isinstance(value, str) or np.ndim(value) == 0
+                for k, number in enumerate([value] if single else value):
+                    call(lib.fst_params_set, self._params, f"{key}[{k}]".encode(), value_text(number).encode())
+
+    @property
+    def magnet__parts(self) -> List[Dict[str, Any]]:
+        """The parts of a real magnet, in SI units; numbers that a part does not need are left out."""
+        parts: List[Dict[str, Any]] = []
+        for i in range(lib.fst_param_count(), lib.fst_params_row_count(self._params)):
+            row, text = lib.fst_param_at(i), ffi.new("char[]", 64)
+            number, name = lib.fst_param_part(i), text_of(row.key).split("].", 1)[1]
+            lib.fst_params_get(self._params, i, text, 64)
+            if name == "kind":
+                parts.append({"kind": text_of(text)})
+            elif text[0] != b"\0":
+                parts[number].setdefault(name.split("[")[0], []).append(float(text_of(text)))
+        for part in parts:
+            if not any(part.get("rotation", ())):
+                part.pop("rotation", None)
+        return parts
 
     @classmethod
     def _of(cls, params: Any) -> "Bead":
@@ -214,6 +261,8 @@ class Bead(Parameters):
         for key, text in self._given().items():
             kind = PARAMETERS[key][0] if key in PARAMETERS else "str"
             words.append(f"{keyword_of(key)}={text!r}" if kind == "str" else f"{keyword_of(key)}={text}")
+        if self._params.magnet_part_count:
+            words.append(f"magnet__parts={self.magnet__parts!r}")
         return f"Bead({', '.join(words)})"
 
     def _repr_html_(self) -> str:
@@ -382,7 +431,7 @@ def _sign(cls: Any) -> None:
     """Editors and help() show the keywords."""
     import inspect
 
-    names = [*SHORT, *(key.replace(".", "__") for key in PARAMETERS)]
+    names = [*SHORT, *(key.replace(".", "__") for key in PARAMETERS), "magnet__parts"]
     keywords = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None) for name in names]
     first = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)]
     scene = inspect.Parameter("scene", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None)
