@@ -7,6 +7,11 @@ export class Lesson {
         this.lab = lab;
         this.box = box;
         this.at = -1;
+        /* On a narrow page the lesson stands below the picture, elsewhere above the controls. */
+        const narrow = window.matchMedia("(max-width: 700px)"), home = box.parentElement;
+        const settle = () => (narrow.matches ? document.getElementById("camera-help").after(box) : home.prepend(box));
+        narrow.addEventListener("change", settle);
+        settle();
     }
 
     toggle() {

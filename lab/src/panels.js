@@ -32,6 +32,7 @@ export class Panels {
         $("step").addEventListener("click", () => lab.step());
         $("restart").addEventListener("click", () => lab.restart());
         $("lesson-open").addEventListener("click", () => lab.lesson.toggle());
+        $("slow").setAttribute("aria-label", T.slow);
         $("slow").max = String(this.slows.length - 1);
         $("slow").addEventListener("input", () => {
             lab.settings.slow = this.slows[Number($("slow").value)];

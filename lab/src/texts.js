@@ -24,7 +24,7 @@ const EN = {
         load: "load on the plate", use: "use of static friction", sticks: "slips or sticks", angle: "angle of moment and field",
         spin: "spin about the moment", time: "time",
     },
-    plots: { phi: "Over the angle", sweep: "Over the speed", path: "Path of the moment" },
+    plots: { phi: "Over the angle", sweep: "Over the speed", path: "Moment" },
     plotLabels: {
         phi: "angle Φ of the bead against the magnet (degrees)", r: "r (mm)", nz: "n_z", b: (unit) => `|B| (${unit})`,
         f: "turns of the magnet per second (Hz)", meanR: "mean distance ⟨r⟩ (mm)", nAlpha: "n along the circle", nUp: "n upward (n_z)",
