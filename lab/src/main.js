@@ -80,7 +80,7 @@ class Lab {
     draw() {
         if (!this.units)
             return;
-        this.range = this.trail.range();
+        this.range = this.trail.range(QUANTITIES[this.settings.colour]);
         this.view.draw({ row: this.row, trail: this.trail, range: this.range, camera: this.camera, arrows: this.settings.arrows });
     }
 

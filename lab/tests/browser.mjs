@@ -3,7 +3,7 @@
  * left there as a picture, to be looked at. */
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -152,6 +152,7 @@ const tests = {
                 assert.match(await page.$eval("#lesson h2", (heading) => heading.textContent), new RegExp(`^Lesson ${step}:`));
                 assert.equal(await page.evaluate(() => window.festoonLab.lab.playing), false, "nothing moves before the answer");
                 assert.equal(await page.$("#lesson .explain"), null);
+                assert.equal(await page.$eval("#regime", (text) => getComputedStyle(text).visibility), "hidden", "nothing tells the answer");
                 await picture(page, `${name}-lesson-${step}-question`);
                 await click(page, "#lesson .answers button:last-child");
                 assert.equal(await page.evaluate(() => window.festoonLab.lab.playing), true);
@@ -322,6 +323,21 @@ const tests = {
         const still = await open("", { reduced: true });
         assert.equal(await still.evaluate(() => window.festoonLab.lab.playing), false);
         await close(still);
+    },
+    async "what festoon lab hands to a desktop leads a browser to the page with its scene"() {
+        const tools = join(scratch, "bin"), asked = join(scratch, "asked");
+        mkdirSync(tools);
+        writeFileSync(join(tools, "xdg-open"), '#!/bin/sh\nprintf %s "$1" > "$ASKED.part"\nmv "$ASKED.part" "$ASKED"\n', { mode: 0o755 });
+        execFileSync(FESTOON, ["lab", "--set", "drive.frequency=12.5", "--set", "friction.law=coulomb"], {
+            stdio: "ignore", env: { ...process.env, DISPLAY: ":9", PATH: `${tools}:${process.env.PATH}`, ASKED: asked, XDG_RUNTIME_DIR: scratch },
+        });
+        while (!existsSync(asked))
+            await new Promise((resolve) => setTimeout(resolve, 5));
+        const page = await browser.newPage();
+        await page.goto(`file://${readFileSync(asked, "utf8")}`);
+        await page.waitForFunction(() => window.festoonLab?.version !== undefined, { timeout: 0 });
+        assert.deepEqual(await page.evaluate(() => [window.festoonLab.core.value("drive.frequency"), window.festoonLab.core.get("friction.law")]), [12.5, "coulomb"]);
+        await page.close();
     },
     async "what is saved: the motion, the scene"() {
         const page = await open("#v=1&drive.frequency=12+Hz&ui.settle=20");
