@@ -4,6 +4,7 @@
  * of all this along a direction, tangent.inl, is included where it is needed.
  */
 #include "base/constants.h"
+#include "base/elementary.h"
 #include "model/kinds.h"
 #include "model/quantities.h"
 

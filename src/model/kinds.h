@@ -2,6 +2,8 @@
 #ifndef FST_MODEL_KINDS_H
 #define FST_MODEL_KINDS_H
 
+#include <string.h>
+
 #include <festoon/festoon.h>
 
 /* The modes of dry friction (contact/coulomb.inl). */
@@ -12,7 +14,7 @@ enum { FST_ROLL_ROLLS, FST_ROLL_RESTS, FST_ROLL_STARTS, FST_ROLL_MODES };
 
 typedef struct fst_kinds {
     int source;               /* row of FST_SOURCES (festoon/physics.def) */
-    int pieces;               /* that the source is made of: lines */
+    int pieces;               /* that the source is made of: lines, parts */
     int contact;              /* row of FST_CONTACTS */
     int magnetisable;         /* the material has a or b: the general force and torque */
     int gyroscopic_term_lost; /* dynamics farago2020 */
@@ -21,7 +23,24 @@ typedef struct fst_kinds {
     int flies;                /* a bead on which the load vanishes leaves the plate and comes down again */
     int resists;              /* the plate resists rolling, in modes of its own */
     int paced;                /* the law has modes, and while the bead slips a step measures its own time */
+    unsigned char part[FST_PARTS_MAX];        /* fst_part_kind of each part of the magnet */
+    unsigned char part_turned[FST_PARTS_MAX]; /* whether its axes are not those of the magnet */
 } fst_kinds;
+
+/* B0 in T of a real magnet unless magnet.b0 is given: there it is only a unit. */
+#define FST_PARTS_FIELD_UNIT 0.01
+
+/* What the magnet is made of, which lanes of a batch share. */
+static inline void fst_count_pieces(fst_kinds *kinds, const fst_params *p)
+{
+    memset(kinds->part, 0, sizeof kinds->part);
+    memset(kinds->part_turned, 0, sizeof kinds->part_turned);
+    kinds->pieces = kinds->source == FST_MAGNET_PARTS ? p->magnet_part_count : p->magnet_lines;
+    for (int i = 0; kinds->source == FST_MAGNET_PARTS && i < kinds->pieces; ++i) {
+        kinds->part[i] = (unsigned char)p->magnet_parts[i].kind;
+        kinds->part_turned[i] = p->magnet_parts[i].rotation[0] != 0;
+    }
+}
 
 /* The contact law that acts: dry friction of no strength is no friction, and rolling against a resistance is
  * dry friction that nothing overcomes, because it has modes. */
@@ -39,7 +58,8 @@ static inline int fst_kinds_equal(const fst_kinds *a, const fst_kinds *b)
     return a->source == b->source && a->pieces == b->pieces && a->contact == b->contact &&
            a->magnetisable == b->magnetisable && a->gyroscopic_term_lost == b->gyroscopic_term_lost &&
            a->dry == b->dry && a->patch == b->patch && a->flies == b->flies && a->resists == b->resists &&
-           a->paced == b->paced;
+           a->paced == b->paced && memcmp(a->part, b->part, sizeof a->part) == 0 &&
+           memcmp(a->part_turned, b->part_turned, sizeof a->part_turned) == 0;
 }
 
 /* Whether the contact law takes energy from a bead that slips.  A bead that rolls may lose some all the same.

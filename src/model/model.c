@@ -11,17 +11,17 @@
 
 #include "model/tangent.inl"
 
-/* kappa: model.kappa, unless moment and B0 are both given.  Of moment, B0 and kappa two give the third. */
+/* kappa: model.kappa, unless moment and B0 are both given.  Of moment, B0 and kappa two give the third; beside
+ * a real magnet B0 is there already, and of moment and kappa one gives the other. */
 static void set_strength(const fst_params *p, fst_groups *g)
 {
-    const double unit =
-        p->bead_mass * (p->bead_radius * p->bead_radius) * (p->friction_gamma * p->friction_gamma);
+    const double unit = fst_moment_unit(p), moment = fst_given_moment(p);
     g->kappa = p->model_kappa;
-    g->field_unit = p->magnet_b0;
-    if (!isnan(p->bead_moment) && !isnan(p->magnet_b0))
-        g->kappa = p->bead_moment * p->magnet_b0 / unit;
-    else if (!isnan(p->bead_moment) && p->bead_moment > 0)
-        g->field_unit = g->kappa * unit / p->bead_moment;
+    g->field_unit = fst_field_unit(p);
+    if (!isnan(moment) && !isnan(g->field_unit))
+        g->kappa = moment * g->field_unit / unit;
+    else if (!isnan(moment) && moment > 0)
+        g->field_unit = g->kappa * unit / moment;
     if (p->bead_material == FST_MATERIAL_PARAMAGNETIC)
         g->kappa = 0.0;
     g->a = p->bead_material == FST_MATERIAL_HARD ? 0.0 : p->bead_a;
@@ -80,7 +80,7 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
     g.friction = (fst_friction_law)params->friction_law;
     g.dynamics = (fst_dynamics)params->model_dynamics;
     g.time_unit = 1.0 / gamma;
-    g.mass = params->bead_mass;
+    g.mass = fst_bead_mass(params);
     if (!isfinite(g.kappa) || !isfinite(g.omega) || g.h <= 0)
         return fst_fail(error, FST_BAD_INPUT, "fst_model_new",
                         "the scaled groups are out of range: kappa = %g, omega = %g, h = %g", g.kappa, g.omega,

@@ -24,6 +24,7 @@
 #include "model/source/local_field.inl"
 
 #include "model/source/lines.inl"
+#include "model/source/parts.inl"
 #ifdef FST_OWN_SOURCE_BODIES
 #include FST_OWN_SOURCE_BODIES
 #endif
