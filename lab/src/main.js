@@ -30,7 +30,7 @@ class Lab {
     constructor(core, pool) {
         this.core = core;
         this.pool = pool;
-        this.known = new Set(core.parameters.map((row) => row.key));
+        this.known = (key) => core.knows(key);
         this.scene = {};
         this.settings = { slow: 20, colour: "nz", turns: TURNS, arrows: new Set(), ramp: null, settle: 0 };
         this.trail = new Trail(ROOM);
@@ -73,7 +73,7 @@ class Lab {
         const north = Math.sign(this.core.field(1, 0)[2]) || 1;
         this.view.furnish({
             eps: groups.eps, plateRadius: groups.plate_radius, ring: 10 / this.units.mm, fieldScale: Math.hypot(...b) || 1,
-            reach: Math.max(1.5, 1.25 * this.core.value("start.r")), bodies: bodiesOf(groups, north),
+            reach: Math.max(1.5, 1.25 * this.core.value("start.r")), bodies: bodiesOf(groups, north, this.core.parts(), this.core.value("magnet.depth")),
         });
     }
 

@@ -82,6 +82,20 @@ const EN = {
     },
 };
 
+/* Two upright discs of neodymium side by side, as many stirrers have them. */
+function twoDiscs() {
+    const scene = { "magnet.shape": "parts" };
+    [1, -1].forEach((side, i) => {
+        const part = `magnet.parts[${i}]`;
+        Object.assign(scene, {
+            [`${part}.kind`]: "cylinder", [`${part}.centre[0]`]: `${18 * side} mm`, [`${part}.centre[1]`]: "0 mm", [`${part}.centre[2]`]: "0 mm",
+            [`${part}.size[0]`]: "15 mm", [`${part}.size[1]`]: "8 mm",
+            [`${part}.remanence[0]`]: "0 T", [`${part}.remanence[1]`]: "0 T", [`${part}.remanence[2]`]: `${1.2 * side} T`,
+        });
+    });
+    return scene;
+}
+
 /* An experiment: scene and view. */
 export const PRESETS = [
     { id: "locked", settle: 30, name: "Locked, 3 Hz", scene: { "drive.frequency": "3 Hz" }, view: { "ui.slow": "5", "ui.camera": "free" } },
@@ -93,6 +107,7 @@ export const PRESETS = [
     { id: "none", name: "No friction", scene: { "friction.law": "none", "drive.frequency": "19.9 Hz" }, view: { "ui.slow": "20", "ui.camera": "above" } },
     { id: "dry", settle: 100, name: "Dry friction: slip and stick", scene: { "friction.law": "coulomb", "drive.frequency": "10.7 Hz" },
         view: { "ui.slow": "50", "ui.camera": "bead", "ui.colour": "sticks", "ui.arrows": "friction" } },
+    { id: "discs", settle: 100, name: "Two real magnets, 15 Hz", scene: { ...twoDiscs(), "drive.frequency": "15 Hz" }, view: { "ui.slow": "50", "ui.camera": "free" } },
 ];
 
 /* The lesson: each step a state, a question with answers, what to look at, and why it is so.  `answer` is the place

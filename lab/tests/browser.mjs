@@ -117,7 +117,7 @@ const tests = {
             const page = await open("", { size });
             await described(page);
             const presets = await page.$$eval("#presets button", (buttons) => buttons.map((button) => button.dataset.preset));
-            assert.equal(presets.length, 7);
+            assert.equal(presets.length, 8);
             for (const preset of presets) {
                 await click(page, `[data-preset=${preset}]`);
                 await described(page);
