@@ -40,11 +40,11 @@ static void keep_records(fst_row_worker *w, int l, const fst_window *window)
 
 /* Whether the orbit repeats itself so closely that later returns, even hundreds, cannot change a record by more
  * than 1e-6, or than the integration's own errors at loose tolerances.  The fast form then stops looking for
- * extremes. */
+ * extremes, and soon at all (observe/left_out.h). */
 static int repeats(const fst_watched_run *run)
 {
-    const fst_mark_series *marks = &run->window.returns.marks;
-    return marks->offered >= 3 && marks->latest.full_distance < fmax(1e-9, 10.0 * run->params->run_rtol);
+    const fst_returns *returns = &run->window.returns;
+    return returns->marks.offered >= 3 && returns->marks.latest.full_distance < returns->left_out.limit;
 }
 
 /* The fast form: set the steps aside in which a record may be beaten. */
@@ -151,6 +151,19 @@ static void follow_window(fst_row_worker *w, int l)
     fst_worker_keep_angle_range(w, l);
 }
 
+/* After a return: may the run go on unobserved, or did it do so wrongly? */
+static void look_at_returns(fst_row_worker *w, int l)
+{
+    fst_window *window = &w->observed.lanes[l].run->window;
+    fst_returns *returns = &window->returns;
+    if (!w->engine->fused || !returns->crossed || returns->crossings % 2 == 0)
+        return;
+    if (fst_left_out_begin(&returns->left_out, &returns->marks, &window->span))
+        w->leaving |= fst_lane_bit(l);
+    if (returns->left_out.state == FST_LEFT_OUT_FAILED)
+        w->failed |= fst_lane_bit(l);
+}
+
 /* Look closely at a lane's accepted step; 1 if its run is over. */
 static int watch(fst_row_worker *w, int l, fst_lane_events events)
 {
@@ -170,6 +183,7 @@ static int watch(fst_row_worker *w, int l, fst_lane_events events)
         fst_returns_see_side(&run->window.returns, flow);
     run->window.activity = b->view.activity[l];
     fst_window_look(&run->window, flow, !w->engine->fused);
+    look_at_returns(w, l);
     follow_window(w, l);
     return flow->t.high >= run->window.span.until;
 }
