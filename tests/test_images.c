@@ -34,6 +34,7 @@ static fst_params job_params(int i)
         p.run_periods = 50;
         p.run_discard = 15;
         p.run_rtol = 1e-7;
+        p.run_until = i % 2 ? FST_UNTIL_SETTLED : FST_UNTIL_PERIODS;
     } else if (i >= LIBRATING) {
         p = fst_default_params(); /* these librate, and need an exponent */
         p.drive_frequency = 6.57 + 0.02 * (i - LIBRATING);

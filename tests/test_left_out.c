@@ -177,6 +177,60 @@ static void test_unstable_orbit_is_noticed(void **unused)
     fst_branch_free(&branch);
 }
 
+/* run.until: settled ends a run soon, and says of its motion what the long run says. */
+static void check_settles(fst_params *p)
+{
+    const fst_run_options options = fst_default_run_options();
+    fst_run_result whole, settled;
+    assert_int_equal(fst_run(p, &options, &whole, NULL), FST_OK);
+    p->run_until = FST_UNTIL_SETTLED;
+    assert_int_equal(fst_run(p, &options, &settled, NULL), FST_OK);
+    assert_true(isnan(whole.settled_at));
+    assert_true(settled.settled_at > 3 && settled.settled_at < settled.periods);
+    assert_true(settled.periods < 0.5 * whole.periods);
+    CHECK_CLOSE(settled.end_time * settled.omega / 6.283185307179586, settled.periods, 1e-9);
+    assert_int_equal(settled.regime, whole.regime);
+    assert_int_equal(settled.symmetry, whole.symmetry);
+    CHECK_CLOSE(settled.mean_r, whole.mean_r, 1e-8);
+    CHECK_CLOSE(settled.mean_alpha_dot, whole.mean_alpha_dot, 1e-8);
+    CHECK_CLOSE(settled.max_r, whole.max_r, 1e-7);
+    CHECK_CLOSE(settled.min_b, whole.min_b, 1e-6);
+    if (whole.regime == FST_REGIME_COUNTER_ROTATING) {
+        CHECK_CLOSE(settled.festoons, whole.festoons, 1e-7);
+        assert_true(fabs(settled.mean_r - whole.mean_r) <= 5.0 * settled.mean_r_error);
+    }
+}
+
+static void test_settled(void **unused)
+{
+    (void)unused;
+    static const double frequencies[] = {10.7, 19.9, 1.0, 30.0};
+    for (size_t i = 0; i < sizeof frequencies / sizeof *frequencies; ++i) {
+        fst_params p = long_run(frequencies[i]);
+        check_settles(&p);
+    }
+    fst_params dry = long_run(10.7);
+    dry.friction_law = FST_FRICTION_COULOMB;
+    check_settles(&dry);
+}
+
+/* A libration is never known in this way: the window opens after the discard, and the run goes to its end. */
+static void test_not_settled(void **unused)
+{
+    (void)unused;
+    fst_params p = long_run(8.8);
+    p.run_periods = 60;
+    p.run_discard = 20;
+    p.run_until = FST_UNTIL_SETTLED;
+    const fst_run_options options = fst_default_run_options();
+    fst_run_result result;
+    assert_int_equal(fst_run(&p, &options, &result, NULL), FST_OK);
+    assert_int_equal(result.regime, FST_REGIME_LIBRATING);
+    assert_true(isnan(result.settled_at));
+    CHECK_CLOSE(result.periods, 60.0, 1e-12);
+    assert_true(result.window_periods > 37.0 && result.window_periods < 40.0);
+}
+
 /* Means that approach a limit geometrically: the integral over the part is then exact. */
 static void test_geometric_approach(void **unused)
 {
@@ -219,6 +273,8 @@ int main(void)
         cmocka_unit_test(test_viscous),
         cmocka_unit_test(test_dry),
         cmocka_unit_test(test_unstable_orbit_is_noticed),
+        cmocka_unit_test(test_settled),
+        cmocka_unit_test(test_not_settled),
         cmocka_unit_test(test_geometric_approach),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

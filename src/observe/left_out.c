@@ -43,9 +43,14 @@ static double time_between(const fst_mark *first, const fst_mark *last)
     return fst_twofold_difference(last->t, first->t);
 }
 
+double fst_left_out_turn(const fst_left_out *part)
+{
+    return time_between(&part->mark[BEFORE], &part->mark[LAST]);
+}
+
 double fst_left_out_until(const fst_left_out *part, const fst_span *span)
 {
-    return span->until - OBSERVED_AT_END * time_between(&part->mark[BEFORE], &part->mark[LAST]);
+    return span->until - OBSERVED_AT_END * fst_left_out_turn(part);
 }
 
 /* The mean of an integrand over one return. */
@@ -90,8 +95,7 @@ int fst_left_out_begin(fst_left_out *part, const fst_mark_series *marks, const f
         part->state = repeats ? part->state + 1 : FST_LEFT_OUT_NOTHING;
         return 0;
     }
-    const double turn = time_between(&part->mark[BEFORE], now);
-    const double returns = (fst_left_out_until(part, span) - now->t.high) / turn;
+    const double returns = (fst_left_out_until(part, span) - now->t.high) / fst_left_out_turn(part);
     if (!(returns > WORTHWHILE))
         part->state = FST_LEFT_OUT_NEVER;
     else if (is_certain(part, returns))

@@ -32,6 +32,9 @@ typedef struct fst_left_out {
  * until fst_left_out_until(). */
 int fst_left_out_begin(fst_left_out *part, const fst_mark_series *marks, const fst_span *span);
 
+/* The time of the last return before the part. */
+double fst_left_out_turn(const fst_left_out *part);
+
 /* When it is to be observed again; the state is then set to FST_LEFT_OUT_FIRST. */
 double fst_left_out_until(const fst_left_out *part, const fst_span *span);
 

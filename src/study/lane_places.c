@@ -46,6 +46,7 @@ void fst_worker_vacate(fst_row_worker *w, fst_lane_batch *b, int l)
         w->turning &= ~fst_lane_bit(l);
         w->leaving &= ~fst_lane_bit(l);
         w->failed &= ~fst_lane_bit(l);
+        w->settled &= ~fst_lane_bit(l);
     }
 }
 
@@ -109,9 +110,7 @@ fst_beginning fst_worker_begin(fst_row_worker *w, fst_lane *at, fst_status *stat
     at->run = run;
     w->kind = run->model->coefficients;
     run->window.span.asked_at_end = 1;
-    run->window.returns.left_out.rtol = run->params->run_rtol;
-    run->window.returns.left_out.limit = fmax(1e-9, 10.0 * run->params->run_rtol);
-    if (!w->usual->fused)
+    if (!w->usual->fused && !run->settling.asked)
         run->window.returns.left_out.state = FST_LEFT_OUT_NEVER;
     return FST_BEGUN;
 }

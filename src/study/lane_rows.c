@@ -56,6 +56,7 @@
 #include "study/conclude.h"
 #include "study/lane_worker.h"
 #include "study/lone_run.h"
+#include "study/settle.h"
 
 /* A finished run needs its exponent: it waits for others that do. */
 static fst_status park(fst_row_worker *w, fst_lane *at, fst_error *error)
@@ -201,6 +202,13 @@ static void begin_anew(fst_row_worker *w, int l)
         w->waiting[w->waiting_count++] = fresh.job;
 }
 
+/* A run begins another window (settle.h). */
+static void watch_anew(fst_row_worker *w, int l)
+{
+    fst_worker_vacate(w, &w->observed, l);
+    fst_worker_move_run(&w->ready[w->ready_count++], &w->observed.lanes[l]);
+}
+
 /* Make a step in every lane whose run is observed. */
 static void step_observed(fst_row_worker *w)
 {
@@ -232,8 +240,10 @@ static void step_observed(fst_row_worker *w)
         else if (contacts.turned & bit)
             fst_worker_begin_mode(w, b, l);
     }
-    for (int l = 0; (w->leaving | w->failed) != 0 && l < w->engine->width; ++l) {
-        if (w->failed & fst_lane_bit(l))
+    for (int l = 0; (w->leaving | w->failed | w->settled) != 0 && l < w->engine->width; ++l) {
+        if (w->settled & fst_lane_bit(l))
+            watch_anew(w, l);
+        else if (w->failed & fst_lane_bit(l))
             begin_anew(w, l);
         else if (w->leaving & fst_lane_bit(l))
             leave(w, l);
@@ -241,18 +251,6 @@ static void step_observed(fst_row_worker *w)
 }
 
 /* ------------------------------------------------------------------ unobserved */
-
-/* The end of the last step is where the flow goes on; the mode of a contact goes on too. */
-static void stand_at_end(fst_flow *flow)
-{
-    if (flow->step.context.coefficients.kinds.paced) {
-        fst_contact_begin_step(flow);
-        flow->t_start = flow->t;
-        flow->bead_angle_start = flow->bead_angle;
-    } else {
-        fst_flow_restart(flow);
-    }
-}
 
 /* The discard of a run is over: its window begins with the state that it has. */
 static void open_window(fst_row_worker *w, int l)
@@ -262,7 +260,7 @@ static void open_window(fst_row_worker *w, int l)
     run->window.activity = b->view.activity[l];
     fst_quadrature_begin_moment_angle(&run->window.quadrature, run->flow->step.end);
     fst_window_mark_periods(&run->window, run->flow);
-    stand_at_end(run->flow);
+    fst_stand_at_end(run->flow);
     fst_quadrature_set_references(&run->window.quadrature, run->flow);
     fst_returns_see_side(&run->window.returns, run->flow);
     fst_window_pass(&run->window, &run->flow->bead_angle, 0.0);

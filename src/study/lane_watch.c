@@ -15,6 +15,7 @@
  * numbers.
  */
 #include "study/lane_worker.h"
+#include "study/settle.h"
 
 #include <math.h>
 
@@ -26,8 +27,9 @@ void fst_worker_locate(fst_row_worker *w)
     double values[FST_MOST_LANES];
     w->engine->locate(w->pending_steps, values);
     for (int i = 0; i < w->pending_count; ++i)
-        fst_extremes_offer(w->observed.lanes[w->pending[i].lane].run->window.extremes, w->pending[i].record,
-                           values[i]);
+        if (w->pending[i].lane >= 0)
+            fst_extremes_offer(w->observed.lanes[w->pending[i].lane].run->window.extremes, w->pending[i].record,
+                               values[i]);
     w->pending_count = 0;
 }
 
@@ -151,11 +153,27 @@ static void follow_window(fst_row_worker *w, int l)
     fst_worker_keep_angle_range(w, l);
 }
 
+/* The run of a lane begins another window: extremes of the one before are no longer wanted. */
+static void forget_window(fst_row_worker *w, int l)
+{
+    w->settled |= fst_lane_bit(l);
+    w->tracked &= ~fst_lane_bit(l);
+    for (int i = 0; i < w->pending_count; ++i)
+        if (w->pending[i].lane == l)
+            w->pending[i].lane = -1;
+}
+
 /* After a return: may the run go on unobserved, or did it do so wrongly? */
 static void look_at_returns(fst_row_worker *w, int l)
 {
-    fst_window *window = &w->observed.lanes[l].run->window;
+    fst_watched_run *run = w->observed.lanes[l].run;
+    fst_window *window = &run->window;
     fst_returns *returns = &window->returns;
+    if (run->settling.asked) {
+        if (fst_settling_look(run))
+            forget_window(w, l);
+        return;
+    }
     if (!w->engine->fused || !returns->crossed || returns->crossings % 2 == 0)
         return;
     if (fst_left_out_begin(&returns->left_out, &returns->marks, &window->span))
@@ -184,7 +202,8 @@ static int watch(fst_row_worker *w, int l, fst_lane_events events)
     run->window.activity = b->view.activity[l];
     fst_window_look(&run->window, flow, !w->engine->fused);
     look_at_returns(w, l);
-    follow_window(w, l);
+    if (!(w->settled & fst_lane_bit(l)))
+        follow_window(w, l);
     return flow->t.high >= run->window.span.until;
 }
 
@@ -210,6 +229,7 @@ unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events)
             w->engine->extract_clock(w->observed.memory, l, w->observed.lanes[l].run->flow);
             close = fst_window_period_needs_integrals(&w->observed.lanes[l].run->window,
                                                       w->observed.lanes[l].run->flow);
+            close |= w->observed.lanes[l].run->settling.asked;
             if (!close)
                 pass_mark(w, l);
         }

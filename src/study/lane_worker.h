@@ -42,6 +42,7 @@ typedef struct fst_row_worker {
     unsigned tracked;                   /* extremes are looked for */
     unsigned turning;                   /* Phi has gone so far that its range no longer matters */
     unsigned leaving;                   /* after this step the run need not be observed */
+    unsigned settled;                   /* another window begins after this step */
     unsigned failed;                    /* the motion that left is not the one that came back */
     fst_lane ready[2 * FST_MOST_LANES]; /* runs that are to be observed as soon as a lane is free */
     int ready_count;
