@@ -100,6 +100,7 @@ typedef enum { FST_CONTACTS(FST_CONTACT_ENUM) FST_FRICTION_LAWS } fst_friction_l
 typedef enum { FST_DYNAMICS_RIGID, FST_DYNAMICS_FARAGO2020 } fst_dynamics;
 typedef enum { FST_PATCH_POINT, FST_PATCH_HERTZ, FST_PATCH_PADE } fst_contact_patch;
 typedef enum { FST_SPIN_ROLLING, FST_SPIN_REST } fst_start_spin;
+typedef enum { FST_UNTIL_PERIODS, FST_UNTIL_SETTLED } fst_run_until;
 typedef enum { FST_METHOD_EVENTS, FST_METHOD_SPLITTING } fst_method;
 
 /* The kinds of unit that a parameter may carry (params.def). */
