@@ -3,7 +3,7 @@
 import math
 import os
 import warnings
-from typing import Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -12,6 +12,13 @@ from ._native import call, ffi, lib, path_bytes, rows_of, take_text, text_of
 from ._progress import Progress
 from ._quantities import Value, value_text
 from ._tables import PARAMETERS, SHORT, Parameters
+
+if TYPE_CHECKING:
+    from .flows import Flow
+    from .lab import Lab
+    from .orbits import Branch, LockedStates, Lyapunov, Orbit
+    from .runs import Run
+    from .sweeps import Sweep
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -87,16 +94,22 @@ class Bead(Parameters):
     (10.7, 1.8)
     """
 
-    def __init__(self, scene: Any = None, **keywords: Any) -> None:
-        self._params = ffi.new("fst_params *", lib.fst_default_params())
-        if isinstance(scene, Bead):
-            self._params[0] = scene._params[0]
-        elif isinstance(scene, str) and "\n" in scene:
-            data = scene.encode()
-            call(lib.fst_scene_parse, data, len(data), b"scene", self._params)
-        elif scene is not None:
-            call(lib.fst_scene_read, path_bytes(scene), self._params)
-        self._set(keywords)
+    _params: Any
+    _model: Any
+
+    # Type checkers take the signatures with all keywords from Parameters.
+    if not TYPE_CHECKING:
+
+        def __init__(self, scene: Any = None, **keywords: Any) -> None:
+            self._params = ffi.new("fst_params *", lib.fst_default_params())
+            if isinstance(scene, Bead):
+                self._params[0] = scene._params[0]
+            elif isinstance(scene, str) and "\n" in scene:
+                data = scene.encode()
+                call(lib.fst_scene_parse, data, len(data), b"scene", self._params)
+            elif scene is not None:
+                call(lib.fst_scene_read, path_bytes(scene), self._params)
+            self._set(keywords)
 
     def _set(self, keywords: Mapping[str, Any]) -> None:
         given = {key_of(keyword): value for keyword, value in keywords.items() if value is not None}
@@ -169,16 +182,18 @@ class Bead(Parameters):
         """The bead as YAML text; Bead(text) is the same bead, bit by bit."""
         return take_text(lib.fst_scene_text(self._params, comments))
 
-    def replace(self, **keywords: Any) -> "Bead":
-        """The same bead with other values.
+    if not TYPE_CHECKING:
 
-        >>> Bead().replace(kappa=1.2).kappa
-        1.2
-        """
-        made = type(self).__new__(type(self))
-        made._params = ffi.new("fst_params *", self._params[0])
-        made._set(keywords)
-        return made
+        def replace(self, **keywords: Any) -> "Bead":
+            """The same bead with other values.
+
+            >>> Bead().replace(kappa=1.2).kappa
+            1.2
+            """
+            made = type(self).__new__(type(self))
+            made._params = ffi.new("fst_params *", self._params[0])
+            made._set(keywords)
+            return made
 
     # ------------------------------------------------------------------ what it is
 
@@ -300,7 +315,7 @@ class Bead(Parameters):
         ramp_wait: Optional[float] = None,
         ramp_disturbance: Optional[float] = None,
         progress: Progress = None,
-    ) -> "Any":
+    ) -> "Run":
         """Simulate the bead and describe its motion: a :class:`Run`.
 
         Parameters
@@ -339,25 +354,25 @@ class Bead(Parameters):
             progress=progress,
         )
 
-    def sweep(self, **keywords: Any) -> Any:
+    def sweep(self, **keywords: Any) -> "Sweep":
         """Runs over a grid of parameters: :func:`festoon.sweep` with this bead."""
         from .sweeps import sweep
 
         return sweep(self, **keywords)
 
-    def orbit(self, *, festoons: Optional[float] = None, progress: Progress = None) -> Any:
+    def orbit(self, *, festoons: Optional[float] = None, progress: Progress = None) -> "Orbit":
         """The stable periodic orbit to which the start leads, or the one with so many festoons: an `Orbit`."""
         from . import orbits
 
         return orbits.orbit(self._asked(), festoons, progress)
 
-    def locked(self, *, progress: Progress = None) -> Any:
+    def locked(self, *, progress: Progress = None) -> "LockedStates":
         """Every locked state at this drive: a `LockedStates`."""
         from . import orbits
 
         return orbits.locked(self._asked(), progress)
 
-    def branch(self, *, kind: str = "counter", progress: Progress = None, **keywords: Any) -> Any:
+    def branch(self, *, kind: str = "counter", progress: Progress = None, **keywords: Any) -> "Branch":
         """Follow a family of solutions over a parameter, `omega=(0.15, 0.6)`: a `Branch`.
 
         Parameters
@@ -373,7 +388,7 @@ class Bead(Parameters):
 
         return orbits.branch(self._asked(), kind, progress, keywords)
 
-    def lyapunov(self, *, progress: Progress = None) -> Any:
+    def lyapunov(self, *, progress: Progress = None) -> "Lyapunov":
         """The spectrum of Lyapunov exponents: a `Lyapunov`."""
         from . import orbits
 
@@ -393,7 +408,7 @@ class Bead(Parameters):
 
         return fields.field(self, x, y, height, units)
 
-    def flow(self, state: Any = None, **options: Any) -> Any:
+    def flow(self, state: Any = None, **options: Any) -> "Flow":
         """A trajectory that is advanced step by step: a `Flow`."""
         from .flows import Flow
 
@@ -420,7 +435,7 @@ class Bead(Parameters):
 
         figures.field(self, path, units)
 
-    def lab(self, height: int = 720) -> Any:
+    def lab(self, height: int = 720) -> "Lab":
         """The browser page with this bead, shown in a notebook."""
         from .lab import Lab
 

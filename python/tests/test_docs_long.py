@@ -38,6 +38,7 @@ def test_types(tmp_path):
         "bead = fs.Bead(frequency='10.7 Hz', friction__law='coulomb')\n"
         "reveal_type(bead.replace(kappa=1.2))\n"
         "reveal_type(bead.run().mean_r)\n"
+        "reveal_type(fs.sweep(bead, kappa=[1, 2])[0])\n"
         "fs.Bead(frequenzy=3)\n"
     )
     config = ["--config-file", str(SOURCE / "pyproject.toml")]
