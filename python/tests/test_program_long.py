@@ -92,7 +92,7 @@ def test_scenes_cross_over(program, tmp_path):
     assert bead.run().to_dict() == theirs
     ask(program, "init", tmp_path / "theirs.yaml", "--set", "bead.radius=2 mm", "--set", "run.periods=20")
     read = fs.Bead.load(tmp_path / "theirs.yaml")
-    assert read == fs.Bead(bead__radius="2 mm", run__periods=20)
+    assert read == fs.Bead(bead__radius="2 mm", run__periods=20, run__discard=10)
     with pytest.warns(fs.MaterialWarning):
         ours = read.run().to_dict()
     assert ours == json.loads(ask(program, "run", tmp_path / "theirs.yaml", "--json"))
