@@ -9,6 +9,7 @@
 #include "model/source/derivatives.inl"
 
 #include "model/source/cuboid.inl"
+#include "model/source/cylinder.inl"
 #include "model/source/dipole.inl"
 
 typedef struct FN(parts) {
@@ -33,6 +34,9 @@ static inline void FN(part_field)(const FN(part) * part, int kind, const REAL d[
     case FST_PART_CUBOID:
         FN(cuboid_field)(part, d, b, g);
         break;
+    case FST_PART_CYLINDER:
+        FN(cylinder_field)(part, d, b, g);
+        break;
     default: /* FST_PART_SPHERE, FST_PART_DIPOLE */
         FN(dipole_field)(part, d, b, g);
     }
@@ -44,6 +48,9 @@ static inline void FN(part_look)(const FN(part) * part, int kind, const REAL d[3
     switch (kind) {
     case FST_PART_CUBOID:
         FN(cuboid_look)(part, d, at);
+        break;
+    case FST_PART_CYLINDER:
+        FN(cylinder_look)(part, d, at);
         break;
     default:
         FN(dipole_look)(part, d, at);
