@@ -1,6 +1,6 @@
 /* The field of a block: against quadrature, against its own differences, against itself in other pieces and
  * places, and double against long double wherever a formula could lose its digits. */
-#include "both_precisions.h"
+#include "blocks_ld.h"
 #include "golden_parts.h"
 
 static const block BLOCKS[] = {{{28, 20, 4.5}, {1.2, 0.3, -0.7}},

@@ -1,5 +1,5 @@
 /* Our logarithm and arctangent against the C library's in long double, in units in the last place. */
-#include "both_precisions.h"
+#include "blocks_ld.h"
 
 #include <float.h>
 #include <stdio.h>
