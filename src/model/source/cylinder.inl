@@ -112,19 +112,21 @@ static inline FN(rim) FN(see_rim)(const FN(cylinder_place) * at, REAL zeta)
     rim.zeta = zeta;
     rim.size = REAL_ABS(zeta);
     rim.sign = REAL_SELECT(REAL_LESS(zeta, R(0.0)), R(-1.0), R(1.0));
-    rim.greatest = ELLIPTIC_ROOT(greatest2);
-    const REAL least = ELLIPTIC_ROOT(least2), product = rim.greatest * least;
-    const REAL a = R(0.5) * (rim.greatest + least), per_a = REAL_RECIPROCAL(a), a2 = a * a;
+    rim.greatest = REAL_SQRT(greatest2);
+    const REAL least = REAL_SQRT(least2), product = rim.greatest * least;
+    const REAL a = R(0.5) * (rim.greatest + least), a2 = a * a;
+    const REAL product2 = greatest2 * least2, per_all = REAL_RECIPROCAL(a * product2),
+               per_a = per_all * product2;
     const REAL c = at->area * per_a, c2 = c * c;
     rim.a = a;
     rim.a2 = a2;
     rim.c = c;
     rim.c2 = c2;
     rim.per_a2 = per_a * per_a;
-    rim.per_greatest2 = REAL_RECIPROCAL(greatest2);
-    rim.per_product2 = REAL_RECIPROCAL(product * product);
+    rim.per_product2 = per_all * a;
+    rim.per_greatest2 = rim.per_product2 * least2;
     rim.means = FN(elliptic_mean)(a, product, c);
-    rim.circle = R(2.0) * REAL_OF(CYLINDER_PI) * REAL_RECIPROCAL(rim.means.mean);
+    rim.circle = R(2.0) * REAL_OF(CYLINDER_PI) * rim.means.per_mean;
     rim.sigma = c2 * rim.means.squares;
     const REAL share = R(0.5) * rim.circle * per_a, turn = share * at->radius * per_a; /* times rho: c/(2 a) */
     rim.per_a = per_a;
@@ -420,7 +422,7 @@ static inline __attribute__((always_inline)) FN(directed)
     const FN(cylinder_place) at = FN(see_cylinder)(part, d);
     FN(axial) v;
     FN(axial_derivatives)(&at, with_fourth, &v);
-    const REAL per_rho = REAL_RECIPROCAL(REAL_MAX(at.rho, REAL_OF(1e-150)));
+    const REAL per_rho = at.rho * at.per_rho2;
     const FN(turned) place = {d[0], d[1]}, e = {d[0] * per_rho, d[1] * per_rho};
     const FN(turned) e2 = FN(turn_on)(e, e), place3 = FN(turn_on)(place, e2);
     const REAL ppp_1 = -REAL_MULADD(R(4.0), v.pp_2, v.zzp_1);
