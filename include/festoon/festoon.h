@@ -100,6 +100,7 @@ typedef enum { FST_CONTACTS(FST_CONTACT_ENUM) FST_FRICTION_LAWS } fst_friction_l
 typedef enum { FST_DYNAMICS_RIGID, FST_DYNAMICS_FARAGO2020 } fst_dynamics;
 typedef enum { FST_PATCH_POINT, FST_PATCH_HERTZ, FST_PATCH_PADE } fst_contact_patch;
 typedef enum { FST_SPIN_ROLLING, FST_SPIN_REST } fst_start_spin;
+typedef enum { FST_UNTIL_PERIODS, FST_UNTIL_SETTLED } fst_run_until;
 typedef enum { FST_METHOD_EVENTS, FST_METHOD_SPLITTING } fst_method;
 
 /* The kinds of unit that a parameter may carry (params.def). */
@@ -155,6 +156,16 @@ typedef struct fst_params {
     int model_kappa_given; /* beside a real magnet, where model.kappa counts only if it was given: whether it
                               was given its default too; set by fst_params_set() */
 } fst_params;
+
+/* The height of a part's highest point in the magnet's frame, m.  A part of which it exceeds magnet.depth would
+ * reach into the plate. */
+FST_API double fst_part_top(const fst_magnet_part *part);
+
+/* How far a place in the magnet's frame is from a part, m; 0 inside it and on its surface. */
+FST_API double fst_part_distance(const fst_magnet_part *part, const double place[3]);
+
+/* The first part that a ball of this radius about the place touches; -1 if none. */
+FST_API int fst_part_touched(const fst_params *params, const double place[3], double radius);
 
 /* The paper's bead at 10.7 Hz with the dynamics `rigid`. */
 FST_API fst_params fst_default_params(void);

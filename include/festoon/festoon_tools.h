@@ -256,6 +256,13 @@ FST_API const char *fst_colour_code(fst_colour colour);
 typedef enum { FST_PALETTE_DIVERGING, FST_PALETTE_LINE, FST_PALETTE_MAP } fst_palette;
 FST_API const char *fst_palette_definition(fst_palette palette);
 
+/* A smooth curve through points that are few: `parts` points for each piece between neighbours, and the last
+ * point, are put into `to_x` and `to_y`, which need room for parts (count - 1) + 1; returns how many there are.
+ * The curve passes every point, and is drawn for axes on which lengths `wide` and `tall` look alike.  All
+ * numbers must be finite. */
+FST_API size_t fst_smooth(const double *x, const double *y, size_t count, int parts, double wide, double tall,
+                          double *to_x, double *to_y);
+
 /* How all figures name and colour a regime and a type of special points: "families cross", "#009e73". */
 typedef struct fst_look {
     const char *words, *colour;
