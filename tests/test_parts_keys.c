@@ -386,6 +386,11 @@ static void s2_is_asked_of_the_magnet(void **state)
         {"    - {kind: sphere, centre: [0, 0, 0], size: 1cm, remanence: [0, 0, 1], rotation: [90, 1, 1, 0]}\n",
          1},
         {PAIR("-0.2mm", "1") PAIR("0.2mm", "-1"), 1},
+        /* close to the axis the four, which cancel there, do not show beside the one */
+        {"    - {kind: dipole, centre: [0, 0, -2mm], moment: [1, 0, 0]}\n" PAIR("-20mm", "1")
+             PAIR("20mm", "1") "    - {kind: dipole, centre: [0, -20mm, 0], moment: [0, 0, -1]}\n"
+                               "    - {kind: dipole, centre: [0, 20mm, 0], moment: [0, 0, -1]}\n",
+         0},
         {PAIR("-0.2mm", "1") PAIR("0.2mm", "1"), 0},
     };
     static const char *const units[] = {"1 mm", "23 mm", "2 m"};
