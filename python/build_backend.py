@@ -200,7 +200,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
                 wheel.add(f"festoon/{path.name}", path.read_bytes(), 0o755 if path.suffix == ".so" else 0o644)
         for name, path in _libraries(build):
             wheel.add(f"festoon/{name}", path.read_bytes(), 0o755)
-        page = build / "festoon-lab.html"
+        page = ROOT / "build" / "festoon-lab.html"  # where `make lab` has made it
         if page.exists():
             wheel.add("festoon/festoon-lab.html", page.read_bytes())
         wheel.close()
