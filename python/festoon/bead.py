@@ -423,6 +423,12 @@ class Bead(Parameters):
         made = bead.run(trajectory=True, sample_from=begin, progress=progress)
         made.trajectory.movie(path, progress=progress, **options)
 
+    def plot_field(self, **options: Any) -> Any:
+        """Draw the map of the magnet's field with matplotlib; returns its Axes: see `festoon.plots.field`."""
+        from . import plots
+
+        return plots.field(self, **options)
+
     def figure(self, path: Path, units: str = "given") -> None:
         """The program's figure of the magnet's field on the plane of the bead's centre: .svg, .pdf or .png."""
         from . import figures

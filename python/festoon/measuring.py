@@ -130,6 +130,12 @@ class Measurement(MeasuredNumbers):
         text: Dict[str, Any] = json.loads(take_text(lib.fst_measurement_json(self._found)))
         return text
 
+    def plot(self, kind: str = "path", **options: Any) -> Any:
+        """Draw the track with matplotlib; returns its Axes: see `festoon.plots.measurement`."""
+        from . import plots
+
+        return plots.measurement(self, kind, **options)
+
     def figure(self, path: Path, compare: Optional[Bead] = None, progress: Progress = None) -> None:
         """The program's figure of the track, with a bead's path laid over it."""
         with Watch(progress, title="figure") as watch:
@@ -263,6 +269,12 @@ class Fit:
         """What `festoon fit --json` prints."""
         text: Dict[str, Any] = json.loads(take_text(lib.fst_fit_json(self._begun._params, self._fit)))
         return text
+
+    def plot(self, y: Optional[str] = None, **options: Any) -> Any:
+        """Draw points over the model with matplotlib; returns the Axes: see `festoon.plots.fit`."""
+        from . import plots
+
+        return plots.fit(self, y, **options)
 
     def figure(self, path: Path) -> None:
         """The program's figure: points with errors over the model's curves; give the fit `curve_points`."""

@@ -114,6 +114,12 @@ class Orbit(Run):
         )
         return text
 
+    def plot(self, colour: str = "n_z", **options: Any) -> Any:
+        """Draw the orbit with matplotlib; returns its Axes: see `festoon.plots.orbit`."""
+        from . import plots
+
+        return plots.orbit(self, colour, **options)
+
     def __repr__(self) -> str:
         stable = "stable" if self.stable else "unstable"
         return f"Orbit: {stable}, {self.symmetry}, period {self.period:.9g}, <r> {self.mean_r:.9g}"

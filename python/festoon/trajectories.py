@@ -93,11 +93,11 @@ class Trajectory(Columns, np.ndarray):  # type: ignore[type-arg]
         table.complete = self.complete
         return table, (columns, pointers)
 
-    def plot(self, **options: Any) -> Any:
+    def plot(self, colour: str = "n_z", **options: Any) -> Any:
         """Draw the path with matplotlib; returns its Axes: see `festoon.plots.trajectory`."""
         from . import plots
 
-        return plots.trajectory(self, **options)
+        return plots.trajectory(self, colour, **options)
 
     def figure(self, path: Path, kind: str = "path", **options: Any) -> None:
         """The program's figure as .svg, .pdf or .png.
