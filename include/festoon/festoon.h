@@ -375,6 +375,9 @@ typedef struct fst_flow_options {
     double first_step;           /* 0: chosen from the start state */
     double greatest_step;        /* 0: no bound */
     double ramp;                 /* d(omega)/dt: a slow frequency ramp */
+    /* Asked by each call of fst_flow_advance(), by the fraction of its time that is done (NULL: nobody is
+     * asked).  After a status other than FST_OK the flow stands where it was last, and may go on. */
+    const fst_progress *progress;
 } fst_flow_options;
 
 /* rtol = atol = 1e-10, no bound on the step, no ramp. */
