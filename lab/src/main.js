@@ -282,7 +282,11 @@ class Lab {
     }
 
     remember() {
-        history.replaceState(null, "", writeAddress(this.scene, this.viewWords()));
+        try {
+            history.replaceState(null, "", writeAddress(this.scene, this.viewWords()));
+        } catch {
+            /* a page within another one, as in a notebook, has no address of its own */
+        }
     }
 
     /* Take settings of the view, as words of an address. */
