@@ -8,8 +8,9 @@
 
 enum { APART, SPREAD, REMANENCE, HALVING };
 
-/* What the field decides, and the halving of the period. */
-static const fst_statement own_facts[FST_MAGNET_FIELD_FACTS] = {
+/* What the field decides, and the halving of the period; then what is read off as in the chapter on dry
+ * friction. */
+static const fst_statement facts[FST_MAGNET_FACTS] = {
     [APART] = {.id = "magnet-maxima",
                .section = "IV (modelling)",
                .text = "Distance of the two maxima of the field, at the height of the bead's centre",
@@ -42,16 +43,64 @@ static const fst_statement own_facts[FST_MAGNET_FIELD_FACTS] = {
                  .scale = 1.0,
                  .unit = "Hz",
                  .digits = 1,
-                 .rule = FST_RULE_NUMBER}};
+                 .rule = FST_RULE_NUMBER},
+    [FST_MAGNET_FIELD_FACTS + 0] = {.id = "corotation",
+                                    .section = "III (experiments)",
+                                    .text = "From rest, goes round with the magnet up to about",
+                                    .published = 7.0,
+                                    .scale = 1.0,
+                                    .unit = "Hz",
+                                    .digits = 2,
+                                    .rule = FST_RULE_NUMBER},
+    [FST_MAGNET_FIELD_FACTS + 1] = {.id = "ejection",
+                                    .section = "III (experiments)",
+                                    .text = "Leaves the plate, 7 to 10 Hz (share of the runs)",
+                                    .published = NAN,
+                                    .scale = 100.0,
+                                    .unit = "%",
+                                    .digits = 0,
+                                    .rule = FST_RULE_MOSTLY},
+    [FST_MAGNET_FIELD_FACTS + 2] = {.id = "onset",
+                                    .section = "III (experiments)",
+                                    .text = "Circles against the magnet in all runs from about",
+                                    .published = 10.0,
+                                    .scale = 1.0,
+                                    .unit = "Hz",
+                                    .digits = 1,
+                                    .rule = FST_RULE_NUMBER},
+    [FST_MAGNET_FIELD_FACTS + 3] = {.id = "four",
+                                    .section = "III (experiments)",
+                                    .text = "Festoons, 10.7 Hz",
+                                    .published = 4.0,
+                                    .scale = 1.0,
+                                    .unit = "",
+                                    .digits = 2,
+                                    .rule = FST_RULE_NUMBER},
+    [FST_MAGNET_FIELD_FACTS + 4] = {.id = "many",
+                                    .section = "III (experiments)",
+                                    .text = "Festoons, 19.9 Hz (15: the paper's simulation)",
+                                    .published = 15.0,
+                                    .scale = 1.0,
+                                    .unit = "",
+                                    .digits = 2,
+                                    .rule = FST_RULE_NUMBER},
+    [FST_MAGNET_FIELD_FACTS + 5] = {.id = "bell",
+                                    .section = "III (experiments)",
+                                    .text = "Circles most slowly at",
+                                    .published = 16.0,
+                                    .scale = 1.0,
+                                    .unit = "Hz",
+                                    .digits = 1,
+                                    .rule = FST_RULE_NUMBER},
+};
 
-/* Which facts of the chapter on dry friction are told of magnets too. */
+/* Of these, which fact of that chapter each is. */
 static const fst_dry_fact_id of_motion[FST_MAGNET_FACTS - FST_MAGNET_FIELD_FACTS] = {
     FST_FACT_COROTATION, FST_FACT_EJECTION, FST_FACT_ONSET, FST_FACT_FOUR, FST_FACT_MANY, FST_FACT_BELL};
 
 const fst_statement *fst_magnet_fact_about(int fact)
 {
-    return fact < FST_MAGNET_FIELD_FACTS ? &own_facts[fact]
-                                         : &fst_dry_facts[of_motion[fact - FST_MAGNET_FIELD_FACTS]];
+    return &facts[fact];
 }
 
 const char *fst_magnet_law_name(int law)
