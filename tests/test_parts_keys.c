@@ -392,6 +392,10 @@ static void s2_is_asked_of_the_magnet(void **state)
                                "    - {kind: dipole, centre: [0, 20mm, 0], moment: [0, 0, -1]}\n",
          0},
         {PAIR("-0.2mm", "1") PAIR("0.2mm", "1"), 0},
+        /* a grain close below the plate, which is felt above it alone */
+        {"    - {kind: cuboid, centre: [0, 0, -10mm], size: [2m, 40mm, 9mm], remanence: [1, 0, 0]}\n"
+         "    - {kind: sphere, centre: [1mm, 0, 16.18mm], size: 0.02mm, remanence: [0, 0, 1]}\n",
+         0},
     };
     static const char *const units[] = {"1 mm", "23 mm", "2 m"};
     for (size_t i = 0; i < sizeof magnets / sizeof magnets[0]; ++i)

@@ -109,6 +109,8 @@ static fst_status read_place(const char *text, double length_unit, double at[2],
                         text);
 }
 
+static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
+
 /* --height in l; NAN where it is not given.  Real magnets may be asked below their reference plane too. */
 static fst_status read_height(const char *height, const fst_params *params, double *h, fst_error *error)
 {
@@ -122,7 +124,9 @@ static fst_status read_height(const char *height, const fst_params *params, doub
             "\"%.60s\" must be a height over the magnet's %s: a %snumber in l or a length with its unit, as in "
             "18.7mm",
             height, real ? "reference plane" : "mid-plane", real ? "" : "positive ");
-    return FST_OK;
+    return fabs(*h) < farthest ? FST_OK
+                               : fail(error, FST_BAD_INPUT, "--height", "\"%.60s\" is out of range: up to %g l",
+                                      height, farthest);
 }
 
 /* There is no field to tell in or on a part of the magnet. */
@@ -152,7 +156,6 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
         isnan(h) ? fst_model_new(params, &model, error) : fst_field_model_new(params, h, &model, error);
     if (status == FST_OK)
         status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
-    static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
     if (status == FST_OK)
