@@ -1,10 +1,9 @@
 """Magnets of parts through the program: sweeps over a number of a part, their files, figures and films, and maps."""
 import json
-import os
-import subprocess
+import math
 import unittest
 
-from sweep_tools import FESTOON, Case, festoon
+from sweep_tools import Case, festoon
 
 SCENE = """bead: {density: 7.5 g/cm^3}
 magnet:
@@ -67,6 +66,27 @@ class Parts(Case):
         for k in range(3):
             self.assertAlmostEqual(large["force_newtons"][k] / small["force_newtons"][k], 8.0, places=10)
             self.assertEqual(large["b_tesla"][k], small["b_tesla"][k])
+
+    def test_results_in_si(self):
+        """Beside the scaled numbers, and whatever B0 and l are, as long as the start is the same."""
+        plain = json.loads(self.good("run", self.scene, "--json"))
+        one = json.loads(self.good("run", self.scene, "--json", "--units", "si"))
+        two = json.loads(self.good("run", self.scene, "--json", "--units", "si", "--set", "magnet.b0=0.3T", "--set",
+                                   "magnet.half_length=46mm", "--set", "start.r=0.475"))
+        self.assertEqual({key: one[key] for key in plain}, plain)
+        added = sorted(set(one) - set(plain))
+        for key in ("mean_b_tesla", "max_r_m", "mean_friction_power_watts", "min_load_newtons", "rms_slip_m_per_s"):
+            self.assertIn(key, added)
+            self.assertAlmostEqual(two[key] / one[key], 1.0, delta=1e-6)  # run.rtol is 1e-8
+        self.assertAlmostEqual(one["mean_b_tesla"], 0.01 * one["mean_b"], delta=1e-15)
+        self.assertAlmostEqual(one["min_load_newtons"], one["min_load_weights"] * 7500 * math.pi / 6 * 0.005 ** 3 * 9.81,
+                               delta=1e-12)
+        report = self.good("run", self.scene, "--units", "si")
+        self.assertRegex(report, r"field <\|B\|> .* T\n")
+        self.assertRegex(report, r"load on the plate .* N\n")
+        self.assertRegex(report, r"power of the drive .* W\n")
+        lines = json.loads(self.good("run", "--set", "run.periods=2", "--set", "run.discard=1", "--units", "si", "--json"))
+        self.assertIsNone(lines["mean_b_tesla"])  # nothing says how strong the paper's magnet is
 
     def test_within_a_part(self):
         err = self.refused("field", self.scene, "--at", "-15mm,2mm", "--height", "3mm")

@@ -7,6 +7,8 @@
 
 #include <festoon/festoon_tools.h>
 
+#include "model/model.h"
+
 static fst_status parse(const char *text, fst_params *params, fst_error *error)
 {
     *params = fst_default_params();
@@ -365,6 +367,50 @@ static void pulls_agree_with_the_motion(void **state)
     fst_model_free(model);
 }
 
+/* The symmetry S2 is the magnet's, whatever the unit of length. */
+static void s2_is_asked_of_the_magnet(void **state)
+{
+    (void)state;
+#define PAIR(x, z) "    - {kind: dipole, centre: [" x ", 0, 0], moment: [0, 0, " z "]}\n"
+    static const struct {
+        const char *parts;
+        int has;
+    } magnets[] = {
+        {PAIR("-20mm", "1") PAIR("20mm", "-1"), 1},
+        {PAIR("-20mm", "1") PAIR("20mm", "1"), 0},
+        {PAIR("-20mm", "1") PAIR("20mm", "-1.001"), 0},
+        {PAIR("-20mm", "1") PAIR("20.001mm", "-1"), 0},
+        {PAIR("0", "1"), 0},
+        {"    - {kind: dipole, centre: [0, 0, -2mm], moment: [1, 0.5, 0]}\n", 1},
+        {"    - {kind: dipole, centre: [1mm, 0, 0], moment: [1, 0, 0]}\n", 0},
+        {"    - {kind: sphere, centre: [0, 0, 0], size: 1cm, remanence: [0, 0, 1], rotation: [90, 1, 1, 0]}\n",
+         1},
+        {PAIR("-0.2mm", "1") PAIR("0.2mm", "-1"), 1},
+        /* close to the axis the four, which cancel there, do not show beside the one */
+        {"    - {kind: dipole, centre: [0, 0, -2mm], moment: [1, 0, 0]}\n" PAIR("-20mm", "1")
+             PAIR("20mm", "1") "    - {kind: dipole, centre: [0, -20mm, 0], moment: [0, 0, -1]}\n"
+                               "    - {kind: dipole, centre: [0, 20mm, 0], moment: [0, 0, -1]}\n",
+         0},
+        {PAIR("-0.2mm", "1") PAIR("0.2mm", "1"), 0},
+    };
+    static const char *const units[] = {"1 mm", "23 mm", "2 m"};
+    for (size_t i = 0; i < sizeof magnets / sizeof magnets[0]; ++i)
+        for (size_t k = 0; k < sizeof units / sizeof units[0]; ++k) {
+            char text[512];
+            fst_params p;
+            fst_error error = {FST_OK, "", ""};
+            fst_model *model;
+            (void)snprintf(text, sizeof text, MAGNET "%s  half_length: %s\n", magnets[i].parts, units[k]);
+            assert_int_equal(parse(text, &p, &error), FST_OK);
+            if (fst_model_new(&p, &model, &error) != FST_OK)
+                fail_msg("%s", error.sentence);
+            if (model->has_s2 != magnets[i].has)
+                fail_msg("%swith l = %s: %d, expected %d", magnets[i].parts, units[k], model->has_s2,
+                         magnets[i].has);
+            fst_model_free(model);
+        }
+}
+
 /* Outlines: a block turned by 45 degrees about z, one lying on its edge, a disc, a ball, and what holds a
  * place. */
 static void parts_are_seen(void **state)
@@ -423,6 +469,7 @@ int main(void)
         cmocka_unit_test(strengths_replace_each_other),
         cmocka_unit_test(units_do_not_matter),
         cmocka_unit_test(pulls_agree_with_the_motion),
+        cmocka_unit_test(s2_is_asked_of_the_magnet),
         cmocka_unit_test(parts_are_seen),
     };
     return cmocka_run_group_tests_name("parts_keys", tests, NULL, NULL);

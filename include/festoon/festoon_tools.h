@@ -87,6 +87,12 @@ FST_API fst_scales fst_scales_of(const fst_params *params);
 FST_API double fst_unit_shown(const char *unit, fst_shown_units units, const fst_scales *scales,
                               const char **name);
 
+/* fst_run_json(); with FST_SHOWN_LAB or FST_SHOWN_SI also the numbers that have an SI unit, beside the scaled
+ * ones: `mean_r_m`, `mean_b_tesla`, `mean_friction_power_watts`, `mean_load_newtons`, ...; null where B0 is not
+ * known. */
+FST_API char *fst_run_json_in(const fst_params *params, const fst_run_result *result,
+                              const fst_ramp_point *ramp, size_t ramp_count, fst_shown_units units);
+
 /* The field at (x, y), as JSON like the above: `x`, `y`, `b` (3), `grad` (3 x 3), in the magnet's frame,
  * scaled; `height`, and the `force` and `load` of fst_field_pull(); with FST_SHOWN_LAB or FST_SHOWN_SI also
  * `b_tesla` and `grad_tesla_per_m`, null where B0 does not follow from the parameters, `force_newtons` and
