@@ -72,7 +72,7 @@ install: ## install under $(DESTDIR)$(PREFIX), /usr/local unless told
 	@cmake --build build -j $(JOBS)
 	@DESTDIR=$(DESTDIR) cmake --install build
 
-deb: ## Debian packages libfestoon0, libfestoon-dev and festoon, in build-deb
+deb: ## Debian packages libfestoon0, libfestoon-dev, festoon and python3-festoon, in build-deb
 	@$(PACKAGES) deb
 	@tools/make-deb build-deb
 

@@ -1,4 +1,4 @@
-/* Parts of a magnet as a whole: how high they reach and how far they are; a sphere is a dipole; parts add up;
+/* Parts of a magnet as a whole: how far they are; a sphere is a dipole; parts add up;
  * a part that is turned has the turned field; and the field's gradient and bend are its differences. */
 #include "physics.h"
 
@@ -24,26 +24,18 @@ static void test_shape(void **unused)
 {
     (void)unused;
     fst_magnet_part part = {.kind = FST_PART_CUBOID, .centre = {0, 0, 1}, .size = {6, 4, 2}};
-    CHECK_CLOSE(fst_part_top(&part), 2, 0);
     CHECK_CLOSE(fst_part_distance(&part, (const double[3]){2, 1, 1.5}), 0, 0);
     CHECK_CLOSE(fst_part_distance(&part, (const double[3]){6, 6, 2}), 5, 1e-15);
-    part.rotation[0] = 45;
-    part.rotation[2] = 1; /* about y */
-    CHECK_CLOSE(fst_part_top(&part), 1 + 4 * sqrt(0.5), 1e-15);
     /* A quarter turn about y brings the own z to x: 1 from the centre to the face, seen along x. */
     part.rotation[0] = 90;
-    CHECK_CLOSE(fst_part_top(&part), 4, 1e-15);
+    part.rotation[2] = 1;
     CHECK_CLOSE(fst_part_distance(&part, (const double[3]){3, 0, 3}), 2, 1e-15);
     part.kind = FST_PART_CYLINDER; /* diameter 6, height 4 along x now */
-    CHECK_CLOSE(fst_part_top(&part), 4, 1e-15);
     CHECK_CLOSE(fst_part_distance(&part, (const double[3]){5, 0, 8}), 5, 1e-15);
     part.rotation[0] = 0;
-    CHECK_CLOSE(fst_part_top(&part), 3, 0);
     part.kind = FST_PART_SPHERE;
-    CHECK_CLOSE(fst_part_top(&part), 4, 0);
     CHECK_CLOSE(fst_part_distance(&part, (const double[3]){0, 4, 4}), 2, 1e-15);
     part.kind = FST_PART_DIPOLE;
-    CHECK_CLOSE(fst_part_top(&part), 1, 0);
     CHECK_CLOSE(fst_part_distance(&part, (const double[3]){0, 4, 4}), 5, 1e-15);
     const fst_magnet_part two[2] = {{.kind = FST_PART_SPHERE, .centre = {-5}, .size = {2}}, part};
     const fst_params p = magnet_of(two, 2);

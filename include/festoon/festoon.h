@@ -157,10 +157,6 @@ typedef struct fst_params {
                               was given its default too; set by fst_params_set() */
 } fst_params;
 
-/* The height of a part's highest point in the magnet's frame, m.  A part of which it exceeds magnet.depth would
- * reach into the plate. */
-FST_API double fst_part_top(const fst_magnet_part *part);
-
 /* How far a place in the magnet's frame is from a part, m; 0 inside it and on its surface. */
 FST_API double fst_part_distance(const fst_magnet_part *part, const double place[3]);
 
@@ -379,6 +375,9 @@ typedef struct fst_flow_options {
     double first_step;           /* 0: chosen from the start state */
     double greatest_step;        /* 0: no bound */
     double ramp;                 /* d(omega)/dt: a slow frequency ramp */
+    /* Asked by each call of fst_flow_advance(), by the fraction of its time that is done (NULL: nobody is
+     * asked).  After a status other than FST_OK the flow stands where it was last, and may go on. */
+    const fst_progress *progress;
 } fst_flow_options;
 
 /* rtol = atol = 1e-10, no bound on the step, no ramp. */

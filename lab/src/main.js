@@ -86,8 +86,10 @@ class Lab {
 
     /* ------------------------------------------------------------ scene and motion */
 
-    tell(text) {
+    /* A line at the top: news, or what went wrong. */
+    tell(text, bad = false) {
         $("notice").textContent = text;
+        $("notice").classList.toggle("bad", bad);
     }
 
     /* Take a scene; on an error the old one stays and the sentence is returned. */
@@ -134,7 +136,7 @@ class Lab {
             this.core.change(ramp);
             this.furnish();
         } catch (error) {
-            this.tell(sentence(error));
+            this.tell(sentence(error), true);
         }
         this.draw();
     }
@@ -159,7 +161,7 @@ class Lab {
             if (this.settings.ramp)
                 this.beginRamp();
         } catch (error) {
-            this.tell(sentence(error));
+            this.tell(sentence(error), true);
         }
         this.draw();
     }
@@ -201,7 +203,7 @@ class Lab {
             this.row.set(done.rows.subarray((done.count - 1) * COLUMNS, done.count * COLUMNS));
             this.leave(done.stop);
         } catch (error) {
-            this.tell(sentence(error));
+            this.tell(sentence(error), true);
             this.play(false);
         }
         if (this.ramping && (this.ramping.up ? this.frequency() >= this.ramping.to : this.frequency() <= this.ramping.to)) {
@@ -282,7 +284,11 @@ class Lab {
     }
 
     remember() {
-        history.replaceState(null, "", writeAddress(this.scene, this.viewWords()));
+        try {
+            history.replaceState(null, "", writeAddress(this.scene, this.viewWords()));
+        } catch {
+            /* a page within another one, as in a notebook, has no address of its own */
+        }
     }
 
     /* Take settings of the view, as words of an address. */
@@ -305,11 +311,11 @@ class Lab {
     open({ scene, view }) {
         const wrong = this.takeScene(scene);
         if (wrong)
-            this.tell(wrong);
+            this.tell(wrong, true);
         this.takeView(view);
         this.begin();
         if (wrong)
-            this.tell(wrong);
+            this.tell(wrong, true);
         this.controls.show(null, this.scene);
         this.changed();
         return wrong;

@@ -339,6 +339,22 @@ const tests = {
         assert.deepEqual(await page.evaluate(() => [window.festoonLab.core.value("drive.frequency"), window.festoonLab.core.get("friction.law")]), [12.5, "coulomb"]);
         await page.close();
     },
+    async "within another page, as in a notebook, it works without an address of its own"() {
+        const page = await browser.newPage(), complaints = [];
+        page.on("pageerror", (error) => complaints.push(error.message));
+        await page.goto("about:blank");
+        await page.evaluate((text) => {
+            const frame = document.createElement("iframe");
+            frame.width = frame.height = "700";
+            frame.srcdoc = text;
+            document.body.append(frame);
+        }, readFileSync(join(BUILD_DIR, "festoon-lab.html"), "utf8").replace("<head>", '<head><script>window.location.hash = "#v=1&drive.frequency=13.5";</script>'));
+        await page.waitForFunction(() => window.frames[0].festoonLab?.version !== undefined, { timeout: 0 });
+        assert.equal(await page.evaluate(() => window.frames[0].festoonLab.core.value("drive.frequency")), 13.5);
+        assert.equal(await page.evaluate(() => window.frames[0].festoonLab.run({ "run.periods": 20 }).then((result) => result.periods)), 20);
+        await page.close();
+        assert.deepEqual(complaints, []);
+    },
     async "what is saved: the motion, the scene"() {
         const page = await open("#v=1&drive.frequency=12+Hz&ui.settle=20");
         const { table, scene } = await page.evaluate(() => {

@@ -323,6 +323,17 @@ def test_flow(bead):
         flow.advance(until="sektion")
 
 
+def test_a_flow_that_was_stopped_goes_on_with_the_same_bits(bead, monkeypatch):
+    stopped, whole = bead.flow(), bead.flow()
+    monkeypatch.setattr(stopped._watch, "tell", lambda fraction, what: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        stopped.advance(t=1e9)
+    assert 0 < stopped.t < 1e9
+    monkeypatch.undo()
+    end = math.ceil(stopped.t) + 50.0
+    assert np.array_equal(stopped.advance(t=end)[1], whole.advance(t=end)[1]) and stopped.rhs_calls == whole.rhs_calls
+
+
 # ---------------------------------------------------------------------------------------- measuring
 
 

@@ -113,7 +113,7 @@ static fst_status write_way(const char *address, char *path, size_t size, fst_er
         }
         return fst_fail(error, FST_IO, folder, "no page could be written there: %s", strerror(reason));
     }
-    (void)fputs("<!doctype html>\n<meta charset=\"utf-8\">\n<title>festoon lab</title>\n"
+    (void)fputs("<!doctype html>\n<meta charset=\"utf-8\">\n<title>A bead</title>\n"
                 "<meta http-equiv=\"refresh\" content=\"0;url=",
                 stream);
     for (const char *at = address; *at; ++at)

@@ -178,3 +178,39 @@ fst_status fst_part_lies_below(const fst_params *params, int part, fst_error *er
                     "(magnet.depth): a part must end below the plate",
                     where, fst_part_kind_name(p->kind), highest, limit);
 }
+
+/* ------------------------------------------------------------------ a place and the parts */
+
+static double beyond(double coordinate, double half)
+{
+    return fmax(fabs(coordinate) - half, 0.0);
+}
+
+double fst_part_distance(const fst_magnet_part *part, const double place[3])
+{
+    double axes[3][3], d[3] = {0, 0, 0};
+    fst_set_axes_double(part->rotation, axes);
+    for (int a = 0; a < 3; ++a)
+        for (int i = 0; i < 3; ++i)
+            d[a] += axes[a][i] * (place[i] - part->centre[i]);
+    const double *size = part->size;
+    switch (part->kind) {
+    case FST_PART_CUBOID:
+        return hypot(hypot(beyond(d[0], 0.5 * size[0]), beyond(d[1], 0.5 * size[1])),
+                     beyond(d[2], 0.5 * size[2]));
+    case FST_PART_CYLINDER:
+        return hypot(beyond(hypot(d[0], d[1]), 0.5 * size[0]), beyond(d[2], 0.5 * size[1]));
+    case FST_PART_SPHERE:
+        return beyond(hypot(hypot(d[0], d[1]), d[2]), 0.5 * size[0]);
+    default:
+        return hypot(hypot(d[0], d[1]), d[2]);
+    }
+}
+
+int fst_part_touched(const fst_params *params, const double place[3], double radius)
+{
+    for (int i = 0; i < params->magnet_part_count; ++i)
+        if (fst_part_distance(&params->magnet_parts[i], place) <= radius)
+            return i;
+    return -1;
+}
