@@ -11,7 +11,9 @@ static inline void check_same_params(const fst_params *actual, const fst_params 
 {
     for (int i = 0; i < fst_param_count(); i++) {
         const fst_param_info *info = fst_param_at(i);
-        const size_t size = info->kind == FST_KIND_REAL ? sizeof(double) : sizeof(int);
+        const size_t size = info->kind == FST_KIND_REAL   ? sizeof(double)
+                            : info->kind == FST_KIND_TEXT ? (size_t)info->greatest + 1
+                                                          : sizeof(int);
         if (memcmp((const char *)actual + info->offset, (const char *)expected + info->offset, size) != 0)
             fail_msg("%s differs", info->key);
     }

@@ -138,6 +138,18 @@ typedef struct fst_magnet_part {
 
 enum { FST_PARTS_MAX = 16 };
 
+/* A map of the field of a magnet (magnet.shape: grid): samples on a rectangular grid in the magnet's frame, and
+ * the splines between them.  It never changes, and threads may share it.  It is counted: fst_field_map_share()
+ * adds an owner, fst_field_map_free() takes one away, and the last one frees it.  Models that are made with a
+ * map own it too. */
+typedef struct fst_field_map fst_field_map;
+typedef struct fst_field_samples {
+    int count[3];      /* samples along x, y, z: at least 8, 8, 1 */
+    double first[3];   /* m: where the first sample is; z over the magnet's reference plane, NAN: not told */
+    double spacing[3]; /* m, positive (of z: where there are several) */
+    const double *b;   /* T: Bx, By, Bz of each sample; x runs fastest, then y, then z.  It is copied. */
+} fst_field_samples;
+
 /* A setup in SI units: what a scene says.  Get one from fst_default_params(), change fields, and make a model
  * of it.  A field that is NAN was not given and follows from others; params.def says how. */
 typedef struct fst_params {
@@ -145,10 +157,15 @@ typedef struct fst_params {
 #define FST_REAL(group, name, unit, initial, least, greatest, doc) double group##_##name;
 #define FST_INT(group, name, initial, least, greatest, doc) int group##_##name;
 #define FST_CHOICE(group, name, names, initial, doc) int group##_##name;
+#define FST_TEXT(group, name, room, doc) char group##_##name[room];
 #include <festoon/params.def>
 #undef FST_REAL
 #undef FST_INT
 #undef FST_CHOICE
+#undef FST_TEXT
+    /* The map of magnet.file.  It is borrowed: it stays its owner's, who keeps it as long as these parameters,
+     * or copies of them, are used. */
+    const fst_field_map *magnet_map;
     int magnet_part_count; /* of magnet.shape: parts */
     fst_magnet_part magnet_parts[FST_PARTS_MAX];
 } fst_params;
@@ -156,16 +173,19 @@ typedef struct fst_params {
 /* The paper's bead at 10.7 Hz with the dynamics `rigid`. */
 FST_API fst_params fst_default_params(void);
 
-typedef enum { FST_KIND_REAL, FST_KIND_INT, FST_KIND_CHOICE } fst_param_kind;
+typedef enum { FST_KIND_REAL, FST_KIND_INT, FST_KIND_CHOICE, FST_KIND_TEXT } fst_param_kind;
+
+/* Room for the text of any parameter, with the zero behind it. */
+enum { FST_PARAM_TEXT_SIZE = 256 };
 
 /* One row of params.def. */
 typedef struct fst_param_info {
     const char *key; /* "bead.radius" */
     fst_param_kind kind;
     fst_unit unit;
-    const char *names; /* of a choice, "rigid|farago2020"; otherwise NULL */
-    double initial;    /* default, in SI; NAN: not given; of a choice: its index */
-    double least, greatest;
+    const char *names;      /* of a choice, "rigid|farago2020"; otherwise NULL */
+    double initial;         /* default, in SI; NAN: not given; of a choice: its index */
+    double least, greatest; /* of a text: its length */
     const char *doc;
     size_t offset; /* of the field in fst_params */
 } fst_param_info;
@@ -188,8 +208,8 @@ FST_API fst_status fst_parse_value(const char *text, fst_unit unit, double *valu
 
 /* Set one parameter from text: checks key, unit and range, and clears the other form of the same quantity
  * (drive.omega and drive.frequency, model.eps and bead.radius, model.h and magnet.depth, model.lambda and
- * magnet.width, model.kappa and magnet.b0).  FST_BAD_INPUT: the sentence names the nearest valid key, the
- * units, or the range. */
+ * magnet.width, model.kappa and magnet.b0).  Another magnet.file takes magnet.checksum and the map away.
+ * FST_BAD_INPUT: the sentence names the nearest valid key, the units, or the range. */
 FST_API fst_status fst_params_set(fst_params *params, const char *key, const char *text, fst_error *error);
 
 /* The drive periods that a run leaves out of its means: run.discard; but the first half of a run that is no
@@ -230,6 +250,25 @@ FST_API void fst_text_tame(char *text);
 
 /* ------------------------------------------------------------------ model */
 
+/* Make a map of samples.  FST_BAD_INPUT: too few samples, a spacing or place that is none, a field that is not
+ * finite, or samples that do not surround the axis x = y = 0. */
+FST_API fst_status fst_field_map_new(const fst_field_samples *samples, const fst_progress *progress,
+                                     fst_field_map **map, fst_error *error);
+FST_API fst_field_map *fst_field_map_share(const fst_field_map *map);
+FST_API void fst_field_map_free(fst_field_map *map);
+
+/* What can be told of a map. */
+typedef struct fst_field_map_facts {
+    int count[3];
+    double first[3], spacing[3]; /* as in fst_field_samples */
+    double radius;               /* m: of the greatest disc about the axis that the samples cover */
+    double greatest;             /* T: the greatest |B| of the samples */
+    /* How far the samples are from a field of magnets, of which the curl of B vanishes: the rms of dBx/dy -
+     * dBy/dx over the rms of all derivatives by x and y.  Noise and wrong axes make it large. */
+    double curl;
+} fst_field_map_facts;
+FST_API fst_field_map_facts fst_field_map_describe(const fst_field_map *map);
+
 /* The scaled groups on which the motion depends. */
 typedef struct fst_groups {
     double eps;     /* R/l */
@@ -240,6 +279,7 @@ typedef struct fst_groups {
     double omega;   /* drive */
     double gravity; /* g/(l gamma^2) */
     double plate_radius;
+    double map_radius; /* of the disc about the axis that the map of magnet.file covers; infinite without map */
     int lines;
     fst_magnet_shape shape;
     fst_material material;
@@ -269,7 +309,8 @@ FST_API fst_status fst_start_state(const fst_params *params, const fst_model *mo
                                    double state[FST_STATE_SIZE], fst_error *error);
 
 /* The magnet's field at the height of the bead's centre, in the magnet's frame: b[3], grad[i][j] = dB_i/dx_j
- * (symmetric, traceless), scaled.  Paper, section IV: lines of dipoles, each two point charges, Eq. (11). */
+ * (traceless, and symmetric but for the curl that a measured field has), scaled.  Paper, section IV: lines of
+ * dipoles, each two point charges, Eq. (11). */
 FST_API void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
 
 /* d(state)/dt in the turning frame, at the drive omega of the model. */

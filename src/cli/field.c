@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/terminal.h"
 
 static const option options[] = {
     SCENE_OPTIONS,
@@ -11,6 +12,9 @@ static const option options[] = {
     {"height", '\0', "H",
      "at this height over the magnet's mid-plane, not the bead's centre's: 18.7mm, or in l"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
+    {"csv", '\0', "FILE", "write the map of the field to FILE.csv, which magnet.shape: grid reads back"},
+    {"radius", '\0', "R", "how far from the axis the map of --csv goes along X and Y: 60 mm unless given"},
+    {"spacing", '\0', "D", "from one sample of --csv to the next: 1 mm unless given"},
     UNITS_OPTION,
     {NULL, '\0', NULL, NULL},
 };
@@ -127,16 +131,61 @@ static fst_status print_point(const arguments *given, const fst_params *scene, f
     return status;
 }
 
+/* The length of an option in m, or the usual one. */
+static fst_status read_metres(const arguments *given, const char *name, double length_unit, double *value,
+                              fst_error *error)
+{
+    const char *text = option_value(given, name);
+    if (!text)
+        return FST_OK;
+    if (read_length(text, length_unit, value) != FST_OK || !(*value > 0) || !isfinite(*value))
+        return fail(error, FST_BAD_INPUT, name,
+                    "\"%.60s\" must be a positive length: with its unit as in 1mm, or a number in l", text);
+    *value *= length_unit;
+    return FST_OK;
+}
+
+static fst_status write_map(const arguments *given, const fst_params *scene, const char *path, fst_error *error)
+{
+    fst_params params = *scene;
+    double radius = 0.06, spacing = 1e-3;
+    fst_model *model = NULL;
+    fst_status status = read_metres(given, "radius", params.magnet_half_length, &radius, error);
+    if (status == FST_OK)
+        status = read_metres(given, "spacing", params.magnet_half_length, &spacing, error);
+    if (status == FST_OK)
+        status = set_height(option_value(given, "height"), &params, error);
+    if (status == FST_OK)
+        status = fst_model_new(&params, &model, error);
+    if (status == FST_OK) {
+        progress_line line;
+        const fst_progress progress = {&line, progress_tell};
+        progress_begin(&line);
+        status = fst_field_map_write(path, model, radius, spacing, &progress, error);
+        progress_end(&line);
+    }
+    fst_model_free(model);
+    if (status == FST_OK)
+        tell_written(path, "");
+    return status;
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
     const char *at = option_value(given, "at"), *figure = option_value(given, "output");
-    if (!at && !figure)
-        return fail(error, FST_BAD_INPUT, "", "say where with --at X,Y, or draw a map with -o FIG.svg");
+    const char *csv = option_value(given, "csv");
+    if (!at && !figure && !csv)
+        return fail(error, FST_BAD_INPUT, "",
+                    "say where with --at X,Y, draw a map with -o FIG.svg, or write one with --csv FILE.csv");
     if (option_value(given, "json") && !at)
         return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
-    if (option_value(given, "height") && !at)
-        return fail(error, FST_BAD_INPUT, "--height", "it concerns a point: give --at X,Y");
+    if (option_value(given, "height") && !at && !csv)
+        return fail(error, FST_BAD_INPUT, "--height",
+                    "it concerns a point or a written map: give --at or --csv");
+    if ((option_value(given, "radius") || option_value(given, "spacing")) && !csv)
+        return fail(error, FST_BAD_INPUT, "--csv",
+                    "--radius and --spacing are those of a written map: give --csv");
     fst_shown_units units;
     fst_status status = read_units(given, &units, error);
     if (status == FST_OK)
@@ -149,12 +198,15 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = fst_figure_field(&params, units, figure, error);
     if (status == FST_OK && figure)
         tell_written(figure, "");
+    if (status == FST_OK && csv)
+        status = write_map(given, &params, csv, error);
     return status;
 }
 
 const command field_command = {
     .name = "field",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... --at X,Y [--height H] [--json] | -o FIG.(svg|pdf|png)",
+    .synopsis =
+        "[SCENE.yaml] [--set KEY=VALUE]... --at X,Y [--height H] [--json] | -o FIG.(svg|pdf|png) | --csv FILE",
     .summary = "The magnet's field and its gradient at a point, or drawn as a map",
     .details =
         "Positions without a unit are in l (half length of the magnet's lines); they are in the "

@@ -28,7 +28,7 @@ json_t *fst_json_scene(const fst_params *params)
     json_t *scene = json_object();
     for (int i = 0; i < fst_param_count(); ++i) {
         const fst_param_info *info = fst_param_at(i);
-        char text[64];
+        char text[FST_PARAM_TEXT_SIZE];
         json_t *value = NULL;
         double real;
         int integer;
@@ -218,8 +218,10 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
 
 char *fst_schema_json(void)
 {
-    static const char *const kinds[] = {
-        [FST_KIND_REAL] = "real", [FST_KIND_INT] = "integer", [FST_KIND_CHOICE] = "choice"};
+    static const char *const kinds[] = {[FST_KIND_REAL] = "real",
+                                        [FST_KIND_INT] = "integer",
+                                        [FST_KIND_CHOICE] = "choice",
+                                        [FST_KIND_TEXT] = "text"};
     fst_params defaults = fst_default_params();
     json_t *schema = json_array();
     for (int i = 0; i < fst_param_count(); ++i) {
@@ -230,13 +232,14 @@ char *fst_schema_json(void)
         json_t *row = json_object();
         json_object_set_new(row, "key", json_string(info->key));
         json_object_set_new(row, "kind", json_string(kinds[info->kind]));
-        json_object_set_new(row, "unit", choice ? json_null() : json_string(fst_unit_name(info->unit)));
+        const int limits = !choice && info->kind != FST_KIND_TEXT;
+        json_object_set_new(row, "unit", limits ? json_string(fst_unit_name(info->unit)) : json_null());
         json_object_set_new(row, "default",
                             choice    ? json_string(text)
                             : integer ? json_integer((json_int_t)info->initial)
                                       : fst_json_number(info->initial));
-        json_object_set_new(row, "min", choice ? json_null() : fst_json_number(info->least));
-        json_object_set_new(row, "max", choice ? json_null() : fst_json_number(info->greatest));
+        json_object_set_new(row, "min", limits ? fst_json_number(info->least) : json_null());
+        json_object_set_new(row, "max", limits ? fst_json_number(info->greatest) : json_null());
         json_object_set_new(row, "doc", json_string(info->doc));
         json_t *names = choice ? json_array() : json_null();
         for (const char *name = choice ? info->names : ""; *name; name += strspn(name, "|")) {

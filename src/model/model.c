@@ -18,7 +18,7 @@ static void set_strength(const fst_params *p, fst_groups *g)
         p->bead_mass * (p->bead_radius * p->bead_radius) * (p->friction_gamma * p->friction_gamma);
     g->kappa = p->model_kappa;
     g->field_unit = p->magnet_b0;
-    if (p->magnet_shape == FST_MAGNET_PARTS && isnan(p->magnet_b0))
+    if ((p->magnet_shape == FST_MAGNET_PARTS || p->magnet_shape == FST_MAGNET_GRID) && isnan(p->magnet_b0))
         g->field_unit = FST_PARTS_FIELD_UNIT;
     if (!isnan(p->bead_moment) && !isnan(p->magnet_b0))
         g->kappa = p->bead_moment * p->magnet_b0 / unit;
@@ -47,11 +47,12 @@ static void set_geometry(const fst_params *p, fst_groups *g)
 
 /* Whether the field has the symmetry S2, which is asked of the field itself, at places that no other symmetry
  * maps onto each other. */
-static int field_has_s2(const fst_coefficients_double *c)
+static int field_has_s2(const fst_coefficients_double *c, double map_radius)
 {
     static const double places[][2] = {{0.31, 0.17}, {0.83, -0.59}, {-0.44, 1.07}, {1.63, 0.26}};
+    const double shrink = fmin(1.0, map_radius / 1.7); /* all places lie within 1.7 l */
     for (size_t i = 0; i < sizeof places / sizeof *places; ++i) {
-        const double x = places[i][0], y = places[i][1], u[3] = {0.0};
+        const double x = shrink * places[i][0], y = shrink * places[i][1], u[3] = {0.0};
         double here[3], there[3], unused[3];
         fst_field_along_double(c, x, y, u, here, unused);
         fst_field_along_double(c, -x, -y, u, there, unused);
@@ -63,10 +64,35 @@ static int field_has_s2(const fst_coefficients_double *c)
     return 1;
 }
 
+/* A measured field is known on the plane of the map, and in the disc about the axis that the map covers: there
+ * the plate ends. */
+static fst_status use_map(const fst_params *p, fst_groups *g, fst_error *error)
+{
+    if (!p->magnet_map && !p->magnet_file[0])
+        return fst_fail(error, FST_BAD_INPUT, "magnet.file",
+                        "magnet.shape: grid needs the map of the field: give magnet.file");
+    if (!p->magnet_map)
+        return fst_fail(error, FST_BAD_INPUT, "magnet.file", "the map %s has not been read", p->magnet_file);
+    const double height = g->h * g->length_unit;
+    if (!fst_map_plane_at(p->magnet_map, height))
+        return fst_fail(
+            error, FST_BAD_INPUT, "magnet.file",
+            "the bead's centre moves %.7g mm over the magnet's reference plane, but the map was taken at "
+            "%.7g mm: take one there, or change magnet.depth",
+            1e3 * height, 1e3 * fst_map_nearest_height(p->magnet_map, height));
+    if (!isnan(p->impact_restitution) && p->friction_law == FST_FRICTION_COULOMB)
+        return fst_fail(error, FST_BAD_INPUT, "impact.restitution",
+                        "a bead that flies needs the field above the plate, and the map has one plane: leave "
+                        "impact.restitution out");
+    g->map_radius = fst_map_radius(p->magnet_map) / g->length_unit;
+    g->plate_radius = fmin(g->plate_radius, g->map_radius);
+    return FST_OK;
+}
+
 fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
 {
     *model = NULL;
-    const fst_status status = fst_params_validate(params, error);
+    fst_status status = fst_params_validate(params, error);
     if (status != FST_OK)
         return status;
     fst_groups g;
@@ -77,6 +103,7 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
     g.omega = isnan(params->drive_omega) ? FST_TWO_PI * params->drive_frequency / gamma : params->drive_omega;
     g.gravity = params->plate_gravity / (g.length_unit * (gamma * gamma));
     g.plate_radius = params->plate_radius / g.length_unit;
+    g.map_radius = INFINITY;
     g.shape = (fst_magnet_shape)params->magnet_shape;
     g.material = (fst_material)params->bead_material;
     g.friction = (fst_friction_law)params->friction_law;
@@ -87,19 +114,24 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
         return fst_fail(error, FST_BAD_INPUT, "fst_model_new",
                         "the scaled groups are out of range: kappa = %g, omega = %g, h = %g", g.kappa, g.omega,
                         g.h);
+    if (g.shape == FST_MAGNET_GRID && (status = use_map(params, &g, error)) != FST_OK)
+        return status;
     fst_model *made = malloc(sizeof *made);
     if (!made)
         return fst_fail(error, FST_NO_MEMORY, "fst_model_new", "out of memory");
     made->params = *params;
     made->groups = g;
     made->coefficients = fst_make_coefficients_double(params, &g);
-    made->has_s2 = field_has_s2(&made->coefficients);
+    made->has_s2 = field_has_s2(&made->coefficients, g.map_radius);
+    made->map = g.shape == FST_MAGNET_GRID ? fst_field_map_share(params->magnet_map) : NULL;
     *model = made;
     return FST_OK;
 }
 
 void fst_model_free(fst_model *model)
 {
+    if (model)
+        fst_field_map_free(model->map);
     free(model);
 }
 
@@ -112,7 +144,7 @@ void fst_field(const fst_model *model, double x, double y, double b[3], double g
 {
     fst_gradient_double g;
     fst_field_double(&model->coefficients, x, y, b, &g);
-    const double all[3][3] = {{g.xx, g.xy, g.xz}, {g.xy, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
+    const double all[3][3] = {{g.xx, g.xy, g.xz}, {g.yx, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
     memcpy(grad, all, sizeof all);
 }
 

@@ -9,6 +9,8 @@
  *     NAME_look()   B, G and T at a place (local_field.inl), by + - * / and square roots; always inlined, so
  *                   that what a caller does not use is not computed;
  *     NAME_along()  B and G u, by SOURCE_ALONG_BY_LOOK(NAME) unless the source has a quicker way.
+ *
+ * A field that has no curl needs not say so: what it has twice is filled in here.
  */
 /* clang-format on */
 /*
@@ -25,6 +27,7 @@
 
 #include "model/source/lines.inl"
 #include "model/source/parts.inl"
+#include "model/source/grid.inl"
 #ifdef FST_OWN_SOURCE_BODIES
 #include FST_OWN_SOURCE_BODIES
 #endif
@@ -56,6 +59,8 @@ FN(source_look)(const FN(source_numbers) * source, const fst_kinds *kinds, REAL 
 #define LOOK(NAME, name, doc)                                                                                  \
     if (kinds->source == FST_MAGNET_##NAME) {                                                                  \
         FN(name##_look)(&source->name, kinds, x, y, at);                                                       \
+        if (FST_MAGNET_##NAME != FST_MAGNET_GRID)                                                              \
+            FN(no_curl)(at);                                                                                   \
         return;                                                                                                \
     }
     FST_SOURCES(LOOK)
