@@ -19,7 +19,11 @@ static fst_status read_points(const char *text, size_t size, fst_map_points *poi
 {
     if (ends_in(points->path, ".csv") || ends_in(points->path, ".txt"))
         return fst_map_csv_read(text, size, points);
-    return fst_fail(points->error, FST_BAD_INPUT, points->path, "the name of a map ends in .csv");
+    if (ends_in(points->path, ".vtk") || ends_in(points->path, ".vti") || ends_in(points->path, ".vtr"))
+        return fst_map_vtk_read(text, size, points);
+    if (ends_in(points->path, ".h5") || ends_in(points->path, ".hdf5"))
+        return fst_map_hdf5_read(points);
+    return fst_map_points_refuse(points, "the name of a map ends in .csv, .vtk, .vti, .vtr or .h5");
 }
 
 fst_status fst_field_map_read(const char *path, const fst_progress *progress, fst_field_map **map,

@@ -56,6 +56,16 @@ fst_status fst_map_points_fail(const fst_map_points *points, size_t number, cons
     return fst_fail(points->error, FST_BAD_INPUT, where, "%s", sentence);
 }
 
+fst_status fst_map_points_refuse(const fst_map_points *points, const char *format, ...)
+{
+    char sentence[600];
+    va_list values;
+    va_start(values, format);
+    (void)vsnprintf(sentence, sizeof sentence, format, values);
+    va_end(values);
+    return fst_fail(points->error, FST_BAD_INPUT, points->path, "%s", sentence);
+}
+
 /* ------------------------------------------------------------------ one axis */
 
 typedef struct map_axis {
