@@ -3,9 +3,9 @@
 PREFIX ?= /usr/local
 JOBS ?= $(shell nproc)
 PACKAGES = tools/install-packages.sh
-C_FILES = $(shell find src include tests bench docs examples tools -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp')
+C_FILES = $(shell find src include tests bench docs examples tools lab -name node_modules -prune -o \( -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp' \) -print)
 
-.PHONY: build demo test test-long reliability mutants bench install deb docs format check-format clean help
+.PHONY: build demo lab test test-long reliability mutants bench install deb docs format check-format clean help
 
 build: ## build build/festoon (optimised)
 	@$(PACKAGES) build
@@ -19,6 +19,13 @@ demo: ## simulate the paper's bead; table and figures in demo-results/
 	@echo
 	@echo "Look at demo-results/report.html: the table above and the figures, which are also files of their own there."
 
+lab: ## build/festoon-lab.html: the same physics as one offline page; skipped where its tools cannot be had
+	@if $(PACKAGES) lab && lab/install-modules; then \
+	    cmake --preset release --log-level=WARNING -DFESTOON_LAB=ON && cmake --build build -j $(JOBS) --target lab; \
+	else \
+	    echo "make lab: skipped, because Debian's or npm's packages for it could not be installed (see above)"; \
+	fi
+
 test: ## build and run the tests, but the long ones
 	@$(PACKAGES) test
 	@cmake --preset release --log-level=WARNING -DFESTOON_TESTS=ON
@@ -27,6 +34,7 @@ test: ## build and run the tests, but the long ones
 
 test-long: ## run the long tests
 	@$(PACKAGES) test-long
+	@$(MAKE) --no-print-directory lab
 	@cmake --preset release --log-level=WARNING -DFESTOON_TESTS=ON
 	@cmake --build build -j $(JOBS)
 	@ctest --preset release-long -j $(JOBS)

@@ -141,6 +141,49 @@ static void test_sines_of_degrees(void **state)
     }
 }
 
+/* ------------------------------------------------------------------ arcs and logarithms */
+
+/* Within two units in the last place of the C library's long double, all round and over many scales. */
+static void test_arcs(void **state)
+{
+    (void)state;
+    for (int i = -4000; i <= 4000; ++i) {
+        const double angle = i * 7.853e-4;
+        for (double size = 1e-100; size < 1e101; size *= 1e40) {
+            const double x = size * cos(angle), y = size * sin(angle);
+            const long double expected = atan2l((long double)y, (long double)x);
+            assert_true(fabsl(fst_atan2(y, x) - expected) <= 4.4e-16L * fabsl(expected));
+        }
+        const double sine = i / 4000.0;
+        const long double expected = asinl((long double)sine);
+        assert_true(fabsl(fst_asin(sine) - expected) <= 4.4e-16L * fabsl(expected));
+    }
+    CHECK_SAME_BITS(fst_atan2(0.0, 1.0), 0.0);
+    CHECK_SAME_BITS(fst_atan2(0.0, 0.0), 0.0);
+    CHECK_SAME_BITS(fst_atan2(0.0, -1.0), acos(-1.0));
+    CHECK_SAME_BITS(fst_atan2(-2.0, 0.0), -0.5 * acos(-1.0));
+    CHECK_SAME_BITS(fst_atan2(-0.0, -1.0), -acos(-1.0));
+    CHECK_SAME_BITS(fst_asin(1.0), 0.5 * acos(-1.0));
+    assert_true(isnan(fst_atan2(NAN, 1.0)) && isnan(fst_atan2(1.0, NAN)));
+}
+
+static void test_logarithms(void **state)
+{
+    (void)state;
+    for (double x = 1e-300; x < 1e300; x *= 1.00317) {
+        const long double expected = logl((long double)x);
+        assert_true(fabsl(fst_log(x) - expected) <= 4.4e-16L * fabsl(expected));
+    }
+    for (double away = 1e-15; away < 0.5; away *= 1.01) { /* near 1 the logarithm is small, and its error too */
+        const double below = 1.0 - away, above = 1.0 + away;
+        assert_true(fabsl(fst_log(below) - logl((long double)below)) <=
+                    4.4e-16L * fabsl(logl((long double)below)));
+        assert_true(fabsl(fst_log(above) - logl((long double)above)) <=
+                    4.4e-16L * fabsl(logl((long double)above)));
+    }
+    CHECK_SAME_BITS(fst_log(1.0), 0.0);
+}
+
 /* ------------------------------------------------------------------ texts */
 
 /* A text quoted in a message holds no control character and no half of a character, however long it was. */
@@ -197,6 +240,8 @@ int main(void)
         cmocka_unit_test(test_turns_are_counted_from_any_start),
         cmocka_unit_test(test_close_passages_are_doubtful),
         cmocka_unit_test(test_sines_of_degrees),
+        cmocka_unit_test(test_arcs),
+        cmocka_unit_test(test_logarithms),
         cmocka_unit_test(test_quoted_texts_are_harmless),
         cmocka_unit_test(test_numbers_come_back),
     };

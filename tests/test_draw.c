@@ -449,6 +449,36 @@ static void smooth_curves_do_not_bulge(void **state)
 }
 
 /* The units of a laboratory: the paper's numbers (l = 23 mm, gamma = 312.5 1/s, 0.5 g). */
+/* Outside programs draw with the same words, units and colours. */
+static void words_and_colours_for_others(void **state)
+{
+    (void)state;
+    for (int r = 0; r <= FST_REGIME_LIFTED; ++r) {
+        const fst_look look = fst_regime_look((fst_regime)r);
+        assert_string_equal(look.words, fst_regime_name((fst_regime)r));
+        assert_int_equal(strlen(look.colour), strlen("#009e73"));
+        for (int other = 0; other < r; ++other)
+            assert_string_not_equal(look.colour, fst_regime_look((fst_regime)other).colour);
+    }
+    for (int type = 0; type <= FST_SPECIAL_GRAZING; ++type)
+        assert_non_null(fst_special_look((fst_special_type)type).words);
+    assert_null(fst_regime_look((fst_regime)-1).words);
+    assert_null(fst_special_look((fst_special_type)(FST_SPECIAL_GRAZING + 1)).words);
+    fst_branch_point point = {.mean_r = 0.75};
+    int found = 0;
+    for (int i = 0; fst_branch_observable_at(i); ++i) {
+        const fst_observable_info *info = fst_branch_observable_at(i);
+        found += strcmp(info->name, "mean_r") == 0 &&
+                 *(const double *)(const void *)((const char *)&point + info->offset) == 0.75;
+    }
+    assert_int_equal(found, 1);
+    const fst_params bead = fst_default_params();
+    const fst_scales scales = fst_scales_of(&bead);
+    const fst_quantity radius = fst_quantity_of_result("mean_r", "l", FST_SHOWN_LAB, &scales);
+    assert_string_equal(radius.label, "mean radius ⟨r⟩ (mm)");
+    assert_true(fabs(radius.factor - 23.0) < 1e-12);
+}
+
 static void units_of_the_laboratory(void **state)
 {
     (void)state;
@@ -491,6 +521,7 @@ int main(void)
         cmocka_unit_test(between_samples_the_path_is_smooth),
         cmocka_unit_test(units_have_their_symbols),
         cmocka_unit_test(units_of_the_laboratory),
+        cmocka_unit_test(words_and_colours_for_others),
         cmocka_unit_test(smooth_curves_converge),
         cmocka_unit_test(smooth_curves_do_not_bulge),
         cmocka_unit_test_teardown(long_titles_take_lines, clear_directory),

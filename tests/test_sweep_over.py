@@ -15,6 +15,7 @@ VERY_SHORT = ["--set", "run.periods=2", "--set", "run.discard=1", "--set", "run.
 # Two values of each real parameter, as a range in a unit where it has one, and as the numbers that rows have.
 RANGES = {
     "bead.radius": ("2mm:0.3cm", 2e-3, 3e-3), "bead.mass": ("400mg:0.6g", 4e-4, 6e-4),
+    "bead.density": ("7 g/cm^3:8000", 7e3, 8e3), "bead.remanence": ("1:1200 mT", 1, 1.2),
     "bead.moment": ("0.1:0.2 A m2", 0.1, 0.2), "bead.a": ("1:2", 1, 2), "bead.b": ("-1:1", -1, 1),
     "magnet.half_length": ("20mm:25mm", 20e-3, 25e-3), "magnet.width": ("3cm:40mm", 30e-3, 40e-3),
     "magnet.depth": ("15mm:17mm", 15e-3, 17e-3), "magnet.b0": ("10mT:200G", 10e-3, 20e-3),
@@ -34,11 +35,13 @@ DRY = "friction.law=coulomb"
 NEEDS = {"bead.a": ["bead.material=paramagnetic"], "bead.b": ["bead.material=mixed"], "friction.mu_static": [DRY],
          "friction.stribeck_speed": [DRY, "friction.mu_static=0.4"], "friction.rolling_resistance": [DRY],
          "friction.contact_rate": [DRY], "run.method": [DRY], "run.step": [DRY, "run.method=splitting"],
+         "bead.remanence": ["magnet.b0=10mT"],
+         "magnet.shape": ["magnet.shape=parts", "magnet.parts[0].kind=dipole", "magnet.parts[0].moment[0]=2"],
          "contact.radius": [DRY, "contact.patch=hertz"],
          "contact.modulus": [DRY, "contact.patch=hertz"], "impact.restitution": [DRY]}
 # Parameters that no row shows: the tesla scale, masses if kappa is given, an edge that is not reached, and how a
 # bead bounces that does not leave the plate.
-INVISIBLE = {"bead.moment", "magnet.b0", "bead.mass", "plate.radius", "impact.restitution"}
+INVISIBLE = {"bead.moment", "magnet.b0", "bead.mass", "bead.density", "plate.radius", "impact.restitution"}
 WHOLE = {"magnet.lines"}
 REFUSED = {"run.samples": "changes nothing in a row"}
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Install the Debian packages that a make target needs and the machine lacks.
 #
-#   tools/install-packages.sh SET            SET: build demo test test-long bench docs format deb ci
+#   tools/install-packages.sh SET            SET: build demo lab test test-long bench docs format deb python ci
 #   tools/install-packages.sh --list SET     print their names, a line each, and install nothing
 #
 # With nothing missing it costs a look into dpkg's database.  Otherwise it says what is missing and installs it,
@@ -11,9 +11,22 @@ set -eu
 build_packages="gcc libc6-dev cmake ninja-build pkg-config libyaml-dev libjansson-dev libsqlite3-dev libhdf5-dev
     liblapacke-dev libcairo2-dev libopenmpi-dev libcminpack-dev"
 demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
-test_packages="$demo_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
+# The Python module; its tests need the second line too.
+python_packages="python3-dev python3-cffi python3-numpy"
+python_test_packages="$python_packages python3-pytest python3-matplotlib python3-pandas python3-xarray"
+test_packages="$demo_packages $python_test_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
+# The page of the lab.  Where node and npm are there already, from wherever they came, they serve.
+lab_packages="$build_packages clang-14 lld-14 wasi-libc libclang-rt-14-dev-wasm32 binaryen"
+for program in node npm; do
+    if ! command -v $program >/dev/null 2>&1; then
+        case $program in
+        node) lab_packages="$lab_packages nodejs" ;;
+        npm) lab_packages="$lab_packages npm" ;;
+        esac
+    fi
+done
 # A Slurm of its own for the sweep under Slurm: the daemons run as root without systemd, in a container too.
-long_packages="$test_packages slurmctld slurmd slurm-client munge"
+long_packages="$test_packages python3-venv python3-pip mypy chromium slurmctld slurmd slurm-client munge"
 bench_packages="$build_packages g++ gnuplot-nox libgsl-dev libboost-dev python3-scipy auto-07p libsiconos-numerics-dev
     libsundials-dev"
 docs_packages="$build_packages doxygen"
@@ -29,15 +42,17 @@ fi
 case "${1-}" in
 build) wanted=$build_packages ;;
 demo) wanted=$demo_packages ;;
+lab) wanted=$lab_packages ;;
 test) wanted=$test_packages ;;
 test-long) wanted=$long_packages ;;
 bench) wanted=$bench_packages ;;
 docs) wanted=$docs_packages ;;
 format) wanted=$format_packages ;;
 deb) wanted=$deb_packages ;;
+python) wanted="$build_packages $python_packages" ;;
 ci) wanted=$ci_packages ;;
 *)
-    echo "usage: $0 [--list] build|demo|test|test-long|bench|docs|format|deb|ci" >&2
+    echo "usage: $0 [--list] build|demo|lab|test|test-long|bench|docs|format|deb|python|ci" >&2
     exit 2
     ;;
 esac

@@ -43,7 +43,7 @@ extern "C" {
 
 /* Increased when the same parameters give other bits than before.  A sweep that was begun by another version is
  * not continued. */
-#define FST_RESULTS_VERSION 8
+#define FST_RESULTS_VERSION 9
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
@@ -114,7 +114,8 @@ typedef enum {
     FST_UNIT_ACCELERATION, /* m/s^2; m/s2 m/s^2 */
     FST_UNIT_SPEED,        /* m/s; mm/s cm/s m/s */
     FST_UNIT_ANGLE,        /* deg; deg rad turn */
-    FST_UNIT_PRESSURE      /* Pa; Pa kPa MPa GPa */
+    FST_UNIT_PRESSURE,     /* Pa; Pa kPa MPa GPa */
+    FST_UNIT_DENSITY       /* kg/m^3; kg/m^3 g/cm^3 */
 } fst_unit;
 
 /* A part of a real magnet (magnet.shape: parts), uniformly magnetised, in SI units.  The magnet's frame has its
@@ -168,6 +169,8 @@ typedef struct fst_params {
     const fst_field_map *magnet_map;
     int magnet_part_count; /* of magnet.shape: parts */
     fst_magnet_part magnet_parts[FST_PARTS_MAX];
+    int model_kappa_given; /* beside a real magnet, where model.kappa counts only if it was given: whether it
+                              was given its default too; set by fst_params_set() */
 } fst_params;
 
 /* The paper's bead at 10.7 Hz with the dynamics `rigid`. */
@@ -178,7 +181,7 @@ typedef enum { FST_KIND_REAL, FST_KIND_INT, FST_KIND_CHOICE, FST_KIND_TEXT } fst
 /* Room for the text of any parameter, with the zero behind it. */
 enum { FST_PARAM_TEXT_SIZE = 256 };
 
-/* One row of params.def. */
+/* One row of params.def, or of a part of the magnet. */
 typedef struct fst_param_info {
     const char *key; /* "bead.radius" */
     fst_param_kind kind;
@@ -190,9 +193,18 @@ typedef struct fst_param_info {
     size_t offset; /* of the field in fst_params */
 } fst_param_info;
 
-/* The number of rows, and the row `index` (NULL beyond the end). */
+/* The number of rows of params.def, and the row `index` (NULL beyond the end).  Behind the rows of params.def
+ * are those of the parts of a magnet, from "magnet.parts[0].kind" to the last number of part FST_PARTS_MAX - 1.
+ */
 FST_API int fst_param_count(void);
 FST_API const fst_param_info *fst_param_at(int index);
+
+/* The number of rows that say something of this setup: those of params.def, and those of the parts that its
+ * magnet has.  Ask it where whole setups are compared or written. */
+FST_API int fst_params_row_count(const fst_params *params);
+
+/* The part to which a row belongs, or -1: it is one of params.def. */
+FST_API int fst_param_part(int index);
 
 /* The row index of a key, or -1. */
 FST_API int fst_param_find(const char *key);
@@ -208,8 +220,9 @@ FST_API fst_status fst_parse_value(const char *text, fst_unit unit, double *valu
 
 /* Set one parameter from text: checks key, unit and range, and clears the other form of the same quantity
  * (drive.omega and drive.frequency, model.eps and bead.radius, model.h and magnet.depth, model.lambda and
- * magnet.width, model.kappa and magnet.b0).  Another magnet.file takes magnet.checksum and the map away.
- * FST_BAD_INPUT: the sentence names the nearest valid key, the units, or the range. */
+ * magnet.width, model.kappa and magnet.b0, bead.density and bead.mass, bead.remanence and bead.moment).
+ * Another magnet.file takes magnet.checksum and the map away.  The key magnet.parts[N].kind of the part behind the last one adds a part.  FST_BAD_INPUT: the sentence names the
+ * nearest valid key, the units, or the range. */
 FST_API fst_status fst_params_set(fst_params *params, const char *key, const char *text, fst_error *error);
 
 /* The drive periods that a run leaves out of its means: run.discard; but the first half of a run that is no
@@ -221,11 +234,25 @@ FST_API double fst_run_discard(const fst_params *params);
  * sweep may vary the choice: ask before a single run. */
 FST_API fst_status fst_params_check_effects(const fst_params *params, fst_error *error);
 
+/* FST_BAD_INPUT: a part of the magnet cannot be as it is; a number is out of its range, a turn has no axis, or
+ * the part touches or passes the plate.  The sentence names the part, from magnet.parts[0] on. */
+FST_API fst_status fst_params_check_part(const fst_params *params, int part, fst_error *error);
+
 /* Whether the bead's mass and radius contradict any material: the density is outside 1000 to 23000 kg/m^3, or
  * the radius was changed while mass and magnetic strength (kappa) are those of the default bead.  Returns 0 if
  * they do not; otherwise a sentence that says so is left in `sentence`.  A run is possible all the same.  In a
  * scaled scene, with model.eps, the radius plays no part and 0 is returned. */
 FST_API int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size);
+
+/* Whether the magnet's field is told in tesla (magnet.shape: parts), so that magnet.b0 is only a unit, and the
+ * bead's moment gives kappa. */
+FST_API int fst_magnet_in_tesla(const fst_params *params);
+
+/* The bead's mass in kg, which bead.density may tell. */
+FST_API double fst_bead_mass(const fst_params *params);
+
+/* The bead's magnetic moment in A m^2, of whatever tells it (params.def); NAN: nothing does. */
+FST_API double fst_bead_moment(const fst_params *params);
 
 /* "rigid", "farago2020" */
 FST_API const char *fst_dynamics_name(fst_dynamics dynamics);

@@ -141,6 +141,9 @@ typedef struct fst_column_info {
 FST_API int fst_column_count(void);
 FST_API const fst_column_info *fst_column_at(int index);
 
+/* The values of a sample in all columns, fst_column_count() of them, in their order. */
+FST_API void fst_column_values(const fst_sample *sample, double *values);
+
 /* As fst_unit_shown(), for a column: angular velocities are in rad/s. */
 FST_API double fst_column_shown(const fst_column_info *column, fst_shown_units units, const fst_scales *scales,
                                 const char **name);
@@ -205,6 +208,63 @@ FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *obser
 /* The map of the magnet's field on the plane of the bead's centre (the paper's Fig. 5). */
 FST_API fst_status fst_figure_field(const fst_params *params, fst_shown_units units, const char *out,
                                     fst_error *error);
+
+/* What an axis of a figure shows: the values times `factor`, with the label "mean radius ⟨r⟩ (mm)".  An
+ * underscore in it lowers the letter behind it. */
+typedef struct fst_quantity {
+    double factor;
+    char label[128];
+} fst_quantity;
+
+/* A parameter, whose values are SI (angles in degrees, scaled for numbers). */
+FST_API fst_quantity fst_quantity_of_parameter(const char *key, fst_shown_units units,
+                                               const fst_scales *scales);
+
+/* A number that describes a run or a point of a branch, in `unit` as the tables name it. */
+FST_API fst_quantity fst_quantity_of_result(const char *key, const char *unit, fst_shown_units units,
+                                            const fst_scales *scales);
+
+/* A column of a trajectory; the load is shown in weights of the bead, in all units. */
+FST_API fst_quantity fst_quantity_of_column(const fst_column_info *column, fst_shown_units units,
+                                            const fst_params *params);
+
+/* The units in which a figure over this parameter is shown where nobody asked for any. */
+FST_API fst_shown_units fst_units_of_parameter(const char *key);
+
+/* Colours of curves (Okabe and Ito's palette), which colour-blind readers can tell apart. */
+typedef enum {
+    FST_COLOUR_BLACK,
+    FST_COLOUR_BLUE,
+    FST_COLOUR_VERMILION,
+    FST_COLOUR_GREEN,
+    FST_COLOUR_PURPLE,
+    FST_COLOUR_GREY,
+    FST_COLOUR_SKY,
+    FST_COLOUR_ORANGE
+} fst_colour;
+
+/* "#0072b2" */
+FST_API const char *fst_colour_code(fst_colour colour);
+
+/* Colours of a quantity: of both signs from blue over grey to vermilion; of one sign by its use.  `line`, from
+ * light green to dark violet, is for lines on white; `map`, from nearly white to blue, is for areas with dark
+ * lines on them. The definition is a list of places and colours, "0 '#fbfdff', 0.35 '#d3e3f2', ...". */
+typedef enum { FST_PALETTE_DIVERGING, FST_PALETTE_LINE, FST_PALETTE_MAP } fst_palette;
+FST_API const char *fst_palette_definition(fst_palette palette);
+
+/* How all figures name and colour a regime and a type of special points: "families cross", "#009e73". */
+typedef struct fst_look {
+    const char *words, *colour;
+} fst_look;
+FST_API fst_look fst_regime_look(fst_regime regime);
+FST_API fst_look fst_special_look(fst_special_type type);
+
+/* What figures show of the points of a branch: the index-th observable, NULL beyond the end. */
+typedef struct fst_observable_info {
+    const char *name, *unit;
+    size_t offset; /* of the double in fst_branch_point */
+} fst_observable_info;
+FST_API const fst_observable_info *fst_branch_observable_at(int index);
 
 /* ------------------------------------------------------------------ sweeps */
 
@@ -395,6 +455,19 @@ FST_API fst_status fst_paper_dry_maps(const char *directory, const fst_progress 
 /* The rules of the verdicts, and the list of the paper's statements with their criteria, as Markdown; free()
  * it.  NULL: no memory. */
 FST_API char *fst_paper_statements_text(void);
+
+/* ------------------------------------------------------------------ the lab: a page with the same physics */
+
+/* The longest address, and the longest value in it, with the zero behind. */
+enum { FST_LAB_ADDRESS_SIZE = 8192, FST_LAB_VALUE_SIZE = 256 };
+
+/* The address of the page festoon-lab.html, which lies beside this library or in share/festoon, with `params`
+ * behind its "#": what differs from the default scene.  FST_UNAVAILABLE: the page was not built. */
+FST_API fst_status fst_lab_address(const fst_params *params, char address[FST_LAB_ADDRESS_SIZE],
+                                   fst_error *error);
+
+/* Open such an address in the desktop's browser, by xdg-open.  *opened is 0 where there is no desktop. */
+FST_API fst_status fst_lab_open(const char *address, int *opened, fst_error *error);
 
 /* "gnuplot yes, hdf5 yes, ...": the optional parts, and whether this build and machine have them. */
 FST_API const char *fst_tools_components(void);

@@ -36,6 +36,7 @@ static const unit_row unit_rows[] = {
     {FST_UNIT_PRESSURE, "kPa", 3, 1, 1},     {FST_UNIT_PRESSURE, "MPa", 6, 1, 1},
     {FST_UNIT_PRESSURE, "GPa", 9, 1, 1},     {FST_UNIT_ANGLE, "deg", 0, 1, 1},
     {FST_UNIT_ANGLE, "rad", 0, 180, FST_PI}, {FST_UNIT_ANGLE, "turn", 0, 360, 1},
+    {FST_UNIT_DENSITY, "kg/m3", 0, 1, 1},    {FST_UNIT_DENSITY, "g/cm3", 3, 1, 1},
 };
 static const size_t unit_row_count = sizeof unit_rows / sizeof unit_rows[0];
 
@@ -55,6 +56,7 @@ static const struct {
     [FST_UNIT_SPEED] = {"m/s", "mm/s cm/s m/s", "mm/s"},
     [FST_UNIT_PRESSURE] = {"Pa", "Pa kPa MPa GPa", "GPa"},
     [FST_UNIT_ANGLE] = {"deg", "deg rad turn", "deg"},
+    [FST_UNIT_DENSITY] = {"kg/m^3", "kg/m^3 g/cm^3", "kg/m3"},
 };
 
 const char *fst_unit_name(fst_unit unit)
@@ -72,6 +74,7 @@ static const struct {
     const char *found, *plain;
 } spellings[] = {
     {"^2", "2"},         {"^-1", "-1"},     {"\xC2\xB2", "2"}, /* superscript two */
+    {"^3", "3"},         {"\xC2\xB3", "3"},                    /* superscript three */
     {"\xC2\xB5", "u"},   {"\xCE\xBC", "u"},                    /* micro sign, Greek mu */
     {"\xC2\xB0", "deg"},                                       /* degree sign */
     {"\xC2\xB7", " "},   {"*", " "},        {".", " "},        /* products */

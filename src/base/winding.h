@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 #include "base/constants.h"
+#include "base/elementary.h"
 
 typedef struct fst_winding {
     int64_t turns;
@@ -44,7 +45,7 @@ static inline int fst_winding_is_doubtful(const fst_winding *w, double x, double
 static inline double fst_winding_angle(const fst_winding *w)
 {
     /* y = -0 counts as +0: both lie on the same side of the half-axis. */
-    return FST_TWO_PI * (double)w->turns + atan2(w->y + 0.0, w->x);
+    return FST_TWO_PI * (double)w->turns + fst_atan2(w->y + 0.0, w->x);
 }
 
 #endif

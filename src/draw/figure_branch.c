@@ -8,7 +8,6 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "draw/chart.h"
-#include "draw/quantity.h"
 #include "draw/smooth.h"
 
 enum {
@@ -19,10 +18,7 @@ enum {
     ENOUGH = 1600 /* about as many points as the smooth curves need */
 };
 
-static const struct observable {
-    const char *name, *unit;
-    size_t offset;
-} OBSERVABLES[] = {
+static const fst_observable_info OBSERVABLES[] = {
     {"second", "", offsetof(fst_branch_point, second)},
     {"mean_r", "l", offsetof(fst_branch_point, mean_r)},
     {"mean_alpha_dot", "gamma", offsetof(fst_branch_point, mean_alpha_dot)},
@@ -36,13 +32,19 @@ static const struct observable {
     {"swing_ratio", "1", offsetof(fst_branch_point, swing_ratio)},
 };
 
+const fst_observable_info *fst_branch_observable_at(int index)
+{
+    const int count = (int)(sizeof OBSERVABLES / sizeof *OBSERVABLES);
+    return index >= 0 && index < count ? &OBSERVABLES[index] : NULL;
+}
+
 /* What a figure shows of a branch, and in which units. */
 typedef struct shown {
-    const struct observable *what; /* NULL: multipliers */
+    const fst_observable_info *what; /* NULL: multipliers */
     fst_quantity x, y;
 } shown;
 
-static const struct observable *find_observable(const char *name)
+static const fst_observable_info *find_observable(const char *name)
 {
     for (size_t i = 0; i < sizeof OBSERVABLES / sizeof *OBSERVABLES; ++i)
         if (strcmp(OBSERVABLES[i].name, name) == 0)
@@ -50,12 +52,12 @@ static const struct observable *find_observable(const char *name)
     return NULL;
 }
 
-static int is_angle(const struct observable *what)
+static int is_angle(const fst_observable_info *what)
 {
     return strcmp(what->unit, "deg") == 0;
 }
 
-static double value_of(const fst_branch_point *p, const struct observable *what)
+static double value_of(const fst_branch_point *p, const fst_observable_info *what)
 {
     double value;
     memcpy(&value, (const char *)p + what->offset, sizeof value);
@@ -64,7 +66,7 @@ static double value_of(const fst_branch_point *p, const struct observable *what)
 }
 
 /* Whether the curve goes on from one value to the next; an angle may jump, through its gap or at r = 0. */
-static int goes_on_to(const struct observable *what, double from, double to)
+static int goes_on_to(const fst_observable_info *what, double from, double to)
 {
     return !is_angle(what) || !(fabs(to - from) > 90.0);
 }
@@ -93,7 +95,7 @@ static void put(columns *c, double x, double y)
  * otherwise half way.  A fold lies a little beyond both points, so the search extends to both sides by their
  * distance. */
 static void put_border(columns *c, const fst_branch *b, const fst_branch_point *p, const fst_branch_point *q,
-                       const struct observable *what)
+                       const fst_observable_info *what)
 {
     const double x = 0.5 * (p->value + q->value), reach = 1.5 * fabs(p->value - q->value) + 1e-9;
     const double r = 0.5 * (p->mean_r + q->mean_r), reach_r = 1.5 * fabs(p->mean_r - q->mean_r) + 1e-6;
@@ -112,7 +114,7 @@ static void put_border(columns *c, const fst_branch *b, const fst_branch_point *
 }
 
 /* Whether a branch would be drawn exactly over its image under S2; only <n_z> and Phi tell the two apart. */
-static int is_hidden(const fst_branch *b, const struct observable *what, int branch)
+static int is_hidden(const fst_branch *b, const fst_observable_info *what, int branch)
 {
     if (strcmp(what->name, "mean_nz") == 0 || strcmp(what->name, "phi_deg") == 0)
         return 0;
@@ -123,7 +125,7 @@ static int is_hidden(const fst_branch *b, const struct observable *what, int bra
 }
 
 /* Write the pieces of one stability, with a gap between them. */
-static void put_pieces(columns *c, const fst_branch *b, const struct observable *what, int stable)
+static void put_pieces(columns *c, const fst_branch *b, const fst_observable_info *what, int stable)
 {
     for (size_t i = 0; i < b->point_count; ++i) {
         const fst_branch_point *p = &b->points[i];
@@ -222,6 +224,13 @@ static const struct {
                           [FST_SPECIAL_TRANSCRITICAL] = {"families cross", FST_COLOUR_GREEN, 1},
                           [FST_SPECIAL_GRAZING] = {"contact just sticks or slips", FST_COLOUR_ORANGE, 3}};
 
+fst_look fst_special_look(fst_special_type type)
+{
+    if ((int)type < 0 || (int)type >= SPECIAL_TYPES)
+        return (fst_look){NULL, NULL};
+    return (fst_look){signs[type].words, fst_colour_code(signs[type].colour)};
+}
+
 /* Returns how many curves there are; -1: no memory. */
 static int add_diagram(const fst_branch *b, const shown *s, columns *c, fst_chart_curve *curves)
 {
@@ -285,7 +294,7 @@ static fst_status unknown_observable(const char *name, fst_error *error)
                     "unknown observable \"%.60s\"; the nearest is %s (%s)", name, nearest, names);
 }
 
-static int has_values(const fst_branch *b, const struct observable *what)
+static int has_values(const fst_branch *b, const fst_observable_info *what)
 {
     for (size_t i = 0; i < b->point_count; ++i)
         if (isfinite(value_of(&b->points[i], what)))
@@ -294,7 +303,7 @@ static int has_values(const fst_branch *b, const struct observable *what)
 }
 
 /* An observable that belongs to the other kinds of branch would leave the frame empty. */
-static fst_status check_values(const fst_branch *b, const struct observable *what, fst_error *error)
+static fst_status check_values(const fst_branch *b, const fst_observable_info *what, fst_error *error)
 {
     char names[256] = "";
     if (has_values(b, what))

@@ -1,7 +1,6 @@
 /* figure_field.c - the magnet's field on the plane of the bead's centre (the paper's Fig. 5). */
 #include "base/error.h"
 #include "draw/legend.h"
-#include "draw/quantity.h"
 
 #include <festoon/festoon_tools.h>
 

@@ -150,3 +150,10 @@ fst_colour fst_regime_colour(int regime)
         [FST_REGIME_EJECTED] = FST_COLOUR_BLACK,     [FST_REGIME_LIFTED] = FST_COLOUR_ORANGE};
     return colours[regime];
 }
+
+fst_look fst_regime_look(fst_regime regime)
+{
+    if ((int)regime < 0 || regime > FST_REGIME_LIFTED)
+        return (fst_look){NULL, NULL};
+    return (fst_look){fst_regime_name(regime), fst_colour_code(fst_regime_colour((int)regime))};
+}

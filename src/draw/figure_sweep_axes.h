@@ -3,7 +3,6 @@
 #ifndef FST_DRAW_FIGURE_SWEEP_AXES_H
 #define FST_DRAW_FIGURE_SWEEP_AXES_H
 
-#include "draw/quantity.h"
 #include "draw/style.h"
 
 #include <festoon/festoon_tools.h>

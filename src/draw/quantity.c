@@ -1,5 +1,5 @@
 /* quantity.c - the words and units of axes. */
-#include "draw/quantity.h"
+#include <festoon/festoon_tools.h>
 
 #include "base/constants.h"
 #include "draw/style.h"
@@ -39,6 +39,7 @@ static const word results[] = {
     {"min_r", "least r"},
     {"max_r", "greatest r"},
     {"mean_alpha_dot", "bead's circling ⟨α′⟩"},
+    {"bead_frequency", "bead's frequency"},
     {"mean_phi_dot", "moment's turning ⟨φ′⟩"},
     {"mean_nz", "⟨n_z⟩"},
     {"festoons", "festoons N"},

@@ -37,7 +37,7 @@ void fst_unit_symbols(const char *unit, char *text, size_t size)
     }
 }
 
-void fst_figure_palette(fst_figure_file *figure, fst_palette palette)
+const char *fst_palette_definition(fst_palette palette)
 {
     /* "line" is viridis in reverse order, without its yellow end, which cannot be seen on white. */
     static const char *const definitions[] = {
@@ -45,7 +45,12 @@ void fst_figure_palette(fst_figure_file *figure, fst_palette palette)
         [FST_PALETTE_LINE] =
             "0 '#a8db34', 0.2 '#4ac16d', 0.4 '#1fa187', 0.6 '#2d708e', 0.8 '#414487', 1 '#440154'",
         [FST_PALETTE_MAP] = "0 '#fbfdff', 0.35 '#d3e3f2', 0.7 '#8fbfe0', 1 '#4292c6'"};
-    (void)fprintf(figure->script, "set palette defined (%s)\n", definitions[palette]);
+    return definitions[palette];
+}
+
+void fst_figure_palette(fst_figure_file *figure, fst_palette palette)
+{
+    (void)fprintf(figure->script, "set palette defined (%s)\n", fst_palette_definition(palette));
 }
 
 double fst_round_step(double rough)

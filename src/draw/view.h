@@ -3,7 +3,6 @@
 #define FST_DRAW_VIEW_H
 
 #include "draw/legend.h"
-#include "draw/quantity.h"
 
 #include <festoon/festoon_tools.h>
 

@@ -14,7 +14,6 @@
 #include "base/number.h"
 #include "base/watch.h"
 #include "draw/bar.h"
-#include "draw/quantity.h"
 #include "io/ffmpeg.h"
 #include "io/film_file.h"
 #include "film/motion.h"

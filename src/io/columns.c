@@ -19,7 +19,7 @@ const fst_column_info *fst_column_at(int index)
     return index >= 0 && index < FST_COLUMN_COUNT ? &infos[index] : NULL;
 }
 
-void fst_column_values(const fst_sample *s, double values[FST_COLUMN_COUNT])
+void fst_column_values(const fst_sample *s, double *values)
 {
 #define FST_COLUMN(name, unit, value, doc) values[FST_COLUMN_##name] = (value);
 #include "io/columns.def"

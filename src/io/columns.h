@@ -1,4 +1,4 @@
-/* columns.h - a sample as a row of numbers. */
+/* columns.h - the number of columns of a trajectory, and their places by name. */
 #ifndef FST_IO_COLUMNS_H
 #define FST_IO_COLUMNS_H
 
@@ -13,8 +13,5 @@ enum {
      * on, z, vz and flying, are zeros, and readers fill them. */
     FST_COLUMNS_BEFORE_FLIGHTS = FST_COLUMN_z
 };
-
-/* The values of a sample, in the order of the columns. */
-void fst_column_values(const fst_sample *sample, double values[FST_COLUMN_COUNT]);
 
 #endif

@@ -23,26 +23,56 @@ static json_t *count_of(uint64_t value)
     return json_integer((json_int_t)value);
 }
 
+/* A parameter's value; null where it was not given. */
+static json_t *parameter(const fst_params *params, int index)
+{
+    const fst_param_info *info = fst_param_at(index);
+    char text[FST_PARAM_TEXT_SIZE];
+    double real;
+    int integer;
+    if (fst_params_get(params, index, text, sizeof text) == 0)
+        return json_null();
+    if (info->kind == FST_KIND_CHOICE || info->kind == FST_KIND_TEXT)
+        return json_string(text);
+    memcpy(&integer, (const char *)params + info->offset, sizeof integer);
+    if (info->kind == FST_KIND_INT)
+        return json_integer(integer);
+    memcpy(&real, (const char *)params + info->offset, sizeof real);
+    return fst_json_number(real);
+}
+
+/* The parts as a list of objects, each with its kind, and lists of numbers in SI. */
+static json_t *parts_array(const fst_params *params)
+{
+    json_t *parts = json_array(), *part = NULL;
+    for (int i = fst_param_count(); i < fst_params_row_count(params); ++i) {
+        const char *key = strrchr(fst_param_at(i)->key, '.') + 1;
+        const size_t length = strcspn(key, "[");
+        char name[32];
+        (void)snprintf(name, sizeof name, "%.*s", (int)length, key);
+        json_t *value = parameter(params, i);
+        if (fst_param_at(i)->kind == FST_KIND_CHOICE) {
+            part = json_object();
+            json_array_append_new(parts, part);
+            json_object_set_new(part, name, value);
+        } else if (json_is_null(value)) {
+            json_decref(value); /* the kind of part has no such number */
+        } else {
+            if (!json_object_get(part, name))
+                json_object_set_new(part, name, json_array());
+            json_array_append_new(json_object_get(part, name), value);
+        }
+    }
+    return parts;
+}
+
 json_t *fst_json_scene(const fst_params *params)
 {
     json_t *scene = json_object();
-    for (int i = 0; i < fst_param_count(); ++i) {
-        const fst_param_info *info = fst_param_at(i);
-        char text[FST_PARAM_TEXT_SIZE];
-        json_t *value = NULL;
-        double real;
-        int integer;
-        memcpy(&integer, (const char *)params + info->offset, sizeof integer);
-        if (fst_params_get(params, i, text, sizeof text) == 0) {
-            value = json_null();
-        } else if (info->kind == FST_KIND_REAL) {
-            memcpy(&real, (const char *)params + info->offset, sizeof real);
-            value = fst_json_number(real);
-        } else {
-            value = info->kind == FST_KIND_INT ? json_integer(integer) : json_string(text);
-        }
-        json_object_set_new(scene, info->key, value);
-    }
+    for (int i = 0; i < fst_param_count(); ++i)
+        json_object_set_new(scene, fst_param_at(i)->key, parameter(params, i));
+    if (params->magnet_part_count)
+        json_object_set_new(scene, "magnet.parts", parts_array(params));
     return scene;
 }
 

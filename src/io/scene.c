@@ -8,37 +8,25 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <yaml.h>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "host/regular_file.h"
-
-/* What the scene said so far: values are applied at the end (see above). */
-typedef struct scene_reader {
-    yaml_parser_t parser;
-    const char *name; /* of the file, for messages */
-    const char *text;
-    size_t size;
-    int count;     /* the number of parameters */
-    char **values; /* by the parameter's index; NULL: not given */
-    int *lines;    /* the line on which each was given */
-    fst_error *error;
-} scene_reader;
+#include "io/scene_reader.h"
 
 /* A group may be opened once.  There is room for more names than params.def has groups. */
 #define GROUP_LIMIT 16
 
 /* ---------------------------------------------------------------- messages with FILE:LINE */
 
-static fst_status fail_at(scene_reader *reader, int line, const char *sentence)
+fst_status fst_scene_fail(scene_reader *reader, int line, const char *sentence)
 {
     char where[sizeof reader->error->where];
     (void)snprintf(where, sizeof where, "%.200s:%d", reader->name, line);
     return fst_fail(reader->error, FST_BAD_INPUT, where, "%s", sentence);
 }
 
-static int line_of(yaml_mark_t mark)
+int fst_scene_line(yaml_mark_t mark)
 {
     return (int)mark.line + 1;
 }
@@ -56,19 +44,19 @@ static fst_status fail_yaml(scene_reader *reader)
             line += reader->text[i] == '\n';
         (void)snprintf(sentence, sizeof sentence, "this is no text in UTF-8 (%s, byte %zu): a scene is YAML",
                        parser->problem, parser->problem_offset);
-        return fail_at(reader, line, sentence);
+        return fst_scene_fail(reader, line, sentence);
     }
     (void)snprintf(sentence, sizeof sentence, "this is no YAML: %s%s%s",
                    parser->problem ? parser->problem : "?", parser->context ? " " : "",
                    parser->context ? parser->context : "");
-    return fail_at(reader, line_of(parser->problem_mark), sentence);
+    return fst_scene_fail(reader, fst_scene_line(parser->problem_mark), sentence);
 }
 
 /* ---------------------------------------------------------------- events */
 
 /* The next event, which has no anchor, alias or tag: a scene says everything where it stands and needs none.
  * The caller deletes the event. */
-static fst_status next_event(scene_reader *reader, yaml_event_t *event)
+fst_status fst_scene_event(scene_reader *reader, yaml_event_t *event)
 {
     if (!yaml_parser_parse(&reader->parser, event))
         return fail_yaml(reader);
@@ -90,15 +78,15 @@ static fst_status next_event(scene_reader *reader, yaml_event_t *event)
         sentence = "YAML tags have no place in a scene: write the bare value";
     if (!sentence)
         return FST_OK;
-    int line = line_of(event->start_mark);
+    int line = fst_scene_line(event->start_mark);
     yaml_event_delete(event);
-    return fail_at(reader, line, sentence);
+    return fst_scene_fail(reader, line, sentence);
 }
 
 static fst_status skip_event(scene_reader *reader, yaml_event_type_t *type)
 {
     yaml_event_t event;
-    fst_status status = next_event(reader, &event);
+    fst_status status = fst_scene_event(reader, &event);
     if (status != FST_OK)
         return status;
     *type = event.type;
@@ -107,7 +95,7 @@ static fst_status skip_event(scene_reader *reader, yaml_event_type_t *type)
 }
 
 /* An empty value: `radius:` or `radius: ~`. */
-static int is_null(const yaml_event_t *event)
+int fst_scene_null(const yaml_event_t *event)
 {
     const char *text = (const char *)event->data.scalar.value;
     return event->data.scalar.style == YAML_PLAIN_SCALAR_STYLE &&
@@ -115,7 +103,7 @@ static int is_null(const yaml_event_t *event)
 }
 
 /* The text of a value; NULL where a zero byte hides in it. */
-static const char *scalar_text(const yaml_event_t *event)
+const char *fst_scene_scalar(const yaml_event_t *event)
 {
     const char *text = (const char *)event->data.scalar.value;
     return strlen(text) == event->data.scalar.length ? text : NULL;
@@ -123,37 +111,48 @@ static const char *scalar_text(const yaml_event_t *event)
 
 /* ---------------------------------------------------------------- keys and values */
 
+fst_status fst_scene_note(scene_reader *reader, int index, int line, const char *text, fst_params *scratch)
+{
+    const char *key = fst_param_at(index)->key;
+    fst_error why;
+    if (fst_params_set(scratch, key, text, &why) != FST_OK)
+        return fst_scene_fail(reader, line, why.sentence);
+    reader->values[index] = strdup(text);
+    reader->lines[index] = line;
+    if (!reader->values[index])
+        return fst_fail(reader->error, FST_NO_MEMORY, key, "out of memory");
+    return FST_OK;
+}
+
 /* Note that the scene gives `key` this value, on this line. */
 static fst_status note_value(scene_reader *reader, const char *key, int line, const yaml_event_t *event)
 {
-    char sentence[512], quoted[FST_QUOTE_SIZE];
-    int index = fst_param_find(key);
+    char sentence[512];
+    const int index = fst_param_find(key);
+    fst_params scratch = fst_default_params();
     if (index < 0) {
-        fst_params scratch = fst_default_params();
         fst_error why;
         fst_params_set(&scratch, key, "", &why);
-        return fail_at(reader, line, why.sentence);
+        return fst_scene_fail(reader, line, why.sentence);
+    }
+    if (fst_param_part(index) >= 0) {
+        (void)snprintf(sentence, sizeof sentence,
+                       "%s: a scene lists its parts whole, as in \"parts: [{kind: cuboid, centre: ...}]\"",
+                       key);
+        return fst_scene_fail(reader, line, sentence);
     }
     if (reader->values[index]) {
         (void)snprintf(sentence, sizeof sentence, "%s is given twice: first on line %d", key,
                        reader->lines[index]);
-        return fail_at(reader, line, sentence);
+        return fst_scene_fail(reader, line, sentence);
     }
-    const char *text = scalar_text(event);
-    if (!text || is_null(event)) {
+    const char *text = fst_scene_scalar(event);
+    if (!text || fst_scene_null(event)) {
         (void)snprintf(sentence, sizeof sentence, "%s has no value: give it one, or remove the line", key);
-        return fail_at(reader, line, sentence);
+        return fst_scene_fail(reader, line, sentence);
     }
     /* Try the value on a copy of the defaults, so that a wrong unit or range is reported with its line. */
-    fst_params scratch = fst_default_params();
-    fst_error why;
-    if (fst_params_set(&scratch, key, text, &why) != FST_OK)
-        return fail_at(reader, line, why.sentence);
-    reader->values[index] = strdup(text);
-    reader->lines[index] = line;
-    if (!reader->values[index])
-        return fst_fail(reader->error, FST_NO_MEMORY, fst_quote(key, quoted), "out of memory");
-    return FST_OK;
+    return fst_scene_note(reader, index, line, text, &scratch);
 }
 
 /* Whether `name` is the group of some key. */
@@ -181,7 +180,7 @@ static fst_status unknown_group(scene_reader *reader, int line, const char *name
     fst_nearest_name(name, names, nearest, sizeof nearest);
     (void)snprintf(sentence, sizeof sentence, "unknown group %s; the nearest is %s", fst_quote(name, quoted),
                    nearest);
-    return fail_at(reader, line, sentence);
+    return fst_scene_fail(reader, line, sentence);
 }
 
 static fst_status read_mapping(scene_reader *reader, const char *group, int start_line);
@@ -194,15 +193,17 @@ static fst_status read_value(scene_reader *reader, const char *group, const char
     if (!group && event->type == YAML_MAPPING_START_EVENT)
         return is_group(name) ? read_mapping(reader, name, line) : unknown_group(reader, line, name);
     (void)snprintf(key, sizeof key, "%s%s%.80s", group ? group : "", group ? "." : "", name);
+    if (strcmp(key, "magnet.parts") == 0)
+        return fst_scene_parts(reader, line, event);
     if (event->type != YAML_SCALAR_EVENT) {
         (void)snprintf(sentence, sizeof sentence, "%s must be one value, not a %s", fst_quote(key, quoted),
                        event->type == YAML_SEQUENCE_START_EVENT ? "list" : "group of keys");
-        return fail_at(reader, line, sentence);
+        return fst_scene_fail(reader, line, sentence);
     }
     if (!group && is_group(name)) {
         (void)snprintf(sentence, sizeof sentence, "%s is a group: write its keys below it, or remove the line",
                        name);
-        return fail_at(reader, line, sentence);
+        return fst_scene_fail(reader, line, sentence);
     }
     return note_value(reader, key, line, event);
 }
@@ -218,7 +219,7 @@ static fst_status note_group(scene_reader *reader, char seen[GROUP_LIMIT][32], i
         if (strcmp(seen[i], name) == 0) {
             (void)snprintf(sentence, sizeof sentence, "the group %s is given twice: put its keys together",
                            name);
-            return fail_at(reader, line, sentence);
+            return fst_scene_fail(reader, line, sentence);
         }
     if (*count < GROUP_LIMIT)
         (void)snprintf(seen[(*count)++], 32, "%s", name);
@@ -232,22 +233,22 @@ static fst_status read_mapping(scene_reader *reader, const char *group, int star
     int seen_count = 0, keys = 0;
     for (;; ++keys) {
         yaml_event_t key, value;
-        fst_status status = next_event(reader, &key);
+        fst_status status = fst_scene_event(reader, &key);
         if (status != FST_OK)
             return status;
-        int line = line_of(key.start_mark);
+        int line = fst_scene_line(key.start_mark);
         if (key.type == YAML_MAPPING_END_EVENT) {
             yaml_event_delete(&key);
-            return keys || !group ? FST_OK : fail_at(reader, start_line, "this group has no keys");
+            return keys || !group ? FST_OK : fst_scene_fail(reader, start_line, "this group has no keys");
         }
-        const char *name = key.type == YAML_SCALAR_EVENT ? scalar_text(&key) : NULL;
+        const char *name = key.type == YAML_SCALAR_EVENT ? fst_scene_scalar(&key) : NULL;
         if (!name) {
             yaml_event_delete(&key);
-            return fail_at(reader, line, "a key must be a word, as in \"radius: 2.5 mm\"");
+            return fst_scene_fail(reader, line, "a key must be a word, as in \"radius: 2.5 mm\"");
         }
         status = group ? FST_OK : note_group(reader, seen, &seen_count, name, line);
         if (status == FST_OK) {
-            status = next_event(reader, &value);
+            status = fst_scene_event(reader, &value);
             if (status == FST_OK) {
                 status = read_value(reader, group, name, line, &value);
                 yaml_event_delete(&value);
@@ -269,16 +270,16 @@ static fst_status read_stream(scene_reader *reader)
     if (status != FST_OK || type == YAML_STREAM_END_EVENT)
         return status; /* only comments: nothing is changed */
     yaml_event_t root;
-    status = next_event(reader, &root);
+    status = fst_scene_event(reader, &root);
     if (status != FST_OK)
         return status;
-    int line = line_of(root.start_mark);
+    int line = fst_scene_line(root.start_mark);
     type = root.type;
-    int nothing = type == YAML_SCALAR_EVENT && is_null(&root);
+    int nothing = type == YAML_SCALAR_EVENT && fst_scene_null(&root);
     yaml_event_delete(&root);
     if (type != YAML_MAPPING_START_EVENT && !nothing)
-        return fail_at(reader, line,
-                       "a scene is made of groups of keys, as in \"bead:\" and \"  radius: 2.5 mm\"");
+        return fst_scene_fail(reader, line,
+                              "a scene is made of groups of keys, as in \"bead:\" and \"  radius: 2.5 mm\"");
     if (!nothing)
         status = read_mapping(reader, NULL, line);
     if (status == FST_OK)
@@ -286,12 +287,12 @@ static fst_status read_stream(scene_reader *reader)
     if (status != FST_OK)
         return status;
     yaml_event_t end;
-    status = next_event(reader, &end);
+    status = fst_scene_event(reader, &end);
     if (status != FST_OK)
         return status;
     if (end.type != YAML_STREAM_END_EVENT)
-        status =
-            fail_at(reader, line_of(end.start_mark), "a scene is one YAML document; a second one begins here");
+        status = fst_scene_fail(reader, fst_scene_line(end.start_mark),
+                                "a scene is one YAML document; a second one begins here");
     yaml_event_delete(&end);
     return status;
 }
@@ -304,46 +305,79 @@ static int line_given(const scene_reader *reader, const char *key)
     return reader->values[index] ? reader->lines[index] : 0;
 }
 
-/* A quantity given in two ways is an error, because nobody knows which was meant.  With magnet.b0 the same
- * holds for model.kappa, but only where bead.moment is given too. */
-static fst_status check_forms(scene_reader *reader)
+/* Whether two keys of the scene, which are two forms of one quantity, may stand beside each other: B0 beside
+ * kappa, save where the moment is told too, and beside a real magnet. */
+static int may_stand_together(const scene_reader *reader, const char *key, const char *other, int real)
 {
-    for (int i = 0; i < reader->count; ++i) {
-        const char *key = fst_param_at(i)->key, *other = fst_param_other_form(key);
-        if (!other || !reader->values[i])
-            continue;
-        int first = line_given(reader, other);
-        if (!first || first > reader->lines[i])
-            continue; /* not given, or reported from the later of the two lines */
-        int strength = strcmp(key, "model.kappa") == 0 || strcmp(other, "model.kappa") == 0;
-        if (strength && !line_given(reader, "bead.moment"))
-            continue;
-        char sentence[256];
-        (void)snprintf(sentence, sizeof sentence,
-                       "%s is given here and %s%s on line %d: they give the same quantity, keep one", key,
-                       other, strength ? " (with bead.moment)" : "", first);
-        return fail_at(reader, reader->lines[i], sentence);
-    }
-    return FST_OK;
+    const int strength = strcmp(key, "model.kappa") == 0 || strcmp(other, "model.kappa") == 0;
+    return strength && (real || (!line_given(reader, "bead.moment") && !line_given(reader, "bead.remanence")));
 }
 
-/* model.kappa is applied first: setting it clears magnet.b0, which may be given beside it to scale
- * the field. */
-static fst_status apply(const scene_reader *reader, fst_params *params)
+static fst_status check_pair(scene_reader *reader, const char *one, const char *two, const char *with)
 {
-    fst_params changed = *params;
-    int kappa = fst_param_find("model.kappa");
-    for (int i = -1; i < reader->count; ++i) {
-        int index = i < 0 ? kappa : i;
-        if (!reader->values[index] || (i >= 0 && i == kappa))
+    const int a = line_given(reader, one), b = line_given(reader, two);
+    char sentence[256];
+    if (!a || !b)
+        return FST_OK;
+    (void)snprintf(sentence, sizeof sentence,
+                   "%s is given here and %s%s on line %d: they give the same quantity, keep one",
+                   a >= b ? one : two, a >= b ? two : one, with, a >= b ? b : a);
+    return fst_scene_fail(reader, a >= b ? a : b, sentence);
+}
+
+/* A quantity given in two ways is an error, because nobody knows which was meant. */
+static fst_status check_forms(scene_reader *reader, const fst_params *params)
+{
+    const int real = fst_magnet_in_tesla(params);
+    for (int i = 0; i < fst_param_count(); ++i) {
+        const char *key = fst_param_at(i)->key, *other = fst_param_other_form(key);
+        if (!other || !reader->values[i] || may_stand_together(reader, key, other, real))
             continue;
-        fst_status status =
-            fst_params_set(&changed, fst_param_at(index)->key, reader->values[index], reader->error);
+        const int strength = strcmp(key, "model.kappa") == 0 || strcmp(other, "model.kappa") == 0;
+        const fst_status status = check_pair(reader, key, other, strength ? " (with bead.moment)" : "");
         if (status != FST_OK)
             return status;
     }
-    *params = changed;
-    return FST_OK;
+    fst_status status = real ? check_pair(reader, "model.kappa", "bead.moment", "") : FST_OK;
+    if (status == FST_OK && real)
+        status = check_pair(reader, "model.kappa", "bead.remanence", "");
+    return status;
+}
+
+static fst_status set_given(const scene_reader *reader, int index, fst_params *params)
+{
+    if (!reader->values[index])
+        return FST_OK;
+    return fst_params_set(params, fst_param_at(index)->key, reader->values[index], reader->error);
+}
+
+/* The magnet's kind is applied first, for it says what takes the place of what, and model.kappa next: setting
+ * it clears magnet.b0, which may be given beside it to scale the field. */
+static fst_status apply(const scene_reader *reader, fst_params *changed)
+{
+    const int shape = fst_param_find("magnet.shape"), kappa = fst_param_find("model.kappa");
+    if (reader->lists_parts)
+        changed->magnet_part_count = 0;
+    fst_status status = set_given(reader, shape, changed);
+    if (status == FST_OK)
+        status = set_given(reader, kappa, changed);
+    for (int i = 0; i < reader->count && status == FST_OK; ++i)
+        if (i != shape && i != kappa)
+            status = set_given(reader, i, changed);
+    return status;
+}
+
+/* What can be said of the whole, with the line that it comes from. */
+static fst_status check_whole(scene_reader *reader, const fst_params *params)
+{
+    fst_error why;
+    fst_status status = check_forms(reader, params);
+    if (!reader->lists_parts || params->magnet_shape != FST_MAGNET_PARTS)
+        return status;
+    for (int part = 0; part < params->magnet_part_count && status == FST_OK; ++part)
+        if (fst_params_check_part(params, part, &why) != FST_OK)
+            status = fst_scene_fail(reader, reader->part_lines[part], why.sentence);
+    return status;
 }
 
 fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_params *params,
@@ -351,7 +385,8 @@ fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_
 {
     fst_error unseen;
     scene_reader reader = {.name = name, .text = text, .size = size, .error = error ? error : &unseen};
-    reader.count = fst_param_count();
+    while (fst_param_at(reader.count))
+        ++reader.count;
     if (size > FST_SCENE_SIZE_LIMIT)
         return fst_fail(error, FST_BAD_INPUT, name, "this is larger than a scene may be, %d bytes",
                         FST_SCENE_SIZE_LIMIT);
@@ -363,10 +398,13 @@ fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_
         yaml_parser_set_input_string(&reader.parser, (const unsigned char *)text, size);
         status = read_stream(&reader);
         yaml_parser_delete(&reader.parser);
+        fst_params changed = *params;
         if (status == FST_OK)
-            status = check_forms(&reader);
+            status = apply(&reader, &changed);
         if (status == FST_OK)
-            status = apply(&reader, params);
+            status = check_whole(&reader, &changed);
+        if (status == FST_OK)
+            *params = changed;
     } else {
         fst_fail(error, FST_NO_MEMORY, name, "out of memory");
     }

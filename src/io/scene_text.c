@@ -98,6 +98,71 @@ static int group_has_value(const fst_params *params, int index, size_t group_len
     return 0;
 }
 
+/* "size: [56 mm, 40 mm, 9 mm]": the numbers of a part under one key, from a row on; nothing where the kind of
+ * part has none, and for a part that is not turned.  Returns how many rows that were. */
+static int write_part_numbers(FILE *out, const fst_params *params, int row)
+{
+    const char *key = strrchr(fst_param_at(row)->key, '.') + 1;
+    const size_t length = strcspn(key, "[");
+    const fst_magnet_part *part = &params->magnet_parts[fst_param_part(row)];
+    const double *turn = part->rotation;
+    const int stays = turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0 && turn[3] == 0.0;
+    const int silent = strncmp(key, "rotation", length) == 0 && stays;
+    char value[64];
+    int count = 0, written = 0;
+    for (; row + count < fst_params_row_count(params); ++count) {
+        if (strncmp(key, strrchr(fst_param_at(row + count)->key, '.') + 1, length + 1) != 0)
+            break;
+        value_text(params, row + count, value, sizeof value);
+        if (!value[0] || silent)
+            continue;
+        if (written++)
+            (void)fprintf(out, ", %s", value);
+        else
+            (void)fprintf(out, "      %.*s: [%s", (int)length, key, value);
+    }
+    (void)fputs(written ? "]\n" : "", out);
+    return count;
+}
+
+/* The list of parts, below the group `magnet`. */
+static void write_parts(FILE *out, const fst_params *params)
+{
+    char kind[32];
+    if (params->magnet_part_count)
+        (void)fputs("  parts:\n", out);
+    for (int row = fst_param_count(); row < fst_params_row_count(params);) {
+        if (fst_param_at(row)->kind == FST_KIND_CHOICE) {
+            (void)fst_params_get(params, row, kind, sizeof kind);
+            (void)fprintf(out, "    - kind: %s\n", kind);
+            ++row;
+        } else {
+            row += write_part_numbers(out, params, row);
+        }
+    }
+}
+
+static const char parts_example[] =
+    "  # The bodies of a magnet of shape parts, at most 16: kind cuboid, cylinder, sphere or dipole.\n"
+    "  # Axes from the axis of rotation at the reference plane, z up. size: three edges; diameter and height;\n"
+    "  # diameter. A dipole has a moment in place of size and remanence. rotation: degrees, axis (optional).\n"
+    "  # parts:\n"
+    "  #   - kind: cuboid\n"
+    "  #     centre: [0 mm, 0 mm, 0 mm]\n"
+    "  #     size: [56 mm, 40 mm, 9 mm]\n"
+    "  #     remanence: [1.2 T, 0 T, 0 T]\n"
+    "  #     rotation: [0 deg, 0, 0, 1]\n";
+
+/* What stands behind the keys of the group that ends. */
+static void end_group(FILE *out, const fst_params *params, const char *group, int commented)
+{
+    if (strcmp(group, "magnet") != 0)
+        return;
+    if (commented)
+        (void)fputs(parts_example, out);
+    write_parts(out, params);
+}
+
 static void write_scene(FILE *out, const fst_params *params, int commented)
 {
     char group[32] = "", value[VALUE_SIZE];
@@ -112,6 +177,7 @@ static void write_scene(FILE *out, const fst_params *params, int commented)
         if (!value[0] && !commented)
             continue;
         if (strncmp(group, info->key, group_length) != 0 || group[group_length]) {
+            end_group(out, params, group, commented);
             (void)snprintf(group, sizeof group, "%.*s", (int)group_length, info->key);
             /* YAML wants something below a key: a group without a value is a comment itself. */
             (void)fprintf(out, "%s%s%s:\n", commented ? "\n" : "",

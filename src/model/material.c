@@ -12,7 +12,7 @@ static const double LIGHTEST = 1000.0, HEAVIEST = 23000.0;
 static double density_of(const fst_params *params)
 {
     const double radius = params->bead_radius;
-    return params->bead_mass / (4.0 / 3.0 * FST_PI * radius * radius * radius);
+    return fst_bead_mass(params) / (4.0 / 3.0 * FST_PI * radius * radius * radius);
 }
 
 /* Mass and radius enter kappa = mu B0/(m R^2 gamma^2) too, and the unit of a and b: a strength that is the
@@ -21,8 +21,7 @@ static int strength_is_default(const fst_params *params, const fst_params *usual
 {
     if (params->bead_material == FST_MATERIAL_PARAMAGNETIC)
         return 1;
-    return (isnan(params->bead_moment) || isnan(params->magnet_b0)) &&
-           params->model_kappa == usual->model_kappa;
+    return !fst_kappa_follows(params) && params->model_kappa == usual->model_kappa;
 }
 
 int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size)
@@ -37,8 +36,8 @@ int fst_bead_contradiction(const fst_params *params, char *sentence, size_t size
         return snprintf(sentence, size,
                         "the bead's mass (%.4g kg) and radius (%.4g m) make a density of %.0f kg/m^3, which no "
                         "material has (%g to %g): give bead.mass and bead.radius that belong together",
-                        params->bead_mass, params->bead_radius, density, LIGHTEST, HEAVIEST);
-    if (params->bead_radius != usual.bead_radius && params->bead_mass == usual.bead_mass &&
+                        fst_bead_mass(params), params->bead_radius, density, LIGHTEST, HEAVIEST);
+    if (params->bead_radius != usual.bead_radius && fst_bead_mass(params) == usual.bead_mass &&
         strength_is_default(params, &usual))
         return snprintf(
             sentence, size,
@@ -86,6 +85,13 @@ static fst_status check_contact(const fst_params *params, const char *key, doubl
 fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
 {
     const char *of;
+    if (params->magnet_part_count > 0 && params->magnet_shape != FST_MAGNET_PARTS) {
+        char shape[48];
+        (void)fst_params_get(params, fst_param_find("magnet.shape"), shape, sizeof shape);
+        return fst_fail(
+            error, FST_BAD_INPUT, "magnet.parts",
+            "magnet.parts has no effect with magnet.shape %s: choose parts, or leave magnet.parts out", shape);
+    }
     const struct {
         const char *key;
         double value;

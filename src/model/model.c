@@ -11,19 +11,17 @@
 
 #include "model/tangent.inl"
 
-/* kappa: model.kappa, unless moment and B0 are both given.  Of moment, B0 and kappa two give the third. */
+/* kappa: model.kappa, unless moment and B0 are both given.  Of moment, B0 and kappa two give the third; beside
+ * a real magnet B0 is there already, and of moment and kappa one gives the other. */
 static void set_strength(const fst_params *p, fst_groups *g)
 {
-    const double unit =
-        p->bead_mass * (p->bead_radius * p->bead_radius) * (p->friction_gamma * p->friction_gamma);
+    const double unit = fst_moment_unit(p), moment = fst_given_moment(p);
     g->kappa = p->model_kappa;
-    g->field_unit = p->magnet_b0;
-    if ((p->magnet_shape == FST_MAGNET_PARTS || p->magnet_shape == FST_MAGNET_GRID) && isnan(p->magnet_b0))
-        g->field_unit = FST_PARTS_FIELD_UNIT;
-    if (!isnan(p->bead_moment) && !isnan(p->magnet_b0))
-        g->kappa = p->bead_moment * p->magnet_b0 / unit;
-    else if (!isnan(p->bead_moment) && p->bead_moment > 0)
-        g->field_unit = g->kappa * unit / p->bead_moment;
+    g->field_unit = fst_field_unit(p);
+    if (!isnan(moment) && !isnan(g->field_unit))
+        g->kappa = moment * g->field_unit / unit;
+    else if (!isnan(moment) && moment > 0)
+        g->field_unit = g->kappa * unit / moment;
     if (p->bead_material == FST_MATERIAL_PARAMAGNETIC)
         g->kappa = 0.0;
     g->a = p->bead_material == FST_MATERIAL_HARD ? 0.0 : p->bead_a;
@@ -109,7 +107,7 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
     g.friction = (fst_friction_law)params->friction_law;
     g.dynamics = (fst_dynamics)params->model_dynamics;
     g.time_unit = 1.0 / gamma;
-    g.mass = params->bead_mass;
+    g.mass = fst_bead_mass(params);
     if (!isfinite(g.kappa) || !isfinite(g.omega) || g.h <= 0)
         return fst_fail(error, FST_BAD_INPUT, "fst_model_new",
                         "the scaled groups are out of range: kappa = %g, omega = %g, h = %g", g.kappa, g.omega,
@@ -163,8 +161,9 @@ static fst_coefficients_double in_mode_of(const fst_model *model, const double *
         return c;
     fst_pull_double p;
     fst_magnetic_pull_double(&c, state, &p);
+    const double sliding[2] = {state[FST_VX] - c.eps * state[FST_WY], state[FST_VY] + c.eps * state[FST_WX]};
     if (model->groups.friction == FST_FRICTION_ROLLING ||
-        hypot(state[FST_VX] - c.eps * state[FST_WY], state[FST_VY] + c.eps * state[FST_WX]) < no_slip)
+        sqrt(sliding[0] * sliding[0] + sliding[1] * sliding[1]) < no_slip)
         c.law.coulomb.mode = FST_MODE_STICK;
     fst_find_rest_double(&c, state, &p);
     c.law.coulomb.mode = FST_MODE_SLIP;
@@ -229,7 +228,7 @@ fst_observation fst_observe_double(const fst_coefficients_double *c, double omeg
 double fst_angle_of_gap(double gap2)
 {
     const double half = 0.5 * sqrt(gap2);
-    return 2.0 * asin(half < 1.0 ? half : 1.0);
+    return 2.0 * fst_asin(half < 1.0 ? half : 1.0);
 }
 
 fst_observation fst_observe(const fst_model *model, const double state[FST_STATE_SIZE])

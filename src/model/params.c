@@ -10,6 +10,8 @@
 #include "base/number.h"
 #include "base/text.h"
 #include "base/units.h"
+#include "model/kinds.h"
+#include "model/part_rows.h"
 
 static const fst_param_info rows[] = {
 #define FST_REAL(group, name, unit, initial, least, greatest, doc)                                             \
@@ -84,13 +86,25 @@ int fst_param_count(void)
 
 const fst_param_info *fst_param_at(int index)
 {
-    return index >= 0 && index < ROW_COUNT ? &rows[index] : NULL;
+    if (index < 0 || index >= ROW_COUNT + FST_PART_ROWS)
+        return NULL;
+    return index < ROW_COUNT ? &rows[index] : fst_part_row(index - ROW_COUNT);
+}
+
+int fst_params_row_count(const fst_params *params)
+{
+    return ROW_COUNT + FST_PART_FIELDS * params->magnet_part_count;
+}
+
+int fst_param_part(int index)
+{
+    return index < ROW_COUNT ? -1 : (index - ROW_COUNT) / FST_PART_FIELDS;
 }
 
 int fst_param_find(const char *key)
 {
-    for (int i = 0; i < ROW_COUNT; i++)
-        if (strcmp(rows[i].key, key) == 0)
+    for (int i = 0; i < ROW_COUNT + FST_PART_ROWS; i++)
+        if (strcmp(fst_param_at(i)->key, key) == 0)
             return i;
     return -1;
 }
@@ -125,8 +139,10 @@ static int int_value(const fst_params *params, const fst_param_info *row)
 static const struct {
     const char *scaled, *si;
 } forms[] = {
-    {"drive.omega", "drive.frequency"}, {"model.eps", "bead.radius"}, {"model.h", "magnet.depth"},
-    {"model.lambda", "magnet.width"},   {"model.kappa", "magnet.b0"}, {"contact.modulus", "contact.radius"},
+    {"drive.omega", "drive.frequency"}, {"model.eps", "bead.radius"},
+    {"model.h", "magnet.depth"},        {"model.lambda", "magnet.width"},
+    {"model.kappa", "magnet.b0"},       {"contact.modulus", "contact.radius"},
+    {"bead.density", "bead.mass"},      {"bead.remanence", "bead.moment"},
 };
 enum { FORM_COUNT = sizeof forms / sizeof forms[0] };
 
@@ -141,33 +157,62 @@ const char *fst_param_other_form(const char *key)
     return NULL;
 }
 
-static int moment_and_b0_given(const fst_params *params)
+static int moment_given(const fst_params *params)
 {
-    return !isnan(params->bead_moment) && !isnan(params->magnet_b0);
+    return !isnan(params->bead_moment) || !isnan(params->bead_remanence);
+}
+
+int fst_kappa_given(const fst_params *params)
+{
+    return params->model_kappa_given || params->model_kappa != rows[fst_param_find("model.kappa")].initial;
+}
+
+int fst_kappa_follows(const fst_params *params)
+{
+    if (fst_magnet_in_tesla(params))
+        return !fst_kappa_given(params);
+    return moment_given(params) && !isnan(params->magnet_b0);
 }
 
 /* Whether the value in the field plays no part because the other form of the quantity is given. */
 static int is_overridden(const fst_params *params, const fst_param_info *row)
 {
     if (strcmp(row->key, "model.kappa") == 0)
-        return moment_and_b0_given(params);
+        return fst_kappa_follows(params);
     for (int i = 0; i < FORM_COUNT; i++)
         if (strcmp(forms[i].si, row->key) == 0 && strcmp(row->key, "magnet.b0") != 0)
             return !isnan(real_value(params, &rows[fst_param_find(forms[i].scaled)]));
     return 0;
 }
 
+/* kappa was set, or the moment or B0 from which it may follow.  kappa is special: with lines it has two makers,
+ * and B0 alone is no other form of it but the tesla scale; beside a real magnet B0 is a unit, and kappa and
+ * moment are two forms of one quantity.  See params.def. */
+static void take_back_strength(fst_params *params, const char *key)
+{
+    const int real = fst_magnet_in_tesla(params);
+    if (strcmp(key, "model.kappa") == 0) {
+        params->model_kappa_given = 1;
+        if (!real)
+            params->magnet_b0 = NAN;
+        if (real)
+            params->bead_moment = NAN;
+        params->bead_remanence = NAN;
+    } else if (real ? strcmp(key, "magnet.b0") != 0 : moment_given(params) && !isnan(params->magnet_b0)) {
+        params->model_kappa = rows[fst_param_find("model.kappa")].initial;
+        params->model_kappa_given = 0;
+    }
+}
+
 /* After `key` was set: take back what says the same quantity otherwise.  An SI form that is overridden falls
- * back to its default, so that no forgotten value stays behind.  kappa is special: it has two makers, and B0
- * alone is no other form of it but the tesla scale; see params.def. */
+ * back to its default, so that no forgotten value stays behind. */
 static void take_back_other_form(fst_params *params, const char *key)
 {
-    if (strcmp(key, "bead.moment") == 0 || strcmp(key, "magnet.b0") == 0) {
-        if (moment_and_b0_given(params))
-            params->model_kappa = rows[fst_param_find("model.kappa")].initial;
-        return;
-    }
-    const char *other = fst_param_other_form(key);
+    const int is_moment = strcmp(key, "bead.moment") == 0 || strcmp(key, "bead.remanence") == 0;
+    const int is_strength = strcmp(key, "model.kappa") == 0 || strcmp(key, "magnet.b0") == 0;
+    const char *other = is_strength ? NULL : fst_param_other_form(key);
+    if (is_strength || is_moment)
+        take_back_strength(params, key);
     if (other) {
         const fst_param_info *row = &rows[fst_param_find(other)];
         *real_field(params, row) = row->initial;
@@ -191,6 +236,8 @@ static int may_mean(const char *wrong, const char *key, int how)
 static fst_status unknown_key(const char *key, fst_error *error)
 {
     char quoted[FST_QUOTE_SIZE], names[ROW_COUNT * 32] = "", nearest[48];
+    if (strncmp(key, "magnet.parts", strlen("magnet.parts")) == 0)
+        return fst_part_unknown_key(key, error);
     for (int how = SAME_NAME; how <= ANY_KEY && !names[0]; how++)
         for (int i = 0; i < ROW_COUNT; i++) {
             size_t used = strlen(names);
@@ -299,13 +346,19 @@ fst_status fst_params_set(fst_params *params, const char *key, const char *text,
     int index = fst_param_find(key);
     if (index < 0)
         return unknown_key(key, error);
-    const fst_param_info *row = &rows[index];
-    fst_status status = row->kind == FST_KIND_CHOICE ? set_choice(params, row, text, error)
-                        : row->kind == FST_KIND_TEXT ? set_text(params, row, text, error)
-                                                     : set_number(params, row, text, error);
+    const fst_param_info *row = fst_param_at(index);
+    fst_status status = index < ROW_COUNT ? FST_OK : fst_part_may_set(params, index - ROW_COUNT, error);
     if (status == FST_OK)
+        status = row->kind == FST_KIND_CHOICE ? set_choice(params, row, text, error)
+                 : row->kind == FST_KIND_TEXT ? set_text(params, row, text, error)
+                                              : set_number(params, row, text, error);
+    if (status != FST_OK)
+        return status;
+    if (index < ROW_COUNT)
         take_back_other_form(params, key);
-    return status;
+    else
+        fst_part_was_set(params, index - ROW_COUNT);
+    return FST_OK;
 }
 
 int fst_params_get(const fst_params *params, int index, char *text, size_t size)
@@ -313,7 +366,10 @@ int fst_params_get(const fst_params *params, int index, char *text, size_t size)
     const fst_param_info *row = fst_param_at(index);
     if (size)
         text[0] = '\0';
-    if (!row || is_overridden(params, row))
+    if (!row || is_overridden(params, row) || index >= fst_params_row_count(params))
+        return 0;
+    const int part = fst_param_part(index);
+    if (part >= 0 && !fst_part_has(params->magnet_parts[part].kind, index - ROW_COUNT))
         return 0;
     if (row->kind == FST_KIND_TEXT)
         return snprintf(text, size, "%s", (const char *)params + row->offset);
@@ -366,6 +422,32 @@ static fst_status validate_row(const fst_params *params, const fst_param_info *r
     return out_of_range(row, shown, error);
 }
 
+/* The parts of a real magnet, and what tells the strength of its pull. */
+static fst_status validate_magnet(const fst_params *params, fst_error *error)
+{
+    const fst_status status = fst_parts_validate(params, error);
+    if (status != FST_OK)
+        return status;
+    if (!isnan(params->bead_moment) && !isnan(params->bead_remanence))
+        return fst_fail(
+            error, FST_BAD_INPUT, "bead.remanence",
+            "bead.remanence and bead.moment are both given, but the moment follows from the remanence: "
+            "give one of them");
+    if (!fst_magnet_in_tesla(params) && !isnan(params->bead_remanence) && isnan(params->magnet_b0))
+        return fst_fail(
+            error, FST_BAD_INPUT, "bead.remanence",
+            "bead.remanence = %g T needs magnet.b0 where the magnet's strength is not told in tesla: give "
+            "it too, or model.kappa in place of both",
+            params->bead_remanence);
+    if (fst_magnet_in_tesla(params) && fst_kappa_given(params) && moment_given(params))
+        return fst_fail(
+            error, FST_BAD_INPUT, "model.kappa",
+            "model.kappa and %s are both given, but beside a real magnet each gives the bead's moment: "
+            "give one of them",
+            isnan(params->bead_moment) ? "bead.remanence" : "bead.moment");
+    return FST_OK;
+}
+
 double fst_run_discard(const fst_params *params)
 {
     static const double unless_told = 200.0;
@@ -383,6 +465,9 @@ fst_status fst_params_validate(const fst_params *params, fst_error *error)
         if (status != FST_OK)
             return status;
     }
+    const fst_status of_magnet = validate_magnet(params, error);
+    if (of_magnet != FST_OK)
+        return of_magnet;
     if (params->friction_mu_static < params->friction_mu)
         return fst_fail(
             error, FST_BAD_INPUT, "friction.mu_static",

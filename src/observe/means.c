@@ -19,6 +19,7 @@
 #include <math.h>
 
 #include "base/constants.h"
+#include "base/elementary.h"
 
 static const double ROUNDING = 1e-12; /* of a share of time */
 
@@ -171,7 +172,7 @@ static double tilt(const fst_mark *first, const fst_mark *last)
         return NAN; /* n stands still: no plane */
     least_eigenvector(covariance, normal);
     const double sine = fabs(normal[2]);
-    return FST_DEGREES * asin(sine < 1 ? sine : 1.0);
+    return FST_DEGREES * fst_asin(sine < 1 ? sine : 1.0);
 }
 
 int fst_never_slips(const fst_window *w, const fst_mark_series *series)

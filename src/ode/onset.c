@@ -136,8 +136,9 @@ static double time_of_turning(const fst_coefficients_double *c, const double *st
         return 1.0;
     fst_pull_double p;
     fst_magnetic_pull_double(c, state, &p);
+    const double spin = sqrt(state[FST_WX] * state[FST_WX] + state[FST_WY] * state[FST_WY]);
     const double strength = 2.0 / 7.0 * c->torque * c->resistance.arm * fmax(fst_load_double(c, p.force), 0.0);
-    return fmin(1.0, TURNS * hypot(state[FST_WX], state[FST_WY]) / (strength + 1e-290));
+    return fmin(1.0, TURNS * spin / (strength + 1e-290));
 }
 
 double fst_contact_begin_onset(fst_flow *flow, const double *state)

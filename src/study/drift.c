@@ -27,6 +27,7 @@
 #include <stddef.h>
 
 #include "base/constants.h"
+#include "base/elementary.h"
 #include "observe/means.h"
 
 /* docs/regimes.md says why these, and how often they err. */
@@ -106,7 +107,7 @@ static line line_through_logarithms(const double *values, int count)
 {
     double logarithms[FST_MARKS];
     for (int i = 0; i < count; ++i)
-        logarithms[i] = log(fmax(values[i], 1e-300));
+        logarithms[i] = fst_log(fmax(values[i], 1e-300));
     return line_through(logarithms, count);
 }
 

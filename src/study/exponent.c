@@ -25,6 +25,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/elementary.h"
 #include "base/error.h"
 #include "base/watch.h"
 #include "lanes/lanes.h"
@@ -192,7 +193,7 @@ static void end_piece(follower *f, double length)
     f->t = 0.0;
     if (++f->done > f->aligning) {
         fst_growth_pass(&f->clock, f->piece);
-        fst_growth_add(&f->growth, &f->clock, log(length));
+        fst_growth_add(&f->growth, &f->clock, fst_log(length));
     }
     if (f->done < f->pieces)
         return;

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/constants.h"
+#include "base/elementary.h"
 
 /* Windows of the time, in the order in which growth->rate has them: `count` windows of the length 1/parts, each
  * begun `hop` after the one before. */
@@ -21,7 +22,9 @@ static double weight_before(double s)
 {
     if (s <= 0.0)
         return 0.0;
-    return s >= 1.0 ? 1.0 : s - sin(FST_TWO_PI * s) / FST_TWO_PI;
+    double sine, cosine;
+    fst_sin_cos_degrees(360.0 * s, &sine, &cosine);
+    return s >= 1.0 ? 1.0 : s - sine / FST_TWO_PI;
 }
 
 void fst_growth_pass(fst_growth_clock *clock, double piece)

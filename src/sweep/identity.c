@@ -89,7 +89,8 @@ static fst_status compare_scene(const fst_identity_lines *lines, const char *pat
     const fst_status status = read_scene(lines, path, &made, error);
     if (status != FST_OK)
         return status;
-    for (int i = 0; i < fst_param_count(); ++i) {
+    const int there = fst_params_row_count(&made), here = fst_params_row_count(wanted);
+    for (int i = 0; i < (there > here ? there : here); ++i) {
         char before[FST_PARAM_TEXT_SIZE], now[FST_PARAM_TEXT_SIZE];
         (void)fst_params_get(&made, i, before, sizeof before);
         (void)fst_params_get(wanted, i, now, sizeof now);

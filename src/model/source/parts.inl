@@ -6,6 +6,7 @@
  */
 #include "model/source/part_local.inl"
 
+#include "model/source/cylinder.inl"
 #include "model/source/dipole.inl"
 
 typedef struct FN(parts) {
@@ -27,6 +28,9 @@ static inline FN(parts) FN(make_parts)(const fst_params *params, const fst_group
 static inline void FN(part_field)(const FN(part) * part, int kind, const REAL d[3], FN(local_field) * at)
 {
     switch (kind) {
+    case FST_PART_CYLINDER:
+        FN(cylinder_field)(part, d, at);
+        break;
     default: /* FST_PART_SPHERE, FST_PART_DIPOLE */
         FN(dipole_field)(part, d, at);
     }

@@ -1,0 +1,130 @@
+/* controls.js - the parameters as controls, made from the library's own table.  A row has a name, a field that takes a
+ * value with a unit, and where it makes sense a slider; what the library refuses is said below, in its own words. */
+
+import { T } from "./texts.js";
+
+/* Where sliders begin and end, in the unit that is shown; other rows go from a quarter to four times their default. */
+const SLIDERS = {
+    "drive.frequency": [1, 30, 0.1], "bead.radius": [1, 5, 0.05], "bead.mass": [0.05, 3, 0.01], "magnet.depth": [5, 40, 0.1],
+    "magnet.width": [0, 80, 0.5], "magnet.half_length": [8, 50, 0.5], "magnet.lines": [1, 15, 1], "model.kappa": [0.1, 6, 0.01],
+    "friction.gamma": [30, 1000, 1], "friction.mu": [0, 1, 0.01], "friction.rolling_resistance": [0, 0.1, 0.001],
+    "start.r": [0.1, 2, 0.01], "start.phi": [-180, 180, 1], "plate.radius": [30, 400, 5], "plate.gravity": [0, 20, 0.1],
+};
+const SHOWN = { m: ["mm", 1e3], kg: ["g", 1e3], T: ["mT", 1e3], Hz: ["Hz", 1], "1/s": ["1/s", 1], deg: ["deg", 1], "m/s": ["mm/s", 1e3], "m/s^2": ["m/s^2", 1] };
+const MAIN = ["drive.frequency", "friction.law", "friction.mu", "model.kappa", "magnet.depth", "bead.radius"];
+const HIDDEN = new Set(["magnet.file", "magnet.parts"]);
+
+function element(name, attributes = {}, ...children) {
+    const made = document.createElement(name);
+    for (const [key, value] of Object.entries(attributes))
+        if (key in made && typeof value !== "string")
+            made[key] = value;
+        else
+            made.setAttribute(key, value);
+    made.append(...children);
+    return made;
+}
+export { element };
+
+const plain = (value) => String(Number(value.toPrecision(8)));
+
+/* What the library says, without the names of C. */
+export function sentence(error) {
+    const words = (error.message || String(error)).replace(/\s*\((?:fst_\w+\(\)|festoon schema)[^)]*\)/g, "");
+    return error.where ? `${error.where}: ${words}` : words;
+}
+
+export class Controls {
+    /* `changed(key, text)` returns null, or what is wrong. */
+    constructor(core, changed) {
+        this.core = core;
+        this.changed = changed;
+        this.rows = new Map();
+    }
+
+    build(main, others) {
+        const groups = new Map();
+        for (const row of this.core.parameters) {
+            if (HIDDEN.has(row.key))
+                continue;
+            const made = this.row(row);
+            if (MAIN.includes(row.key)) {
+                made.order = MAIN.indexOf(row.key);
+                continue;
+            }
+            const group = row.key.split(".")[0];
+            groups.set(group, [...(groups.get(group) || []), made.box]);
+        }
+        for (const key of MAIN)
+            if (this.rows.has(key))
+                main.append(this.rows.get(key).box);
+        for (const [name, boxes] of groups)
+            others.append(element("details", {}, element("summary", {}, T.groups[name] || name), ...boxes));
+    }
+
+    row(info) {
+        const id = `p-${info.key.replace(/\W/g, "-")}`, [unit, factor] = SHOWN[info.unit] || ["", 1];
+        const name = T.names[info.key] || info.key, label = element("label", { for: id, title: info.key }, name);
+        const error = element("p", { class: "error", id: `${id}-error`, role: "alert" });
+        const help = element("p", { class: "help", id: `${id}-help` }, `${info.key}: ${info.doc}`);
+        const more = element("button", { type: "button", class: "more", "aria-label": T.about(name), "aria-expanded": "false", "aria-controls": `${id}-help` }, "?");
+        help.hidden = true;
+        more.addEventListener("click", () => {
+            help.hidden = !help.hidden;
+            more.setAttribute("aria-expanded", String(!help.hidden));
+        });
+        const row = { info, unit, factor, error, slider: null };
+        if (info.kind === "choice") {
+            row.field = element("select", { id, "aria-describedby": `${id}-error` }, ...info.names.map((name) => element("option", { value: name }, name)));
+            row.field.addEventListener("change", () => this.take(row, row.field.value));
+        } else {
+            row.field = element("input", { id, type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false", size: "9", "aria-describedby": `${id}-error` });
+            row.field.addEventListener("change", () => this.take(row, row.field.value));
+            row.slider = this.slider(row);
+        }
+        row.box = element("div", { class: "row" }, element("div", { class: "head" }, label, row.field, more), ...(row.slider ? [row.slider] : []), error, help);
+        this.rows.set(info.key, row);
+        return row;
+    }
+
+    slider(row) {
+        const { info, factor } = row;
+        let limits = SLIDERS[info.key];
+        if (!limits && info.initial > 0)
+            limits = [factor * info.initial / 4, factor * info.initial * 4, factor * info.initial / 50];
+        if (!limits || ["run", "impact"].includes(info.key.split(".")[0]))
+            return null;
+        const [min, max, step] = limits;
+        const made = element("input", { type: "range", min: plain(min), max: plain(max), step: plain(step), "aria-label": T.slider(T.names[info.key] || info.key) });
+        made.addEventListener("input", () => this.take(row, `${made.value}${row.unit && ` ${row.unit}`}`, made));
+        return made;
+    }
+
+    take(row, text, from) {
+        const wrong = this.changed(row.info.key, text.trim());
+        row.error.textContent = wrong || "";
+        row.field.setAttribute("aria-invalid", wrong ? "true" : "false");
+        if (!wrong)
+            this.show(from);
+    }
+
+    /* The values as the library has them now; `texts` are as they were typed. */
+    show(from, texts = this.texts || {}) {
+        this.texts = texts;
+        for (const [key, row] of this.rows) {
+            const { info, unit, factor } = row, value = this.core.value(key), said = this.core.get(key);
+            if (row.field === document.activeElement && row.field.getAttribute("aria-invalid") === "true")
+                continue;
+            row.error.textContent = "";
+            row.field.setAttribute("aria-invalid", "false");
+            if (info.kind === "choice") {
+                row.field.value = said;
+                continue;
+            }
+            row.field.value = texts[key] ?? (said === "" ? "" : `${plain(value * factor)}${unit && ` ${unit}`}`);
+            row.field.placeholder = said === "" ? T.notGiven : "";
+            if (row.slider && row.slider !== from && said !== "")
+                row.slider.value = String(value * factor);
+        }
+    }
+}

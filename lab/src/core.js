@@ -1,0 +1,256 @@
+/* core.js - the library in WebAssembly, as objects and texts of JavaScript.  Page, workers and tests use this file. */
+
+export const STATUS = { OK: 0, INTERRUPTED: 8 };
+export const STOP = { TIME: 0, EDGE: 2, LIFT_OFF: 3 };
+
+/* The columns of a row of the motion: lab.c has the same names in the same order. */
+const WIDTHS = [
+    ["time", 1], ["turns", 1], ["omega", 1], ["x", 1], ["y", 1], ["r", 1], ["phi", 1], ["alpha", 1], ["n", 3], ["b", 3],
+    ["nLocal", 3], ["field", 1], ["angle", 1], ["slip", 2], ["slipSize", 1], ["spin", 1], ["load", 1], ["energy", 1],
+    ["friction", 1], ["use", 1], ["sticks", 1], ["speed", 1], ["force", 2], ["turn", 4],
+];
+export const COLUMN = {};
+let columns = 0;
+for (const [name, width] of WIDTHS) {
+    COLUMN[name] = columns;
+    columns += width;
+}
+export const COLUMNS = columns;
+
+const GROUP_NAMES = ["eps", "h", "lambda", "kappa", "a", "b", "omega", "gravity", "plate_radius", "length_unit_m",
+    "time_unit_s", "mass_kg", "field_unit_t", "lines"];
+const KINDS = ["real", "integer", "choice"];
+
+/* An error of the library: `where` names a key or a time, `message` is its sentence. */
+export class FestoonError extends Error {
+    constructor(status, where, sentence) {
+        super(sentence);
+        this.name = "FestoonError";
+        this.status = status;
+        this.where = where;
+    }
+}
+
+const number = (value) => (Number.isFinite(value) ? value : null);
+
+/* What the C library asks of a system: to write nothing and to know no environment. */
+function imports(memory, tell) {
+    const zeros = (a, b) => {
+        new DataView(memory().buffer).setUint32(a, 0, true);
+        new DataView(memory().buffer).setUint32(b, 0, true);
+        return 0;
+    };
+    const written = (file, list, count, done) => {
+        const view = new DataView(memory().buffer);
+        let size = 0;
+        for (let i = 0; i < count; ++i)
+            size += view.getUint32(list + 8 * i + 4, true);
+        view.setUint32(done, size, true);
+        return 0;
+    };
+    return {
+        lab: { tell },
+        wasi_snapshot_preview1: {
+            environ_get: () => 0,
+            environ_sizes_get: zeros,
+            fd_close: () => 0,
+            fd_seek: () => 70,
+            fd_write: written,
+            clock_time_get: (id, precision, at) => {
+                new DataView(memory().buffer).setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
+                return 0;
+            },
+            proc_exit: (code) => {
+                throw new Error(`the library ended with ${code}`);
+            },
+        },
+    };
+}
+
+export class Core {
+    /* `module` is a WebAssembly.Module; `tell`, if given, hears how far a run is and returns 1 to stop it. */
+    static async open(module, tell) {
+        const core = new Core();
+        const heard = tell || (() => 0);
+        const instance = await WebAssembly.instantiate(module, imports(() => core.c.memory, heard));
+        core.c = instance.exports;
+        core.c._initialize?.();
+        core.bead = core.c.lab_new();
+        if (core.c.lab_columns() !== COLUMNS)
+            throw new Error("lab.c and core.js name different columns");
+        core.version = core.text(core.c.lab_version());
+        core.resultsVersion = core.c.lab_results_version();
+        core.parameters = core.readParameters();
+        core.places = new Map(core.parameters.map((row, index) => [row.key, index]));
+        core.results = core.readResults();
+        return core;
+    }
+
+    text(at) {
+        const bytes = new Uint8Array(this.c.memory.buffer);
+        let end = at;
+        while (bytes[end])
+            ++end;
+        return new TextDecoder().decode(bytes.slice(at, end));
+    }
+
+    /* Call with a text as UTF-8 in the module's memory. */
+    withTexts(texts, call) {
+        const places = texts.map((text) => {
+            const bytes = new TextEncoder().encode(String(text).replaceAll("\0", "?"));
+            const at = this.c.lab_alloc(bytes.length + 1);
+            const memory = new Uint8Array(this.c.memory.buffer);
+            memory.set(bytes, at);
+            memory[at + bytes.length] = 0;
+            return at;
+        });
+        try {
+            return call(...places);
+        } finally {
+            places.forEach((at) => this.c.lab_release(at));
+        }
+    }
+
+    doubles(at, count) {
+        return new Float64Array(this.c.memory.buffer, at, count);
+    }
+
+    check(status) {
+        if (status !== STATUS.OK)
+            throw new FestoonError(status, this.text(this.c.lab_error(this.bead, 0)),
+                this.text(this.c.lab_error(this.bead, 1)));
+    }
+
+    readParameters() {
+        const rows = [];
+        for (let i = 0; i < this.c.lab_param_count(); ++i) {
+            const [key, unit, units, names, doc, otherForm] = [0, 1, 2, 3, 4, 5].map((which) =>
+                this.text(this.c.lab_param_text(i, which)));
+            const [kind, initial, least, greatest] = [0, 1, 2, 3].map((which) => this.c.lab_param_number(i, which));
+            rows.push({
+                key, unit, doc, otherForm, initial, least, greatest, kind: KINDS[kind], names: names ? names.split("|") : null,
+                units: units ? units.split(" ") : [],
+            });
+        }
+        return rows;
+    }
+
+    readResults() {
+        const rows = [];
+        for (let i = 0; i < this.c.lab_result_count(); ++i) {
+            const [name, unit, doc] = [0, 1, 2].map((which) => this.text(this.c.lab_result_info(i, which)));
+            rows.push({ name, unit, doc });
+        }
+        return rows;
+    }
+
+    /* ------------------------------------------------------------ parameters */
+
+    reset() {
+        this.c.lab_reset(this.bead);
+    }
+
+    set(key, value) {
+        this.check(this.withTexts([key, value], (k, v) => this.c.lab_set(this.bead, k, v)));
+    }
+
+    /* The value as a scene would say it, in SI; "" where it was not given. */
+    get(key) {
+        return this.text(this.c.lab_get(this.bead, this.places.get(key)));
+    }
+
+    value(key) {
+        return this.c.lab_value(this.bead, this.places.get(key));
+    }
+
+    /* All parameters are those of `scene`, an object of keys with numbers or texts, over the defaults. */
+    setScene(scene) {
+        this.reset();
+        for (const [key, value] of Object.entries(scene))
+            this.set(key, value);
+        this.check(this.c.lab_check(this.bead));
+    }
+
+    warning() {
+        return this.text(this.c.lab_warning(this.bead));
+    }
+
+    groups() {
+        const at = this.c.lab_groups(this.bead);
+        if (!at)
+            return null;
+        const values = this.doubles(at, GROUP_NAMES.length);
+        return Object.fromEntries(GROUP_NAMES.map((name, i) => [name, number(values[i])]));
+    }
+
+    scene() {
+        return Object.fromEntries(this.parameters.map((row) => {
+            const text = this.get(row.key);
+            return [row.key, text === "" ? null : row.kind === "choice" ? text : number(this.value(row.key))];
+        }));
+    }
+
+    /* ------------------------------------------------------------ runs */
+
+    /* What `festoon run --json` prints for these parameters. */
+    run() {
+        this.check(this.c.lab_run(this.bead));
+        return this.result();
+    }
+
+    result() {
+        const [regime, reason, symmetry, dynamics] = [0, 1, 2, 3].map((which) =>
+            this.text(this.c.lab_result_text(this.bead, which)) || null);
+        const run = { regime, reason, symmetry, dynamics };
+        this.results.forEach((row, i) => {
+            run[row.name] = number(this.c.lab_result(this.bead, i));
+        });
+        const rest = Array.from(this.doubles(this.c.lab_result_rest(this.bead), 15));
+        run.never_slips = rest[0] < 0 ? null : rest[0] !== 0;
+        [run.returns, run.rhs_calls, run.steps_accepted, run.steps_rejected] = rest.slice(1, 5);
+        run.final_state = rest.slice(5).map(number);
+        run.groups = this.groups();
+        run.scene = this.scene();
+        run.version = this.version;
+        return run;
+    }
+
+    /* The values of a grid along one axis, written as for `festoon sweep --over`. */
+    grid(axis) {
+        const points = this.withTexts([axis], (text) => this.c.lab_grid(this.bead, text));
+        if (points < 0)
+            this.check(-points);
+        return Array.from({ length: points }, (_, i) => this.c.lab_grid_value(this.bead, i));
+    }
+
+    takePoint(point) {
+        this.check(this.c.lab_grid_take(this.bead, point));
+    }
+
+    /* ------------------------------------------------------------ the motion that is shown */
+
+    start(ramp = 0) {
+        this.check(this.c.lab_start(this.bead, ramp));
+        return this.rows(1);
+    }
+
+    change(ramp = 0) {
+        this.check(this.c.lab_change(this.bead, ramp));
+    }
+
+    rows(count) {
+        return this.doubles(this.c.lab_rows(this.bead), count * COLUMNS);
+    }
+
+    /* Go on for `seconds` of the bead's time, in `count` rows.  The rows are valid until the next call. */
+    go(seconds, count) {
+        const done = this.c.lab_go(this.bead, seconds, count);
+        if (done < 0)
+            this.check(-done);
+        return { count: done, stop: this.c.lab_stop(this.bead), rows: this.rows(done) };
+    }
+
+    field(x, y) {
+        return Array.from(this.doubles(this.c.lab_field(this.bead, x, y), 3));
+    }
+}

@@ -1,0 +1,119 @@
+/* files.js - what is saved from the page and opened in it.  A file from outside is text: its values go to the library,
+ * which checks them, and its words are shown as text. */
+import { element, sentence } from "./controls.js";
+import { COLUMN } from "./core.js";
+import { readScene, readTrack, writeScene } from "./state.js";
+import { T } from "./texts.js";
+
+const LONGEST_FILE = 20e6, DEGREES = 180 / Math.PI;
+
+function save(name, blob) {
+    const address = URL.createObjectURL(blob), link = element("a", { href: address, download: name });
+    document.body.append(link);
+    link.click();
+    link.remove();
+    setTimeout(() => URL.revokeObjectURL(address), 10000);
+}
+
+/* The motion since it began to be shown, in units of the laboratory, as `festoon run --csv --units lab` names them. */
+export function motionTable(samples, units) {
+    const heads = ["t [s]", "turns", "x [mm]", "y [mm]", "r [mm]", "Phi [deg]", "nx", "ny", "nz", units.tesla ? "B [mT]" : "B [B0]", "slip_r [mm/s]", "slip_alpha [mm/s]", "load [weights]", "sticks"];
+    const lines = samples.map((row) => [row[COLUMN.time], row[COLUMN.turns], row[COLUMN.x] * units.mm, row[COLUMN.y] * units.mm, row[COLUMN.r] * units.mm, row[COLUMN.phi] * DEGREES,
+        row[COLUMN.n], row[COLUMN.n + 1], row[COLUMN.n + 2], row[COLUMN.field] * units.field, row[COLUMN.slip] * units.speed, row[COLUMN.slip + 1] * units.speed, row[COLUMN.load], row[COLUMN.sticks]].join());
+    return `${heads.join()}\n${lines.join("\n")}\n`;
+}
+
+export class Files {
+    constructor(lab) {
+        this.lab = lab;
+        const box = document.getElementById("files"), add = (id, text, act) => {
+            const button = element("button", { type: "button", id }, text);
+            button.addEventListener("click", act);
+            box.append(button);
+            return button;
+        };
+        add("save-csv", T.saveCsv, () => save("festoon-motion.csv", new Blob([motionTable(lab.trail.samples, lab.units)], { type: "text/csv" })));
+        add("save-png", T.savePng, () => lab.view.canvas.toBlob((blob) => blob && save("festoon.png", blob)));
+        if (window.MediaRecorder && HTMLCanvasElement.prototype.captureStream)
+            this.film = add("save-film", T.saveFilm, () => this.record());
+        add("save-scene", T.saveScene, () => save("festoon.yaml", new Blob([this.sceneText()], { type: "text/yaml" })));
+        add("copy", T.copy, () => this.copy());
+        const input = element("input", { type: "file", id: "open", accept: ".yaml,.yml,.csv,.txt", hidden: true });
+        input.addEventListener("change", () => input.files[0] && this.open(input.files[0]));
+        add("open-button", T.open, () => input.click());
+        box.append(input, element("p", { class: "help" }, T.openHelp));
+        this.listenDrops();
+    }
+
+    sceneText() {
+        return writeScene(this.lab.scene, "What differs from the default scene; festoon run reads this file.");
+    }
+
+    async copy() {
+        try {
+            await navigator.clipboard.writeText(location.href);
+            this.lab.tell(T.copied);
+        } catch {
+            this.lab.tell(T.copyFailed);
+        }
+    }
+
+    record() {
+        if (this.recorder) {
+            this.recorder.stop();
+            return;
+        }
+        const pieces = [], recorder = new MediaRecorder(this.lab.view.canvas.captureStream(30));
+        recorder.ondataavailable = (event) => pieces.push(event.data);
+        recorder.onstop = () => {
+            this.recorder = null;
+            this.film.textContent = T.saveFilm;
+            save("festoon.webm", new Blob(pieces, { type: "video/webm" }));
+        };
+        recorder.start();
+        this.recorder = recorder;
+        this.film.textContent = T.stopFilm;
+    }
+
+    listenDrops() {
+        document.addEventListener("dragover", (event) => {
+            event.preventDefault();
+            document.body.classList.add("drop");
+        });
+        document.addEventListener("dragleave", () => document.body.classList.remove("drop"));
+        document.addEventListener("drop", (event) => {
+            event.preventDefault();
+            document.body.classList.remove("drop");
+            if (event.dataTransfer.files[0])
+                this.open(event.dataTransfer.files[0]);
+        });
+    }
+
+    async open(file) {
+        const { lab } = this, name = file.name.slice(0, 80);
+        try {
+            if (file.size > LONGEST_FILE)
+                throw new Error("the file is larger than 20 MB");
+            const text = await file.text();
+            if (/\.(ya?ml)$/i.test(file.name)) {
+                lab.lesson.close();
+                const wrong = lab.open({ scene: readScene(text), view: lab.viewWords() });
+                lab.tell(wrong ? T.failed(name, wrong) : T.opened(name));
+            } else {
+                this.showTrack(readTrack(text));
+            }
+        } catch (error) {
+            lab.tell(T.failed(name, sentence(error)));
+        }
+    }
+
+    showTrack({ points, unit }) {
+        const { lab } = this, mean = (list) => list.reduce((sum, value) => sum + value, 0) / Math.max(1, list.length);
+        let scale = 1 / lab.units.mm;
+        if (unit === "px")
+            scale = (mean(lab.trail.samples.map((row) => row[COLUMN.r])) || 0.8) / mean(points.map((p) => Math.hypot(...p)));
+        lab.view.showTrack(points.map((p) => [p[0] * scale, p[1] * scale]));
+        lab.panels.chooseCamera("above");
+        lab.tell(T.trackShown(points.length, unit));
+    }
+}

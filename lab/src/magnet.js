@@ -1,0 +1,19 @@
+/* magnet.js - what is drawn of the magnet: a list of bodies in its turning frame, in units of l, z from the plate.
+ *
+ * A body is {kind: "cuboid" | "cylinder" | "sphere", centre, size, axis, turn}: size as in a scene (three edges;
+ * diameter and height; diameter), axis the direction of its magnetisation (its north pole), turn an optional
+ * [degrees, x, y, z].  Both views draw any such list. */
+
+/* The paper's bar is 56 mm long for lines of 46 mm, and 9 mm thick. */
+const BAR_OVER_LINES = 56 / 46, BAR_THICKNESS = 9e-3;
+
+/* `north` is the sign of the end on +X, which the field itself tells. */
+export function bodiesOf(groups, north, parts) {
+    if (parts?.length)
+        return parts;
+    const depth = groups.h - groups.eps, width = groups.lambda * Math.max(groups.lines - 1, 0);
+    return [{
+        kind: "cuboid", centre: [0, 0, -depth], axis: [north, 0, 0],
+        size: [2 * BAR_OVER_LINES, Math.max(width, 0.08), Math.min(BAR_THICKNESS / groups.length_unit_m, 1.6 * depth)],
+    }];
+}

@@ -1,0 +1,404 @@
+/* main.js - the page: one bead in motion, what is shown of it, and what people do with it. */
+import { CAMERAS, Camera } from "./camera.js";
+import { ARROWS, NORTH, SOUTH } from "./colours.js";
+import { Controls, element, sentence } from "./controls.js";
+import { COLUMN, COLUMNS, Core, STOP } from "./core.js";
+import { Files } from "./files.js";
+import { Lesson } from "./lesson.js";
+import { bodiesOf } from "./magnet.js";
+import { Panels } from "./panels.js";
+import { Pool } from "./pool.js";
+import { readAddress, writeAddress } from "./state.js";
+import { PRESETS, T } from "./texts.js";
+import { QUANTITIES, Trail, unitsOf } from "./trail.js";
+import { View2D } from "./view2d.js";
+import { View3D } from "./view3d.js";
+
+const ROOM = 6000, RAMP_SECONDS = 5, RUN_DELAY = 350;
+const SLOWS = [1, 1.5, 2, 3, 4, 5, 7, 10, 13, 16, 20, 25, 30, 40, 50, 60, 70, 80, 100, 120, 140, 160, 180, 200];
+const $ = (id) => document.getElementById(id);
+
+/* Bytes of the library: gzip in base64, once in the page. */
+async function libraryModule() {
+    const text = atob($("library").textContent.trim());
+    const bytes = Uint8Array.from(text, (c) => c.charCodeAt(0));
+    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return WebAssembly.compile(await new Response(stream).arrayBuffer());
+}
+
+class Lab {
+    constructor(core, pool) {
+        this.core = core;
+        this.pool = pool;
+        this.known = new Set(core.parameters.map((row) => row.key));
+        this.scene = {};
+        this.settings = { slow: 20, colour: "nz", turns: 12, arrows: new Set(), ramp: null, settle: 0 };
+        this.trail = new Trail(ROOM);
+        this.camera = new Camera();
+        this.row = new Float64Array(COLUMNS);
+        this.playing = !window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+        this.left = STOP.TIME;
+        this.share = 1;
+    }
+
+    /* ------------------------------------------------------------ the view */
+
+    openView() {
+        const canvas = $("view");
+        const refuse = new URLSearchParams(location.search).has("no-webgl");
+        try {
+            if (refuse)
+                throw new Error("refused");
+            this.view = new View3D(canvas, ROOM);
+        } catch {
+            const plain = canvas.cloneNode();
+            canvas.replaceWith(plain);
+            this.view = new View2D(plain);
+            this.camera.choose("above");
+            this.flat = true;
+            this.tell(T.noWebgl);
+        }
+        const box = $("view-box");
+        new ResizeObserver(() => {
+            this.view.resize(box.clientWidth, box.clientHeight, window.devicePixelRatio || 1);
+            this.draw();
+        }).observe(box);
+        this.view.resize(box.clientWidth, box.clientHeight, window.devicePixelRatio || 1);
+        this.camera.listen(this.view.canvas);
+        this.view.canvas.setAttribute("aria-label", T.viewLabel);
+        for (const name of ["pointermove", "wheel", "keydown"])
+            this.view.canvas.addEventListener(name, () => this.playing || this.draw());
+    }
+
+    furnish() {
+        const groups = this.core.groups(), b = this.core.field(0.9, 0);
+        this.units = unitsOf(groups);
+        this.groups = groups;
+        const north = Math.sign(this.core.field(1, 0)[2]) || 1;
+        this.view.furnish({
+            eps: groups.eps, plateRadius: groups.plate_radius, ring: 10 / this.units.mm, fieldScale: Math.hypot(...b) || 1,
+            reach: Math.max(1.5, 1.25 * this.core.value("start.r")), bodies: bodiesOf(groups, north),
+        });
+    }
+
+    draw() {
+        if (!this.units)
+            return;
+        this.range = this.trail.range();
+        this.view.draw({ row: this.row, trail: this.trail, range: this.range, camera: this.camera, arrows: this.settings.arrows });
+    }
+
+    /* ------------------------------------------------------------ scene and motion */
+
+    tell(text) {
+        $("notice").textContent = text;
+    }
+
+    /* Take a scene; on an error the old one stays and the sentence is returned. */
+    takeScene(scene) {
+        try {
+            this.core.setScene(scene);
+        } catch (error) {
+            this.core.setScene(this.scene);
+            return sentence(error);
+        }
+        this.scene = { ...scene };
+        return null;
+    }
+
+    /* One parameter changes; an empty text brings its default back. */
+    change(key, text) {
+        const scene = { ...this.scene }, info = this.core.parameters[this.core.places.get(key)];
+        if (this.ramping) {
+            scene["drive.frequency"] = `${this.frequency().toPrecision(6)} Hz`;
+            this.ramping = null;
+        }
+        delete scene[key];
+        if (text !== "") {
+            if (info.otherForm)
+                delete scene[info.otherForm];
+            scene[key] = text;
+        }
+        const wrong = this.takeScene(scene);
+        if (wrong)
+            return wrong;
+        this.controls.texts = this.scene;
+        if (key === "drive.frequency" || key === "drive.omega")
+            this.settings.ramp = null;
+        if (key.startsWith("start."))
+            this.begin();
+        else
+            this.goOn(0);
+        this.changed();
+        return null;
+    }
+
+    goOn(ramp) {
+        try {
+            this.core.change(ramp);
+            this.furnish();
+        } catch (error) {
+            this.tell(sentence(error));
+        }
+        this.draw();
+    }
+
+    /* Begin at start.*, after `settle` turns that are not shown. */
+    begin() {
+        try {
+            this.ramping = null;
+            this.row = Float64Array.from(this.core.start(0));
+            this.trail.clear();
+            this.left = STOP.TIME;
+            this.tell("");
+            this.furnish();
+            if (this.settings.settle > 0) {
+                const shown = this.hideTrail ? 0 : Math.min(this.settings.turns, this.settings.settle / 2);
+                const done = this.core.go((this.settings.settle - shown) / this.driveFrequency(), 1);
+                this.row = Float64Array.from(done.rows.subarray(0, COLUMNS));
+                this.leave(done.stop);
+                if (shown)
+                    this.advance(shown / this.driveFrequency());
+            }
+            if (this.settings.ramp)
+                this.beginRamp();
+        } catch (error) {
+            this.tell(sentence(error));
+        }
+        this.draw();
+    }
+
+    driveFrequency() {
+        return this.groups.omega / (2 * Math.PI * this.groups.time_unit_s);
+    }
+
+    frequency() {
+        return this.row[COLUMN.omega] / (2 * Math.PI * this.groups.time_unit_s);
+    }
+
+    beginRamp() {
+        const to = this.settings.ramp, from = this.driveFrequency();
+        if (!(to > 0) || to === from)
+            return;
+        const unit = this.groups.time_unit_s;
+        this.ramping = { to, up: to > from };
+        this.goOn((2 * Math.PI * (to - from) * unit) / (RAMP_SECONDS / unit));
+    }
+
+    leave(stop) {
+        this.left = stop;
+        if (stop !== STOP.TIME) {
+            this.tell(stop === STOP.EDGE ? T.left.edge : T.left.lift);
+            this.play(false);
+        }
+    }
+
+    advance(seconds) {
+        if (this.left !== STOP.TIME)
+            return;
+        const count = Math.max(1, Math.min(4000, Math.ceil(seconds * this.frequency() * 110)));
+        const quantity = QUANTITIES[this.settings.colour];
+        try {
+            const done = this.core.go(seconds, count);
+            for (let i = 0; i < done.count; ++i)
+                this.trail.take(done.rows.subarray(i * COLUMNS, (i + 1) * COLUMNS), quantity, this.units, this.settings.turns);
+            this.row.set(done.rows.subarray((done.count - 1) * COLUMNS, done.count * COLUMNS));
+            this.leave(done.stop);
+        } catch (error) {
+            this.tell(sentence(error));
+            this.play(false);
+        }
+        if (this.ramping && (this.ramping.up ? this.frequency() >= this.ramping.to : this.frequency() <= this.ramping.to)) {
+            const to = this.ramping.to;
+            this.ramping = null;
+            this.change("drive.frequency", `${to} Hz`);
+            this.controls.show(null, this.scene);
+        }
+    }
+
+    frame(now) {
+        const passed = Math.min(0.1, (now - (this.before ?? now)) / 1e3);
+        this.before = now;
+        if (this.playing) {
+            const begun = performance.now();
+            this.advance((this.share * passed) / this.settings.slow);
+            const took = performance.now() - begun;
+            this.share = Math.max(0.05, Math.min(1, took > 24 ? this.share * 24 / took : this.share * 1.05));
+            this.draw();
+        }
+        this.panels.frame(now);
+        requestAnimationFrame((next) => this.frame(next));
+    }
+
+    play(on) {
+        this.playing = on;
+        $("play").textContent = on ? T.pause : T.play;
+        $("play").setAttribute("aria-pressed", String(on));
+    }
+
+    step() {
+        this.play(false);
+        this.advance(1 / (64 * this.frequency()));
+        this.draw();
+        this.panels.frame(Infinity);
+    }
+
+    restart() {
+        this.settings.settle = 0;
+        this.begin();
+        this.remember();
+    }
+
+    /* ------------------------------------------------------------ what follows from a change */
+
+    changed() {
+        this.remember();
+        clearTimeout(this.timer);
+        $("regime").textContent = T.wait;
+        this.timer = setTimeout(() => this.runNow(), RUN_DELAY);
+        this.panels.forgetSweep(JSON.stringify({ ...this.scene, "drive.frequency": 0, "drive.omega": 0 }));
+    }
+
+    async runNow() {
+        try {
+            this.panels.showRun(await this.pool.runLatest({ ...this.scene }));
+        } catch (error) {
+            if (error.status !== 8)
+                $("regime").textContent = sentence(error);
+        }
+    }
+
+    viewWords() {
+        const s = this.settings, words = { "ui.slow": String(s.slow), "ui.camera": this.camera.mode };
+        if (s.colour !== "nz")
+            words["ui.colour"] = s.colour;
+        if (s.turns !== 12)
+            words["ui.trail"] = String(s.turns);
+        if (s.arrows.size)
+            words["ui.arrows"] = [...s.arrows].join();
+        if (s.ramp)
+            words["ui.ramp"] = String(s.ramp);
+        if (s.settle)
+            words["ui.settle"] = String(s.settle);
+        if (this.lesson.at >= 0)
+            words["ui.step"] = String(this.lesson.at + 1);
+        return words;
+    }
+
+    remember() {
+        history.replaceState(null, "", writeAddress(this.scene, this.viewWords()));
+    }
+
+    /* Take settings of the view, as words of an address. */
+    takeView(view) {
+        const s = this.settings, near = (list, value) => list.reduce((a, b) => (Math.abs(b - value) < Math.abs(a - value) ? b : a));
+        const number = (key) => (Number.isFinite(Number(view[key])) ? Number(view[key]) : 0);
+        if ("ui.slow" in view)
+            s.slow = near(SLOWS, number("ui.slow"));
+        if (CAMERAS.includes(view["ui.camera"]) && view["ui.camera"] !== this.camera.mode)
+            this.camera.choose(view["ui.camera"]);
+        s.colour = view["ui.colour"] in QUANTITIES ? view["ui.colour"] : "nz";
+        s.turns = Math.max(1, Math.min(60, number("ui.trail") || 12));
+        s.arrows = new Set((view["ui.arrows"] || "").split(",").filter((name) => name in ARROWS));
+        s.ramp = number("ui.ramp") > 0 ? number("ui.ramp") : null;
+        s.settle = Math.max(0, Math.min(1000, number("ui.settle")));
+        this.panels.showView();
+    }
+
+    /* A whole state: scene and view. */
+    open({ scene, view }) {
+        const wrong = this.takeScene(scene);
+        if (wrong)
+            this.tell(wrong);
+        this.takeView(view);
+        this.begin();
+        if (wrong)
+            this.tell(wrong);
+        this.controls.show(null, this.scene);
+        this.changed();
+        return wrong;
+    }
+
+    openPreset(preset) {
+        this.hideTrail = false;
+        this.open({ scene: preset.scene, view: { "ui.settle": String(preset.settle ?? 0), ...preset.view } });
+        this.play(true);
+    }
+
+    listenKeys() {
+        document.addEventListener("keydown", (event) => {
+            const tag = event.target.tagName;
+            if (event.ctrlKey || event.metaKey || event.altKey || ["SELECT", "TEXTAREA"].includes(tag) || (tag === "INPUT" && event.target.type !== "range"))
+                return;
+            const camera = CAMERAS[Number(event.key) - 1];
+            if (event.key === " " && !["BUTTON", "SUMMARY"].includes(tag))
+                this.play(!this.playing);
+            else if (event.key === ".")
+                this.step();
+            else if (event.key.toLowerCase() === "r")
+                this.restart();
+            else if (camera)
+                this.panels.chooseCamera(camera);
+            else if (event.key === "5")
+                this.lesson.toggle();
+            else
+                return;
+            event.preventDefault();
+        });
+    }
+}
+
+async function begin() {
+    const module = await libraryModule(), core = await Core.open(module);
+    const address = URL.createObjectURL(new Blob([WORKER_SOURCE], { type: "text/javascript" }));
+    const threads = Math.max(1, Math.min(8, (navigator.hardwareConcurrency || 2) - 1));
+    const pool = new Pool(module, address, threads), lab = new Lab(core, pool);
+    Object.assign(window.festoonLab, {
+        version: core.version, resultsVersion: core.resultsVersion, core, lab,
+        run: (scene = {}) => pool.run({ ...scene }),
+        stop: () => pool.stop(),
+        sweep: async (scene, axis, take = () => {}) => {
+            const probe = await Core.open(module);
+            probe.setScene(scene);
+            const values = probe.grid(axis), rows = new Array(values.length);
+            await pool.sweep({ ...scene }, axis, values.length, (point, result) => {
+                rows[point] = result;
+                take(point, values[point], result);
+            });
+            return rows;
+        },
+    });
+    lab.controls = new Controls(core, (key, text) => lab.change(key, text));
+    lab.controls.build($("main-controls"), $("all-controls"));
+    lab.panels = new Panels(lab, SLOWS);
+    lab.lesson = new Lesson(lab, $("lesson"));
+    lab.files = new Files(lab);
+    lab.openView();
+    const { scene, view, unknown } = readAddress(location.hash, lab.known);
+    lab.panels.build();
+    if (Object.keys(scene).length || Object.keys(view).length) {
+        lab.open({ scene, view });
+        if (view["ui.step"])
+            lab.lesson.open(Number(view["ui.step"]) - 1);
+    } else {
+        lab.openPreset(PRESETS[1]);
+    }
+    if (unknown.length)
+        lab.tell(T.unknown(unknown.join(", ")));
+    lab.play(lab.lesson.at < 0 && !window.matchMedia("(prefers-reduced-motion: reduce)").matches);
+    lab.listenKeys();
+    window.addEventListener("hashchange", () => {
+        const next = readAddress(location.hash, lab.known);
+        lab.open(next);
+        if (next.unknown.length)
+            lab.tell(T.unknown(next.unknown.join(", ")));
+    });
+    requestAnimationFrame((now) => lab.frame(now));
+    return window.festoonLab;
+}
+
+window.festoonLab = {};
+window.festoonLab.ready = begin();
+window.festoonLab.ready.catch((error) => {
+    $("notice").textContent = `The page could not begin: ${error.message}`;
+});

@@ -1,0 +1,313 @@
+/* panels.js - what stands around the view: transport, cameras, presets, plots, numbers. */
+import { CAMERAS } from "./camera.js";
+import { ARROWS } from "./colours.js";
+import { element } from "./controls.js";
+import { COLUMN } from "./core.js";
+import { Plot, rangeOf, REGIME_COLOURS } from "./plots.js";
+import { PRESETS, T } from "./texts.js";
+import { PALETTE, QUANTITIES } from "./trail.js";
+
+const $ = (id) => document.getElementById(id);
+const DEGREES = 180 / Math.PI, PLOT_EVERY = 120, BLUE = "#2f7fd0", ORANGE = "#d2622a", GREEN = "#2a9d74";
+const digits = (value, n = 4) => (value === null || value === undefined ? "–" : String(Number(value.toPrecision(n))));
+
+export class Panels {
+    constructor(lab, slows) {
+        this.lab = lab;
+        this.slows = slows;
+        this.plot = "phi";
+        this.points = new Map();
+        this.drawn = -Infinity;
+    }
+
+    build() {
+        const { lab } = this;
+        for (const [id, text] of Object.entries({
+            subtitle: T.subtitle, step: T.step, restart: T.restart, "slow-name": T.slow, "presets-name": T.presets, "main-name": T.main,
+            "view-name": T.view, "all-name": T.parameters, "files-name": T.files, keys: T.keys, "lesson-open": T.lesson,
+            stamp: `festoon ${lab.core.version}, results version ${lab.core.resultsVersion}`,
+        }))
+            $(id).textContent = text;
+        $("play").addEventListener("click", () => lab.play(!lab.playing));
+        $("step").addEventListener("click", () => lab.step());
+        $("restart").addEventListener("click", () => lab.restart());
+        $("lesson-open").addEventListener("click", () => lab.lesson.toggle());
+        $("slow").max = String(this.slows.length - 1);
+        $("slow").addEventListener("input", () => {
+            lab.settings.slow = this.slows[Number($("slow").value)];
+            this.showView();
+            lab.remember();
+        });
+        $("cameras").setAttribute("aria-label", T.view);
+        for (const name of CAMERAS.filter((camera) => !lab.flat || camera !== "free")) {
+            const button = element("button", { type: "button", "data-camera": name }, T.cameras[name]);
+            button.addEventListener("click", () => this.chooseCamera(name));
+            $("cameras").append(button);
+        }
+        for (const preset of PRESETS) {
+            const button = element("button", { type: "button", "data-preset": preset.id }, preset.name);
+            button.addEventListener("click", () => {
+                lab.lesson.close();
+                lab.openPreset(preset);
+            });
+            $("presets").append(button);
+        }
+        this.buildView();
+        this.buildPlots();
+    }
+
+    buildView() {
+        const { lab } = this, s = lab.settings;
+        this.colour = element("select", { id: "colour" }, ...Object.keys(QUANTITIES).map((name) => element("option", { value: name }, T.quantities[name])));
+        this.colour.addEventListener("change", () => {
+            s.colour = this.colour.value;
+            lab.trail.colourBy(QUANTITIES[s.colour], lab.units);
+            this.showView();
+            lab.remember();
+            lab.draw();
+        });
+        this.turns = element("input", { id: "turns", type: "range", min: "1", max: "60", step: "1" });
+        this.turns.addEventListener("input", () => {
+            s.turns = Number(this.turns.value);
+            lab.remember();
+        });
+        const arrows = element("fieldset", {}, element("legend", {}, T.arrows));
+        this.arrowBoxes = Object.keys(ARROWS).filter((name) => !lab.flat || name !== "load").map((name) => {
+            const box = element("input", { type: "checkbox", id: `arrow-${name}`, value: name });
+            box.addEventListener("change", () => {
+                if (box.checked)
+                    s.arrows.add(name);
+                else
+                    s.arrows.delete(name);
+                this.showView();
+                lab.remember();
+                lab.draw();
+            });
+            arrows.append(element("label", {}, box, ` ${T.arrowNames[name]}`));
+            return box;
+        });
+        $("view-controls").append(element("div", { class: "row" }, element("div", { class: "head" }, element("label", { for: "colour" }, T.colour), this.colour)),
+            element("div", { class: "row" }, element("label", { for: "turns" }, T.trailTurns), this.turns), arrows);
+    }
+
+    chooseCamera(name) {
+        const { lab } = this;
+        lab.camera.choose(lab.flat && name === "free" ? "above" : name);
+        this.showView();
+        lab.remember();
+        lab.draw();
+    }
+
+    /* The controls of the view as the settings are. */
+    showView() {
+        const { lab } = this, s = lab.settings;
+        $("slow").value = String(this.slows.indexOf(s.slow));
+        $("slow-value").textContent = T.slowValue(s.slow);
+        $("slow").setAttribute("aria-valuetext", T.slowValue(s.slow));
+        for (const button of $("cameras").children)
+            button.setAttribute("aria-pressed", String(button.dataset.camera === lab.camera.mode));
+        $("camera-help").textContent = T.cameraHelp[lab.camera.mode];
+        this.colour.value = s.colour;
+        this.turns.value = String(s.turns);
+        for (const box of this.arrowBoxes)
+            box.checked = s.arrows.has(box.value);
+        this.legend = null;
+    }
+
+    /* ------------------------------------------------------------ plots */
+
+    buildPlots() {
+        this.canvas = new Plot($("plot"));
+        for (const [name, text] of Object.entries(T.plots)) {
+            const tab = element("button", { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": "plot-box" }, text);
+            tab.addEventListener("click", () => this.choosePlot(name));
+            tab.addEventListener("keydown", (event) => {
+                const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key], names = Object.keys(T.plots);
+                if (step) {
+                    const next = names[(names.indexOf(name) + step + names.length) % names.length];
+                    this.choosePlot(next);
+                    $(`tab-${next}`).focus();
+                    event.preventDefault();
+                    event.stopPropagation();
+                }
+            });
+            $("plot-tabs").append(tab);
+        }
+        const field = (id, text, value, attributes) => [element("label", { for: id }, text), element("input", { id, type: "number", value, ...attributes })];
+        this.go = element("button", { type: "submit", class: "strong", id: "sweep-go" }, T.sweep);
+        this.progress = element("span", { id: "sweep-done", role: "status" });
+        $("sweep-form").append(this.go, ...field("sweep-from", T.sweepFrom, "2", { min: "0.1", step: "any" }), ...field("sweep-to", T.sweepTo, "30", { min: "0.1", step: "any" }),
+            ...field("sweep-points", T.sweepPoints, "57", { min: "2", max: "2000", step: "1" }), this.progress);
+        $("sweep-form").addEventListener("submit", (event) => {
+            event.preventDefault();
+            if (this.sweeping)
+                this.lab.pool.stopSweep();
+            else
+                this.sweep();
+        });
+        new ResizeObserver(() => this.frame(Infinity)).observe($("plot-box"));
+        this.choosePlot("phi");
+    }
+
+    choosePlot(name) {
+        this.plot = name;
+        for (const tab of $("plot-tabs").children) {
+            const chosen = tab.id === `tab-${name}`;
+            tab.setAttribute("aria-selected", String(chosen));
+            tab.tabIndex = chosen ? 0 : -1;
+        }
+        $("plot-box").setAttribute("aria-labelledby", `tab-${name}`);
+        $("plot").setAttribute("aria-label", T.plots[name]);
+        $("sweep-form").hidden = name !== "sweep";
+        this.frame(Infinity);
+    }
+
+    async sweep() {
+        const { lab } = this, [from, to, count] = ["sweep-from", "sweep-to", "sweep-points"].map((id) => Number($(id).value));
+        const scene = { ...lab.scene };
+        delete scene["drive.omega"];
+        this.points.clear();
+        this.sweepOf = this.setup;
+        this.sweeping = true;
+        this.go.textContent = T.sweepStop;
+        this.span = [Math.min(from, to), Math.max(from, to)];
+        try {
+            await window.festoonLab.sweep(scene, `drive.frequency=${from}:${to}:${count}`, (point, value, result) => {
+                if (!(result instanceof Error))
+                    this.points.set(point, result);
+                this.progress.textContent = T.sweepDone(this.points.size, count);
+                this.frame(Infinity);
+            });
+        } catch (error) {
+            if (error.status !== 8)
+                this.progress.textContent = error.message;
+        } finally {
+            this.sweeping = false;
+            this.go.textContent = T.sweep;
+        }
+    }
+
+    /* The curve belongs to another setup. */
+    forgetSweep(setup) {
+        const other = this.setup !== undefined && this.setup !== setup;
+        this.setup = setup;
+        if (!other)
+            return;
+        this.lab.pool.stopSweep();
+        this.points.clear();
+        this.progress.textContent = "";
+    }
+
+    frame(now) {
+        if (now - this.drawn < PLOT_EVERY || !this.lab.units || !this.canvas)
+            return;
+        this.drawn = Number.isFinite(now) ? now : -Infinity;
+        this.showLive();
+        if (!this.canvas.begin())
+            return;
+        ({ phi: () => this.drawPhi(), sweep: () => this.drawSweep(), path: () => this.drawPath() })[this.plot]();
+    }
+
+    showLive() {
+        const { lab } = this, row = lab.row;
+        const text = lab.ramping ? T.rampOn(lab.frequency().toFixed(2)) : `${digits(lab.frequency(), 4)} Hz`;
+        $("live").textContent = `${text} · ${T.live(row[COLUMN.turns].toFixed(1), row[COLUMN.time].toFixed(2))} · ${T.ring}`;
+        const quantity = QUANTITIES[lab.settings.colour], range = lab.range || [0, 1];
+        const unit = typeof quantity.unit === "function" ? quantity.unit(lab.units) : quantity.unit;
+        const words = `${lab.settings.colour} ${range.map((v) => digits(v, 3)).join(" ")} ${[...lab.settings.arrows]}`;
+        if (words === this.legend)
+            return;
+        this.legend = words;
+        const bar = element("i"), css = (c) => `rgb(${c.map((v) => Math.round(255 * v)).join()})`;
+        bar.style.background = `linear-gradient(90deg,${[0, 51, 102, 153, 204, 255].map((i) => css(PALETTE[i])).join()})`;
+        const arrows = [...lab.settings.arrows].map((name) => {
+            const dot = element("b");
+            dot.style.background = ARROWS[name];
+            return element("span", {}, dot, T.arrowNames[name]);
+        });
+        $("legend").replaceChildren(...arrows, element("span", {}, `${T.quantities[lab.settings.colour]}: ${digits(range[0], 3)}`), bar, element("span", {}, `${digits(range[1], 3)}${unit && ` ${unit}`}`));
+    }
+
+    drawPhi() {
+        const { canvas, lab } = this, rows = lab.trail.samples.slice(-1400), degrees = (row) => (((row[COLUMN.phi] * DEGREES) % 360) + 360) % 360;
+        const series = [
+            [T.plotLabels.r, BLUE, (row) => row[COLUMN.r] * lab.units.mm], [T.plotLabels.nz, ORANGE, (row) => row[COLUMN.nLocal + 2]],
+            [T.plotLabels.b(lab.units.tesla ? "mT" : "B₀"), GREEN, (row) => row[COLUMN.field] * lab.units.field],
+        ];
+        const unit = (canvas.height - 28) / 3 / canvas.height;
+        series.forEach(([label, colour, read], i) => {
+            canvas.frame({
+                x: [0, 360], every: 60, y: rangeOf(rows.map(read), 0.01), yLabel: label, xLabel: T.plotLabels.phi, from: i * unit, to: i === 2 ? 1 : (i + 1) * unit,
+                xTicks: i === 2,
+            });
+            canvas.dots(rows.map((row) => [degrees(row), read(row)]), colour, 1.1);
+            canvas.disc(degrees(lab.row), read(lab.row), 4, colour, canvas.ink.text);
+        });
+    }
+
+    drawSweep() {
+        const { canvas, lab } = this, mm = lab.units.mm, points = [...this.points.values()].filter((p) => p.mean_r !== null);
+        const run = this.result?.mean_r !== null && this.result;
+        if (!points.length && !run) {
+            canvas.note(T.plotLabels.none);
+            return;
+        }
+        const radii = [...points, ...(run ? [run] : [])].map((p) => p.mean_r * mm);
+        const span = this.points.size ? this.span : [Math.max(0, run.frequency_hz - 5), run.frequency_hz + 5];
+        canvas.frame({ x: rangeOf(span, 0.2), y: rangeOf([0, ...radii], 1), xLabel: T.plotLabels.f, title: T.plotLabels.meanR });
+        const sorted = [...points].sort((a, b) => a.frequency_hz - b.frequency_hz);
+        canvas.clip(() => {
+            canvas.line(canvas.ink.frame, sorted.map((p) => [canvas.atX(p.frequency_hz), canvas.atY(p.mean_r * mm)]));
+            for (const p of sorted)
+                canvas.disc(p.frequency_hz, p.mean_r * mm, 3.2, REGIME_COLOURS[p.regime] || "#888888");
+        });
+        if (run)
+            canvas.disc(run.frequency_hz, run.mean_r * mm, 6, REGIME_COLOURS[run.regime] || "#888888", canvas.ink.text);
+        this.drawKey([...new Set([...sorted.map((p) => p.regime), ...(run ? [run.regime] : [])])]);
+    }
+
+    drawKey(regimes) {
+        const { canvas } = this, { pen, box } = canvas;
+        pen.textAlign = "left";
+        regimes.forEach((name, i) => {
+            const y = box.bottom - 10 - 16 * i;
+            pen.beginPath();
+            pen.arc(box.right - 118, y - 4, 4, 0, 2 * Math.PI);
+            pen.fillStyle = REGIME_COLOURS[name];
+            pen.fill();
+            pen.fillStyle = canvas.ink.text;
+            pen.fillText(name, box.right - 110, y);
+        });
+    }
+
+    drawPath() {
+        const { canvas, lab } = this, rows = lab.trail.samples.slice(-1400), at = (row) => [row[COLUMN.nLocal + 1], row[COLUMN.nLocal + 2]];
+        canvas.frame({ x: [-1.1, 1.1], y: [-1.1, 1.1], xLabel: T.plotLabels.nAlpha, title: T.plotLabels.nUp, square: true, every: 0.5 });
+        canvas.clip(() => canvas.line(canvas.ink.grid, Array.from({ length: 73 }, (_, i) => [canvas.atX(Math.cos((i * Math.PI) / 36)), canvas.atY(Math.sin((i * Math.PI) / 36))])));
+        canvas.dots(rows.map(at), BLUE, 1.1);
+        canvas.disc(...at(lab.row), 4, BLUE, canvas.ink.text);
+    }
+
+    /* ------------------------------------------------------------ numbers of a run */
+
+    showRun(result) {
+        const { lab } = this, mm = 1e3 * result.groups.length_unit_m, hertz = 1 / (2 * Math.PI * result.groups.time_unit_s);
+        this.result = result;
+        const ratio = result.mean_alpha_dot ? Math.abs(result.omega / result.mean_alpha_dot) : null;
+        const measures = { r: digits(result.mean_r === null ? null : result.mean_r * mm), turns: digits(ratio, 3), festoons: digits(result.festoons, 3) };
+        $("regime").textContent = T.regimes[result.regime](measures);
+        $("regime").title = result.reason || "";
+        const circles = result.mean_alpha_dot === null ? null : result.mean_alpha_dot * hertz;
+        const rows = [
+            [T.rows.mean_r, result.mean_r === null ? "–" : `${digits(result.mean_r * mm)} ± ${digits(result.std_r * mm, 3)} mm`],
+            [T.rows.bead, circles === null ? "–" : `${digits(Math.abs(circles))} Hz ${circles < 0 ? T.against : T.along}`],
+            [T.rows.festoons, digits(result.festoons)],
+            [T.rows.angle, result.max_angle_deg === null ? "–" : `${digits(result.max_angle_deg, 3)}°`],
+            [T.rows.slip, result.rms_slip === null ? "–" : `${digits(result.rms_slip * mm / result.groups.time_unit_s, 3)} mm/s`],
+            ...(result.never_slips === null ? [] : [[T.rows.sticking, result.sticking === null ? "–" : `${digits(100 * result.sticking, 3)} %`]]),
+            [T.rows.symmetry, result.symmetry || "–"],
+        ];
+        $("numbers").replaceChildren(...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+        lab.panels.frame(Infinity);
+    }
+}

@@ -1,0 +1,101 @@
+/* state.js - what leaves the page and comes back as text: the address, scenes, tracks.  All of it is untrusted: it
+ * becomes values and plain text, never markup. */
+
+export const VIEW_KEYS = ["ui.slow", "ui.camera", "ui.colour", "ui.trail", "ui.arrows", "ui.ramp", "ui.settle", "ui.step"];
+const LONGEST = 200;
+
+/* The part of an address behind "#": scene and view, and the keys that nobody knows. */
+export function readAddress(text, known) {
+    const scene = {}, view = {}, unknown = [];
+    for (const [key, value] of new URLSearchParams(text.replace(/^#/, ""))) {
+        if (key === "v")
+            continue;
+        if (VIEW_KEYS.includes(key))
+            view[key] = value.slice(0, LONGEST);
+        else if (known.has(key))
+            scene[key] = value.slice(0, LONGEST);
+        else
+            unknown.push(key.slice(0, 60));
+    }
+    return { scene, view, unknown };
+}
+
+export function writeAddress(scene, view) {
+    const words = new URLSearchParams({ v: "1" });
+    for (const [key, value] of [...Object.entries(scene), ...Object.entries(view)])
+        words.set(key, value);
+    return `#${words}`;
+}
+
+/* A scene as `festoon` reads it: groups with keys below them. */
+export function writeScene(scene, comment) {
+    const groups = new Map();
+    for (const [key, value] of Object.entries(scene)) {
+        const [group, name] = key.split(".");
+        groups.set(group, [...(groups.get(group) || []), `  ${name}: ${value}`]);
+    }
+    return `# ${comment}\n${[...groups].map(([group, lines]) => `${group}:\n${lines.join("\n")}\n`).join("\n")}`;
+}
+
+/* Read such a file: the plain part of YAML that scenes consist of.  A line that is none of it is an error. */
+export function readScene(text) {
+    const scene = {};
+    let group = "";
+    text.replace(/^\uFEFF/, "").split(/\r?\n/).forEach((whole, index) => {
+        const line = whole.replace(/(^|\s)#.*$/, "").trimEnd();
+        if (!line.trim() || line.trim() === "---")
+            return;
+        const found = /^(\s*)"?([A-Za-z_][\w.]*)"?\s*:\s*(.*)$/.exec(line);
+        if (!found)
+            throw new Error(`line ${index + 1}: expected "key: value", as festoon init writes it`);
+        const [, indent, name, raw] = found;
+        const value = raw.replace(/^(["'])(.*)\1$/, "$2");
+        if (!indent && raw === "") {
+            group = name;
+            return;
+        }
+        const key = indent ? `${group}.${name}` : name;
+        if (key in scene)
+            throw new Error(`line ${index + 1}: ${key.slice(0, 60)} is given twice`);
+        scene[key] = value.slice(0, LONGEST);
+    });
+    return scene;
+}
+
+/* A track as `festoon track` writes it, or any table with columns x and y: places in mm about their centre. */
+export function readTrack(text) {
+    const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).filter((line) => line.trim() && !line.startsWith("#"));
+    const cells = (line) => line.split(/[,;\t]/).map((cell) => cell.trim().replace(/^"(.*)"$/, "$1"));
+    const heads = cells(lines[0] || "").map((head) => /^(.*?)\s*(?:\[(.*)\])?$/.exec(head));
+    const column = (name) => heads.findIndex((head) => head && head[1].toLowerCase() === name);
+    const x = column("x"), y = column("y");
+    if (x < 0 || y < 0)
+        throw new Error("line 1: expected columns named x and y, as in: frame,t [s],x [mm],y [mm]");
+    const unit = heads[x][2] || "px", factor = { mm: 1, cm: 10, m: 1000, px: null }[unit];
+    if (factor === undefined)
+        throw new Error(`line 1: "${unit.slice(0, 20)}" must be mm, cm, m or px`);
+    const points = [];
+    lines.slice(1).forEach((line, index) => {
+        const row = cells(line);
+        if (!row[x] || !row[y])
+            return;
+        const point = [Number(row[x]), Number(row[y])];
+        if (!point.every(Number.isFinite))
+            throw new Error(`line ${index + 2}: x and y must be numbers`);
+        points.push(point);
+    });
+    if (points.length < 3)
+        throw new Error("a track needs three places at least");
+    return { points: centred(points, factor || 1), unit: factor ? "mm" : "px" };
+}
+
+/* About the centre of the circle that fits best (least squares of x^2 + y^2 = 2 a x + 2 b y + c). */
+function centred(points, factor) {
+    const mean = (pick) => points.reduce((sum, p) => sum + pick(p), 0) / points.length;
+    const mx = mean((p) => p[0]), my = mean((p) => p[1]);
+    const u = (p) => p[0] - mx, v = (p) => p[1] - my, s = (p) => u(p) ** 2 + v(p) ** 2;
+    const uu = mean((p) => u(p) ** 2), vv = mean((p) => v(p) ** 2), uv = mean((p) => u(p) * v(p));
+    const us = mean((p) => u(p) * s(p)) / 2, vs = mean((p) => v(p) * s(p)) / 2, det = uu * vv - uv * uv;
+    const [a, b] = det > 1e-12 * (uu + vv) ** 2 ? [(us * vv - vs * uv) / det, (vs * uu - us * uv) / det] : [0, 0];
+    return points.map((p) => [factor * (u(p) - a), factor * (v(p) - b)]);
+}

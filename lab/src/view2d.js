@@ -1,0 +1,171 @@
+/* view2d.js - the stirrer from above on a plain canvas, for browsers without WebGL. */
+import { COLUMN } from "./core.js";
+import { PALETTE } from "./trail.js";
+import { ARROWS, FRICTION, NORTH, SOUTH } from "./colours.js";
+
+export class View2D {
+    constructor(canvas) {
+        this.canvas = canvas;
+        this.pen = canvas.getContext("2d");
+        this.points = null;
+    }
+
+    furnish(setup) {
+        this.setup = setup;
+    }
+
+    showTrack(points) {
+        this.points = points;
+    }
+
+    resize(width, height, ratio) {
+        this.ratio = Math.min(ratio, 2);
+        this.canvas.width = Math.round(width * this.ratio);
+        this.canvas.height = Math.round(height * this.ratio);
+    }
+
+    draw({ row, trail, range, camera, arrows }) {
+        const { pen, canvas, setup } = this, riding = camera.mode === "magnet", close = camera.mode === "bead";
+        const phase = 2 * Math.PI * row[COLUMN.turns], x = row[COLUMN.x], y = row[COLUMN.y];
+        const reach = (close ? 6 * setup.eps : setup.reach) / camera.place.zoom;
+        const scale = Math.min(canvas.width, canvas.height) / (2 * reach);
+        pen.setTransform(1, 0, 0, 1, 0, 0);
+        pen.fillStyle = "#141a22";
+        pen.fillRect(0, 0, canvas.width, canvas.height);
+        pen.setTransform(scale, 0, 0, -scale, canvas.width / 2, canvas.height / 2);
+        pen.rotate(-((camera.place.azimuth + 90) * Math.PI) / 180 - (riding ? phase : 0));
+        if (close)
+            pen.translate(-x, -y);
+        this.plate(phase);
+        const places = riding ? trail.turning : trail.lab;
+        pen.save();
+        if (riding)
+            pen.rotate(phase);
+        this.trail(trail, places, range);
+        pen.restore();
+        this.bead(row, x, y);
+        this.arrows(row, x, y, arrows);
+    }
+
+    plate(phase) {
+        const { pen, setup } = this;
+        pen.lineWidth = 0.008;
+        pen.strokeStyle = "rgba(232,238,245,0.3)";
+        pen.save();
+        pen.rotate(phase);
+        pen.globalAlpha = 0.55;
+        for (const body of setup.bodies)
+            this.body(body);
+        pen.restore();
+        for (let i = 1; i * setup.ring < Math.min(setup.plateRadius, 3.2); ++i)
+            this.circle(0, 0, i * setup.ring).stroke();
+        this.circle(0, 0, setup.plateRadius).stroke();
+        if (this.points) {
+            pen.strokeStyle = "#ffffff";
+            pen.beginPath();
+            this.points.forEach((p) => pen.lineTo(p[0], p[1]));
+            pen.stroke();
+        }
+    }
+
+    circle(x, y, radius) {
+        this.pen.beginPath();
+        this.pen.arc(x, y, radius, 0, 2 * Math.PI);
+        return this.pen;
+    }
+
+    body({ kind, centre, size, axis }) {
+        const { pen } = this;
+        const [w, h] = kind === "cuboid" ? size : [size[0], size[0]];
+        const main = Math.abs(axis[0]) >= Math.abs(axis[1]) ? 0 : 1, sign = Math.sign(axis[main]) || 1;
+        for (const half of [1, -1]) {
+            pen.save();
+            pen.beginPath();
+            pen.rect(centre[0] + (main === 0 ? (half - 1) * w / 4 : -w / 2), centre[1] + (main === 1 ? (half - 1) * h / 4 : -h / 2),
+                main === 0 ? w / 2 : w, main === 1 ? h / 2 : h);
+            pen.clip();
+            pen.fillStyle = half === sign ? NORTH : SOUTH;
+            if (kind === "cuboid")
+                pen.fillRect(centre[0] - w / 2, centre[1] - h / 2, w, h);
+            else
+                this.circle(centre[0], centre[1], w / 2).fill();
+            pen.restore();
+        }
+    }
+
+    trail(trail, places, range) {
+        const { pen } = this, width = range[1] - range[0];
+        pen.lineWidth = 0.022;
+        for (let i = 1; i < trail.count; ++i) {
+            const a = (trail.first + i - 1) % trail.room, b = (trail.first + i) % trail.room;
+            const c = PALETTE[Math.floor(255 * Math.max(0, Math.min(1, (trail.value[b] - range[0]) / width)))];
+            pen.strokeStyle = `rgb(${c.map((v) => Math.round(255 * v)).join()})`;
+            pen.beginPath();
+            pen.moveTo(places[2 * a], places[2 * a + 1]);
+            pen.lineTo(places[2 * b], places[2 * b + 1]);
+            pen.stroke();
+        }
+    }
+
+    /* The bead from above: the side that its north pole faces is red, and a mark shows its turning. */
+    bead(row, x, y) {
+        const { pen, setup } = this, [nx, ny, nz] = row.subarray(COLUMN.n, COLUMN.n + 3), across = Math.hypot(nx, ny);
+        this.circle(x, y, setup.eps);
+        pen.fillStyle = SOUTH;
+        pen.fill();
+        pen.save();
+        pen.translate(x, y);
+        pen.rotate(Math.atan2(ny, nx));
+        pen.beginPath();
+        pen.arc(0, 0, setup.eps, -Math.PI / 2, Math.PI / 2);
+        pen.ellipse(0, 0, Math.abs(nz) * setup.eps, setup.eps, 0, Math.PI / 2, -Math.PI / 2, nz < 0);
+        pen.fillStyle = NORTH;
+        if (across > 1e-9 || nz > 0)
+            pen.fill();
+        pen.restore();
+        this.marks(row, x, y);
+        pen.lineWidth = 0.1 * setup.eps;
+        pen.strokeStyle = "#f7f3e8";
+        this.circle(x, y, setup.eps).stroke();
+    }
+
+    marks(row, x, y) {
+        const { pen, setup } = this, [a, b, c, w] = row.subarray(COLUMN.turn, COLUMN.turn + 4);
+        const turned = ([p, q, r]) => {
+            const t = [2 * (b * r - c * q), 2 * (c * p - a * r), 2 * (a * q - b * p)];
+            return [p + w * t[0] + b * t[2] - c * t[1], q + w * t[1] + c * t[0] - a * t[2], r + w * t[2] + a * t[1] - b * t[0]];
+        };
+        pen.fillStyle = "#f7f3e8";
+        for (const spot of [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1]]) {
+            const p = turned(spot);
+            if (p[2] > 0)
+                this.circle(x + setup.eps * p[0], y + setup.eps * p[1], 0.16 * setup.eps).fill();
+        }
+    }
+
+    arrows(row, x, y, wanted) {
+        const { pen, setup } = this, e = setup.eps;
+        const vectors = {
+            moment: [3.2 * e * row[COLUMN.n], 3.2 * e * row[COLUMN.n + 1]],
+            field: [3.2 * e * row[COLUMN.b] / setup.fieldScale, 3.2 * e * row[COLUMN.b + 1] / setup.fieldScale],
+            friction: [FRICTION * e * row[COLUMN.force], FRICTION * e * row[COLUMN.force + 1]],
+        };
+        for (const [name, v] of Object.entries(vectors)) {
+            const length = Math.hypot(...v);
+            if (!wanted.has(name) || length < 0.1 * e)
+                continue;
+            const u = [v[0] / length, v[1] / length], tip = [x + v[0], y + v[1]], head = Math.min(length, 0.5 * e);
+            pen.strokeStyle = pen.fillStyle = ARROWS[name];
+            pen.lineWidth = 0.16 * e;
+            pen.beginPath();
+            pen.moveTo(x, y);
+            pen.lineTo(tip[0] - u[0] * head, tip[1] - u[1] * head);
+            pen.stroke();
+            pen.beginPath();
+            pen.moveTo(...tip);
+            pen.lineTo(tip[0] - head * (u[0] - 0.5 * u[1]), tip[1] - head * (u[1] + 0.5 * u[0]));
+            pen.lineTo(tip[0] - head * (u[0] + 0.5 * u[1]), tip[1] - head * (u[1] - 0.5 * u[0]));
+            pen.fill();
+        }
+    }
+}

@@ -1,0 +1,259 @@
+/* view3d.js - the stirrer in three dimensions, by WebGL: z is up, the plate's surface is z = 0, lengths are in l. */
+import {
+    AmbientLight, BufferAttribute, BufferGeometry, CanvasTexture, CircleGeometry, Color, ConeGeometry, CylinderGeometry,
+    DirectionalLight, DoubleSide, DynamicDrawUsage, Group, Mesh, MeshBasicMaterial, MeshPhongMaterial, PerspectiveCamera,
+    PlaneGeometry, Quaternion, RingGeometry, Scene, SphereGeometry, SRGBColorSpace, Vector3, WebGLRenderer, BoxGeometry,
+} from "three";
+import { COLUMN } from "./core.js";
+import { ARROWS, FRICTION, LOAD, NORTH, SOUTH } from "./colours.js";
+import { PALETTE } from "./trail.js";
+
+const FOV = 34;
+
+/* The bead's skin: a red half about its north pole, a blue one about the other, and marks that show every turn. */
+function beadTexture() {
+    const canvas = document.createElement("canvas");
+    canvas.width = 1024;
+    canvas.height = 512;
+    const pen = canvas.getContext("2d");
+    pen.fillStyle = NORTH;
+    pen.fillRect(0, 0, 1024, 256);
+    pen.fillStyle = SOUTH;
+    pen.fillRect(0, 256, 1024, 256);
+    pen.fillStyle = "#f7f3e8";
+    pen.fillRect(0, 248, 1024, 16);
+    for (let i = 0; i < 4; ++i)
+        pen.fillRect(256 * i, 36, i === 0 ? 34 : 16, 440);
+    for (let i = 0; i < 8; ++i) {
+        pen.beginPath();
+        pen.ellipse(128 * i + 64, i % 2 ? 150 : 362, 26, 20, 0, 0, 2 * Math.PI);
+        pen.fill();
+    }
+    pen.fillRect(0, 0, 1024, 34);
+    pen.fillStyle = "#15181d";
+    pen.fillRect(0, 478, 1024, 34);
+    const texture = new CanvasTexture(canvas);
+    texture.colorSpace = SRGBColorSpace;
+    texture.anisotropy = 4;
+    return texture;
+}
+
+function shadowTexture() {
+    const canvas = document.createElement("canvas");
+    canvas.width = canvas.height = 128;
+    const pen = canvas.getContext("2d"), fade = pen.createRadialGradient(64, 64, 4, 64, 64, 62);
+    fade.addColorStop(0, "rgba(0,0,0,0.75)");
+    fade.addColorStop(0.45, "rgba(0,0,0,0.4)");
+    fade.addColorStop(1, "rgba(0,0,0,0)");
+    pen.fillStyle = fade;
+    pen.fillRect(0, 0, 128, 128);
+    return new CanvasTexture(canvas);
+}
+
+class Arrow {
+    constructor(colour) {
+        const material = new MeshPhongMaterial({ color: colour, emissive: colour, emissiveIntensity: 0.35 });
+        this.shaft = new Mesh(new CylinderGeometry(1, 1, 1, 12).translate(0, 0.5, 0), material);
+        this.head = new Mesh(new ConeGeometry(1, 1, 16).translate(0, 0.5, 0), material);
+        this.group = new Group();
+        this.group.add(this.shaft, this.head);
+    }
+
+    point(from, vector, thickness) {
+        const length = Math.hypot(...vector), head = Math.min(length, 5 * thickness);
+        this.group.visible = length > thickness;
+        if (!this.group.visible)
+            return;
+        this.group.position.set(...from);
+        this.group.quaternion.setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(...vector).divideScalar(length));
+        this.shaft.scale.set(thickness, length - head, thickness);
+        this.head.scale.set(2.4 * thickness, head, 2.4 * thickness);
+        this.head.position.y = length - head;
+    }
+}
+
+/* A ribbon through `room` places, of its own colour at each. */
+class Ribbon {
+    constructor(room) {
+        this.places = new Float32Array(6 * room);
+        this.colours = new Float32Array(6 * room);
+        const order = new Uint32Array(6 * (room - 1));
+        for (let i = 0; i < room - 1; ++i)
+            order.set([2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 2, 2 * i + 1, 2 * i + 3], 6 * i);
+        this.geometry = new BufferGeometry();
+        this.geometry.setAttribute("position", new BufferAttribute(this.places, 3).setUsage(DynamicDrawUsage));
+        this.geometry.setAttribute("color", new BufferAttribute(this.colours, 3).setUsage(DynamicDrawUsage));
+        this.geometry.setIndex(new BufferAttribute(order, 1));
+        this.mesh = new Mesh(this.geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide }));
+        this.mesh.frustumCulled = false;
+    }
+
+    /* `place(i)` and `colour(i)` for i below `count`. */
+    fill(count, place, colour, width) {
+        let before = count > 1 ? place(0) : [0, 0], at = before;
+        for (let i = 0; i < count; ++i) {
+            const after = i + 1 < count ? place(i + 1) : at;
+            const dx = after[0] - before[0], dy = after[1] - before[1], length = Math.hypot(dx, dy) || 1;
+            const sx = (-dy / length) * width, sy = (dx / length) * width;
+            this.places.set([at[0] + sx, at[1] + sy, 0.004, at[0] - sx, at[1] - sy, 0.004], 6 * i);
+            const c = colour(i);
+            this.colours.set(c, 6 * i);
+            this.colours.set(c, 6 * i + 3);
+            before = at;
+            at = after;
+        }
+        this.geometry.setDrawRange(0, 6 * Math.max(0, count - 1));
+        this.geometry.attributes.position.needsUpdate = true;
+        this.geometry.attributes.color.needsUpdate = true;
+    }
+}
+
+function halves(body) {
+    const north = new MeshPhongMaterial({ color: NORTH, shininess: 30 }), south = new MeshPhongMaterial({ color: SOUTH, shininess: 30 });
+    const group = new Group(), axis = new Vector3(...body.axis), a = body.axis.map(Math.abs);
+    const main = a.indexOf(Math.max(...a)), sign = Math.sign(body.axis[main]) || 1;
+    if (body.kind === "sphere" || body.kind === "dipole") {
+        const radius = (body.size?.[0] || 0.1) / 2;
+        const up = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), axis.normalize());
+        group.add(new Mesh(new SphereGeometry(radius, 32, 12, 0, 2 * Math.PI, 0, Math.PI / 2), north),
+            new Mesh(new SphereGeometry(radius, 32, 12, 0, 2 * Math.PI, Math.PI / 2, Math.PI / 2), south));
+        group.quaternion.copy(up);
+    } else if (body.kind === "cylinder") {
+        const [diameter, height] = body.size;
+        for (const half of [0, 1]) {
+            const along = main === 2;
+            const shape = along ? new CylinderGeometry(diameter / 2, diameter / 2, height / 2, 48)
+                : new CylinderGeometry(diameter / 2, diameter / 2, height, 48, 1, false, half * Math.PI, Math.PI);
+            const mesh = new Mesh(shape, (half === 0) === (sign > 0) ? north : south);
+            mesh.rotation.x = Math.PI / 2;
+            if (along)
+                mesh.position.z = (half === 0 ? 1 : -1) * height / 4;
+            else if (main === 1)
+                mesh.rotation.y = Math.PI / 2;
+            group.add(mesh);
+        }
+    } else {
+        const size = body.size.map((edge, i) => (i === main ? edge / 2 : edge));
+        for (const half of [1, -1]) {
+            const mesh = new Mesh(new BoxGeometry(...size), half === sign ? north : south);
+            mesh.position.setComponent(main, (half * body.size[main]) / 4);
+            group.add(mesh);
+        }
+    }
+    if (body.turn)
+        group.applyQuaternion(new Quaternion().setFromAxisAngle(new Vector3(...body.turn.slice(1)).normalize(),
+            (body.turn[0] * Math.PI) / 180));
+    group.position.set(...body.centre);
+    return group;
+}
+
+export class View3D {
+    constructor(canvas, room) {
+        this.canvas = canvas;
+        this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+        this.renderer.setClearColor(new Color("#141a22"));
+        this.scene = new Scene();
+        this.eye = new PerspectiveCamera(FOV, 1, 0.01, 100);
+        const sun = new DirectionalLight("#ffffff", 2.2);
+        sun.position.set(2, -3, 5);
+        this.scene.add(sun, new AmbientLight("#ffffff", 1.25));
+        this.magnet = new Group();
+        this.turning = new Group();
+        this.turning.add(this.magnet);
+        this.scene.add(this.turning);
+        this.plate = new Group();
+        this.scene.add(this.plate);
+        this.bead = new Mesh(new SphereGeometry(1, 64, 40), new MeshPhongMaterial({ map: beadTexture(), shininess: 70, specular: "#666666" }));
+        this.shadow = new Mesh(new PlaneGeometry(1, 1), new MeshBasicMaterial({ map: shadowTexture(), transparent: true, depthWrite: false }));
+        this.shadow.renderOrder = 3;
+        this.scene.add(this.bead, this.shadow);
+        this.ribbon = new Ribbon(room + 1);
+        this.ribbon.mesh.renderOrder = 2;
+        this.scene.add(this.ribbon.mesh);
+        this.track = new Ribbon(20000);
+        this.track.mesh.visible = false;
+        this.track.mesh.renderOrder = 2;
+        this.scene.add(this.track.mesh);
+        this.arrows = Object.fromEntries(Object.entries(ARROWS).map(([name, colour]) => [name, new Arrow(colour)]));
+        for (const arrow of Object.values(this.arrows))
+            this.scene.add(arrow.group);
+        this.poleTurn = new Quaternion().setFromUnitVectors(new Vector3(0, 1, 0), new Vector3(0, 0, 1));
+    }
+
+    /* Plate and magnet of a setup. */
+    furnish(setup) {
+        for (const group of [this.plate, this.magnet]) {
+            group.traverse((thing) => thing.geometry?.dispose());
+            group.clear();
+        }
+        const glass = new MeshPhongMaterial({ color: "#cfe0ee", transparent: true, opacity: 0.2, side: DoubleSide, depthWrite: false });
+        const plate = new Mesh(new CircleGeometry(setup.plateRadius, 96), glass);
+        plate.renderOrder = 1;
+        this.plate.add(plate);
+        const line = new MeshBasicMaterial({ color: "#e8eef5", transparent: true, opacity: 0.28, side: DoubleSide, depthWrite: false });
+        for (let i = 1; i * setup.ring < Math.min(setup.plateRadius, 3.2); ++i) {
+            const ring = new Mesh(new RingGeometry(i * setup.ring - 0.004, i * setup.ring + 0.004, 128), line);
+            ring.position.z = 0.001;
+            ring.renderOrder = 1;
+            this.plate.add(ring);
+        }
+        const rim = new Mesh(new RingGeometry(setup.plateRadius - 0.03, setup.plateRadius, 128), line);
+        this.plate.add(rim);
+        for (const body of setup.bodies)
+            this.magnet.add(halves(body));
+        this.bead.scale.setScalar(setup.eps);
+        this.shadow.scale.setScalar(3.2 * setup.eps);
+        this.setup = setup;
+    }
+
+    showTrack(points) {
+        this.track.mesh.visible = Boolean(points);
+        if (points)
+            this.track.fill(Math.min(points.length, 20000), (i) => points[i], () => [1, 1, 1], 0.006);
+    }
+
+    resize(width, height, ratio) {
+        this.renderer.setPixelRatio(Math.min(ratio, 2));
+        this.renderer.setSize(width, height, false);
+        this.eye.aspect = width / height;
+        this.eye.updateProjectionMatrix();
+    }
+
+    draw({ row, trail, range, camera, arrows }) {
+        const { eps } = this.setup, riding = camera.mode === "magnet";
+        const x = row[COLUMN.x], y = row[COLUMN.y];
+        this.turning.rotation.z = 2 * Math.PI * row[COLUMN.turns];
+        this.bead.position.set(x, y, eps);
+        const q = row.subarray(COLUMN.turn, COLUMN.turn + 4);
+        this.bead.quaternion.set(...q).multiply(this.poleTurn);
+        this.shadow.position.set(x, y, 0.006);
+        const places = riding ? trail.turning : trail.lab, c = range[1] - range[0];
+        const at = (i) => (trail.first + i) % trail.room;
+        const here = riding ? [row[COLUMN.r] * Math.cos(row[COLUMN.phi]), row[COLUMN.r] * Math.sin(row[COLUMN.phi])] : [x, y];
+        this.ribbon.fill(trail.count + 1, (i) => (i < trail.count ? [places[2 * at(i)], places[2 * at(i) + 1]] : here),
+            (i) => PALETTE[Math.floor(255 * Math.max(0, Math.min(1, (trail.value[at(Math.min(i, trail.count - 1))] - range[0]) / c)))] || PALETTE[0],
+            0.011);
+        this.ribbon.mesh.rotation.z = riding ? this.turning.rotation.z : 0;
+        this.point(row, arrows);
+        const look = camera.look(row, eps, this.setup.reach, this.eye.aspect, FOV);
+        this.eye.position.set(...look.eye);
+        this.eye.up.set(...look.up);
+        this.eye.lookAt(...look.target);
+        this.renderer.render(this.scene, this.eye);
+    }
+
+    point(row, wanted) {
+        const { eps } = this.setup, from = [row[COLUMN.x], row[COLUMN.y], eps];
+        const vectors = {
+            moment: Array.from(row.subarray(COLUMN.n, COLUMN.n + 3), (v) => 3.2 * eps * v),
+            field: Array.from(row.subarray(COLUMN.b, COLUMN.b + 3), (v) => (3.2 * eps * v) / this.setup.fieldScale),
+            friction: [FRICTION * eps * row[COLUMN.force], FRICTION * eps * row[COLUMN.force + 1], 0],
+            load: [0, 0, LOAD * eps * row[COLUMN.load]],
+        };
+        for (const [name, arrow] of Object.entries(this.arrows)) {
+            arrow.group.visible = wanted.has(name);
+            if (wanted.has(name))
+                arrow.point(name === "friction" ? [from[0], from[1], 0.02] : from, vectors[name], 0.09 * eps);
+        }
+    }
+}

@@ -1,0 +1,70 @@
+"""festoon: what a magnetic bead does on a spinning magnet.
+
+>>> import festoon as fs
+>>> bead = fs.Bead(frequency="10.7 Hz")
+>>> run = bead.run(periods=60)
+>>> run.regime, round(run.mean_r, 3), round(1000 * run.si.mean_r, 2)
+('counter-rotating', 0.767, 17.63)
+"""
+
+from ._errors import (
+    BadInput,
+    FestoonError,
+    InputOutput,
+    Interrupted,
+    NoConvergence,
+    NotFinite,
+    OutOfMemory,
+    StepUnderflow,
+    Unavailable,
+)
+from ._native import lib as _lib
+from ._native import text_of as _text_of
+from .bead import Bead, Groups, MaterialWarning
+from .files import read
+from .films import track
+from .flows import Flow
+from .measuring import Fit, Measurement, Track, fit, measure, read_track
+from .orbits import Branch, Locked, LockedStates, Lyapunov, Orbit
+from .runs import Run
+from .sweeps import Sweep, sweep
+from .trajectories import Trajectory
+
+__version__ = _text_of(_lib.fst_version())
+
+#: The optional parts of the library, and whether this build and machine have them.
+components = _text_of(_lib.fst_tools_components())
+
+__all__ = [
+    "BadInput",
+    "Bead",
+    "Branch",
+    "FestoonError",
+    "Fit",
+    "Flow",
+    "Groups",
+    "InputOutput",
+    "Interrupted",
+    "Locked",
+    "LockedStates",
+    "Lyapunov",
+    "MaterialWarning",
+    "Measurement",
+    "NoConvergence",
+    "NotFinite",
+    "Orbit",
+    "OutOfMemory",
+    "Run",
+    "StepUnderflow",
+    "Sweep",
+    "Track",
+    "Trajectory",
+    "Unavailable",
+    "components",
+    "fit",
+    "measure",
+    "read",
+    "read_track",
+    "sweep",
+    "track",
+]

@@ -1,0 +1,215 @@
+"""Sweeps in matplotlib's Axes: curves over one parameter, maps over two."""
+
+from typing import Any, List, Optional, Tuple
+
+import numpy as np
+
+from . import _style
+from ._errors import BadInput
+from ._native import lib
+from ._tables import PARAMETERS, RESULTS
+from .bead import Bead
+from .orbits import _choose
+from .runs import REGIMES
+
+
+#: The most curves that stand side by side; a sweep with more values of both parameters is a map.
+_MOST_CURVES = 7
+_CURVES = ("blue", "vermilion", "green", "purple", "sky", "orange", "black")
+
+
+class _Side:
+    """A dimension of a sweep as a figure shows it: values in the figure's unit, or names of a choice."""
+
+    def __init__(self, sweep: Any, along: int, axis: Any, units: str) -> None:
+        self.along = along
+        scales = _style.scales_of(lib.fst_grid_base(sweep._grid))
+        shown = _style.of_parameter(axis.key, units, scales)
+        if not np.isfinite(shown.factor):
+            raise BadInput("units", f"the units of {axis.key} do not follow from the scene: leave units=\"given\"")
+        values = np.moveaxis(sweep.parameter(axis.keyword), along, 0).reshape(sweep.shape[along], -1)[:, 0]
+        self.names: Optional[List[str]] = None
+        if PARAMETERS[axis.key][0] == "str":
+            self.names = PARAMETERS[axis.key][1].split(", ")
+            values = np.array([self.names.index(name) for name in values])
+        self.values = values.astype(float) * (1.0 if self.names else shown.factor)
+        self.label, self.words = shown.label, shown.words
+
+    def text(self, i: int) -> str:
+        """A value in the key."""
+        return self.names[int(self.values[i])] if self.names else f"{self.values[i]:.4g}"
+
+    @property
+    def logarithmic(self) -> bool:
+        """Whether the values are spaced by a factor rather than by a difference."""
+        values = np.unique(self.values)
+        if self.names or len(values) < 4 or values[0] <= 0 or values[-1] < 5 * values[0]:
+            return False
+        ratios, steps = np.diff(np.log(values)), np.diff(values)
+        return bool(np.ptp(ratios) / ratios.mean() < np.ptp(steps) / steps.mean())
+
+    def dress(self, axis: Any, scale: Any) -> None:
+        """Ticks and scale of matplotlib's axis."""
+        if self.names:
+            axis.set_ticks(range(len(self.names)), self.names)
+        elif self.logarithmic:
+            scale("log")
+
+    def edges(self) -> Any:
+        """Borders of cells half way between neighbours; `values` must rise."""
+        v = np.log(self.values) if self.logarithmic else self.values
+        if len(v) == 1:
+            wide = max(0.1 * abs(v[0]), 1e-9)
+            made = np.array([v[0] - wide, v[0] + wide])
+        else:
+            inner = 0.5 * (v[:-1] + v[1:])
+            made = np.concatenate([[2 * v[0] - inner[0]], inner, [2 * v[-1] - inner[-1]]])
+        return np.exp(made) if self.logarithmic else made
+
+
+def _regime_index(sweep: Any) -> Any:
+    """The regimes as numbers, NaN where a run failed."""
+    regime = sweep.regime
+    numbers = np.full(sweep.shape, np.nan)
+    for i, name in enumerate(REGIMES):
+        numbers[regime == name] = i
+    numbers[~sweep.done] = np.nan
+    return numbers
+
+
+def _sweep_values(sweep: Any, y: str, units: str) -> Tuple[Any, str, str]:
+    """Values, label and words of what is drawn."""
+    if y == "regime":
+        return _regime_index(sweep), "", "regimes"
+    scales = _style.scales_of(lib.fst_grid_base(sweep._grid))
+    shown = _style.of_result(y, RESULTS[y][0], units, scales)
+    return sweep._array(y) * shown.factor, shown.label, shown.words
+
+
+def sweep(
+    s: Any, y: Optional[str] = None, *, kind: Optional[str] = None, x: Optional[str] = None, units: str = "given",
+    ax: Any = None,
+) -> Any:
+    """Draw a sweep: curves over one parameter, a map over two.
+
+    Parameters
+    ----------
+    y
+        What is drawn, "mean_r", "festoons", ... or "regime"; by default mean_r of curves and the regimes of a map.
+    kind
+        "curves" or "map"; by default a sweep over two parameters is a map where both have many values.
+    x
+        The parameter along the abscissa, by its keyword; by default the first one.
+    units
+        "lab" (mm, s, Hz), "scaled" or "si"; "given": those of a laboratory where a varied parameter has them.
+    ax
+        The Axes to draw into; without it a new figure is made.
+    """
+    if y is not None:
+        _choose(y, ["regime", *RESULTS], "y")
+    if kind is not None:
+        _choose(kind, ["curves", "map"], "kind")
+    axes = {axis.keyword: axis for axis in s.axes}
+    if not s.dims or any(name not in axes for name in s.dims) or len(s.dims) > 2:
+        raise BadInput(
+            "sweep",
+            f"a picture shows one or two parameters, not ({', '.join(s.dims)}): choose a part as in s[:, 0], or draw"
+            " its numbers with matplotlib",
+        )
+    dims = list(s.dims)
+    if x is not None:
+        _choose(x, dims, "x")
+        dims.remove(x)
+        dims.insert(0, x)
+    if units == "given":
+        units = _style.units_over([axes[name].key for name in s.dims if len(axes[name].values) > 1])
+    sides = [_Side(s, s.dims.index(name), axes[name], units) for name in dims]
+    if kind is None:
+        few = len(sides) == 1 or min(len(side.values) for side in sides) <= _MOST_CURVES
+        kind = "curves" if few else "map"
+    if kind == "map" and len(sides) < 2:
+        raise BadInput("kind", "a map needs a sweep over two parameters")
+    if kind == "map":
+        return _map(s, y or "regime", sides, units, ax)
+    return _curves(s, y or "mean_r", sides, units, x is None, ax)
+
+
+def _about_sweep(s: Any) -> str:
+    base = Bead._of(lib.fst_grid_base(s._grid)[0])
+    varied = [axis.key for axis in s.axes]
+    words = "" if "model.dynamics" in varied else f"dynamics {base.model__dynamics}, "
+    return f"{words}{s.size} runs of {base.run__periods:g} turns of the magnet"
+
+
+def _regime_marks(ax: Any, x: Any, y: Any, regimes: Any) -> None:
+    size = 22 if len(x) <= 80 else 9
+    for i in np.unique(regimes[np.isfinite(regimes)]).astype(int):
+        words, colour = _style.look("regime", i)
+        here = regimes == i
+        ax.scatter(x[here], y[here], s=size, color=colour, label=words, linewidths=0, zorder=3)
+
+
+def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, ax: Any) -> Any:
+    if len(sides) == 2 and free and len(sides[0].values) < len(sides[1].values):
+        sides.reverse()
+    values, label, words = _sweep_values(s, y, units)
+    values = np.moveaxis(values, sides[0].along, 0).reshape(len(sides[0].values), -1)
+    ax = _style.axes(ax, 6.0, 4.4)
+    across, order = sides[0].values, np.argsort(sides[0].values, kind="stable")
+    across, values = across[order], values[order]
+    title = f"{words} over the {sides[0].words}"
+    title = title[0].upper() + title[1:]
+    _style.dress(ax, title, _about_sweep(s), sides[0].label, label)
+    if y == "regime":
+        ax.set_yticks(range(len(REGIMES)), REGIMES)
+    if len(sides) == 1:
+        ax.plot(across, values[:, 0], color="#b0b0b0", linewidth=0 if y == "regime" else 1.2, zorder=2)
+        _regime_marks(ax, across, values[:, 0], _regime_index(s)[order])
+    for i in range(values.shape[1] if len(sides) == 2 else 0):
+        ax.plot(
+            across, values[:, i], color=_style.colour(_CURVES[i % len(_CURVES)]), linewidth=1.5, marker="o",
+            linestyle="none" if y == "regime" else "-", markersize=3 if len(across) <= 80 else 1.5,
+            label=sides[1].text(i),
+        )
+    sides[0].dress(ax.xaxis, ax.set_xscale)
+    _style.key_below(ax, title=sides[1].label if len(sides) == 2 else None)
+    return ax
+
+
+def _map(s: Any, y: str, sides: List[_Side], units: str, ax: Any) -> Any:
+    right, up = sides
+    values, label, words = _sweep_values(s, y, units)
+    values = values if up.along == 0 else values.T
+    for side, along in ((up, 0), (right, 1)):
+        order = np.unique(side.values, return_index=True)[1]
+        values, side.values = np.take(values, order, axis=along), side.values[order]
+    ax = _style.axes(ax, 6.0, 5.0)
+    title = f"{words} over {right.words} and {up.words}"
+    _style.dress(ax, title[0].upper() + title[1:], _about_sweep(s), right.label, up.label)
+    ax.grid(False)
+    if y == "regime":
+        _regime_cells(ax, right.edges(), up.edges(), values)
+    elif not np.isfinite(values).any():
+        raise BadInput("y", f"no run of this sweep has a value of {y}")
+    else:
+        cmap, norm = _style.colours_between(y, float(np.nanmin(values)), float(np.nanmax(values)))
+        drawn = ax.pcolormesh(right.edges(), up.edges(), values, cmap=cmap, norm=norm, rasterized=True)
+        _style.scale_beside(ax, drawn, label)
+    right.dress(ax.xaxis, ax.set_xscale)
+    up.dress(ax.yaxis, ax.set_yscale)
+    return ax
+
+
+def _regime_cells(ax: Any, x: Any, y: Any, values: Any) -> None:
+    from matplotlib.colors import ListedColormap
+    from matplotlib.patches import Patch
+
+    looks = [_style.look("regime", i) for i in range(len(REGIMES))]
+    colours = ListedColormap([colour for _, colour in looks])
+    colours.set_bad("white")
+    ax.pcolormesh(x, y, values, cmap=colours, vmin=-0.5, vmax=len(looks) - 0.5, rasterized=True)
+    there = np.unique(values[np.isfinite(values)]).astype(int)
+    handles = [Patch(color=looks[i][1], label=looks[i][0]) for i in there]
+    if not np.isfinite(values).all():
+        handles.append(Patch(facecolor="white", edgecolor="#888888", label="failed"))
+    _style.key_below(ax, handles)

@@ -1,0 +1,71 @@
+"""Values with units: what parameters are given as, and the units in which numbers leave."""
+
+from typing import Any, Dict, Tuple, Union
+
+from ._native import call, ffi, lib, text_of
+
+#: A number in SI (scaled where the parameter is), a text with a unit ("10.7 Hz"), or the name of a choice.
+#: None: not given.
+Value = Union[None, float, int, str]
+
+UNITS = {
+    "given": lib.FST_SHOWN_AS_GIVEN,
+    "lab": lib.FST_SHOWN_LAB,
+    "scaled": lib.FST_SHOWN_SCALED,
+    "si": lib.FST_SHOWN_SI,
+}
+
+
+def value_text(value: Any) -> str:
+    """A value as a scene would say it; a number with all its digits."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool):
+        raise TypeError(f"{value} is neither a number nor a text with a unit")
+    if hasattr(value, "item"):
+        value = value.item()
+    if isinstance(value, int):
+        return str(value)
+    return repr(float(value))
+
+
+def quantity(value: Any, unit: int) -> float:
+    """A number, or a text with a unit of this kind, in SI."""
+    if not isinstance(value, str):
+        return float(value)
+    number = ffi.new("double *")
+    call(lib.fst_parse_value, value.encode(), unit, number)
+    return float(number[0])
+
+
+def units_of(name: str) -> int:
+    """The units of numbers that leave: "given", "lab", "scaled" or "si"."""
+    if name not in UNITS:
+        from ._errors import BadInput
+
+        raise BadInput("units", f'unknown units "{name}"; there are {", ".join(UNITS)}')
+    return int(UNITS[name])
+
+
+class Scales:
+    """Factors from scaled numbers to other units, of one bead."""
+
+    def __init__(self, params: Any, units: str) -> None:
+        self._units = units_of(units)
+        self._scales = ffi.new("fst_scales *", lib.fst_scales_of(params))
+        self._known: Dict[str, Tuple[float, str]] = {}
+
+    def factor(self, unit: str) -> Tuple[float, str]:
+        """The factor of a unit of the tables, and the name of the unit that it leads to."""
+        if unit not in self._known:
+            name = ffi.new("const char **")
+            kept = unit.encode()
+            factor = lib.fst_unit_shown(kept, self._units, self._scales, name)
+            self._known[unit] = (float(factor), text_of(name[0]))
+        return self._known[unit]
+
+    def column(self, index: int) -> Tuple[float, str]:
+        """The same for a column of a trajectory: angular velocities are in rad/s."""
+        name = ffi.new("const char **")
+        factor = lib.fst_column_shown(lib.fst_column_at(index), self._units, self._scales, name)
+        return float(factor), text_of(name[0])

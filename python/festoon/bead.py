@@ -1,0 +1,393 @@
+"""The bead on its stirrer: a setup, and everything that can be asked of it."""
+
+import math
+import os
+import warnings
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple, Union
+
+import numpy as np
+
+from ._errors import BadInput, FestoonError
+from ._native import call, ffi, lib, path_bytes, rows_of, take_text, text_of
+from ._progress import Progress
+from ._quantities import Value, value_text
+from ._tables import PARAMETERS, SHORT, Parameters
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+class MaterialWarning(UserWarning):
+    """Mass, radius and magnetic strength of a bead contradict any material."""
+
+
+def key_of(keyword: str) -> str:
+    """The key of a keyword: frequency is drive.frequency, friction__law is friction.law."""
+    return SHORT.get(keyword, keyword.replace("__", "."))
+
+
+def keyword_of(key: str) -> str:
+    """The keyword of a key, the short one where there is one."""
+    for short, of in SHORT.items():
+        if of == key:
+            return short
+    return key.replace(".", "__")
+
+
+class Groups:
+    """The scaled groups on which the motion depends, and the units behind them (``lambda`` is ``lambda_``)."""
+
+    def __init__(self, groups: Any) -> None:
+        names = {
+            "shape": [text.strip() for text in PARAMETERS["magnet.shape"][1].split(",")],
+            "material": [text.strip() for text in PARAMETERS["bead.material"][1].split(",")],
+            "friction": [text.strip() for text in PARAMETERS["friction.law"][1].split(",")],
+            "dynamics": [text.strip() for text in PARAMETERS["model.dynamics"][1].split(",")],
+        }
+        self._values: Dict[str, Any] = {}
+        for name, field in ffi.typeof("fst_groups").fields:
+            value = getattr(groups, name)
+            if name in names:
+                value = names[name][int(value)]
+            self._values["lambda_" if name == "lambda" else name] = value
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__") or name not in self.__dict__.get("_values", {}):
+            raise AttributeError(name)
+        return self._values[name]
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *self._values]
+
+    def __iter__(self) -> Iterator[Tuple[str, Any]]:
+        return iter(self._values.items())
+
+    def __repr__(self) -> str:
+        return "Groups(" + ", ".join(f"{name}={value!r}" for name, value in self) + ")"
+
+
+class Bead(Parameters):
+    """A bead on a magnetic stirrer, by default the paper's at 10.7 Hz.  A Bead never changes.
+
+    Parameters are keywords: the short ones ``frequency``, ``omega``, ``kappa``, ``gamma`` and ``mu``, all others
+    as ``group__name`` (``friction__law="coulomb"``).  A number is in SI or scaled, as in scenes; a text may
+    carry a unit.  A `scene` (a path, or the YAML text itself) comes first, keywords override it.
+
+    >>> bead = Bead(frequency="642 rpm", kappa=1.8)
+    >>> round(bead.frequency, 3), bead.kappa
+    (10.7, 1.8)
+    """
+
+    def __init__(self, scene: Any = None, **keywords: Any) -> None:
+        self._params = ffi.new("fst_params *", lib.fst_default_params())
+        if isinstance(scene, Bead):
+            self._params[0] = scene._params[0]
+        elif isinstance(scene, str) and "\n" in scene:
+            data = scene.encode()
+            call(lib.fst_scene_parse, data, len(data), b"scene", self._params)
+        elif scene is not None:
+            call(lib.fst_scene_read, path_bytes(scene), self._params)
+        self._set(keywords)
+
+    def _set(self, keywords: Mapping[str, Any]) -> None:
+        given = {key_of(keyword): value for keyword, value in keywords.items() if value is not None}
+        if len(given) < sum(value is not None for value in keywords.values()):
+            raise BadInput("Bead", "a parameter is given twice, by its short keyword and by its long one")
+        for key, value in given.items():
+            other = lib.fst_param_other_form(key.encode())
+            if other and text_of(other) in given:
+                raise BadInput("Bead", f"{key} and {text_of(other)} are two forms of one quantity: give one")
+            call(lib.fst_params_set, self._params, key.encode(), value_text(value).encode())
+        model = ffi.new("fst_model **")
+        call(lib.fst_model_new, self._params, model)
+        self._model = ffi.gc(model[0], lib.fst_model_free)
+
+    @classmethod
+    def _of(cls, params: Any) -> "Bead":
+        """The bead of parameters in C, which are copied."""
+        made = cls.__new__(cls)
+        made._params = ffi.new("fst_params *", params)
+        made._set({})
+        return made
+
+    @classmethod
+    def load(cls, path: Path) -> "Bead":
+        """Read a YAML scene."""
+        return cls(os.fspath(path).replace("\n", "?"))
+
+    def save(self, path: Path, comments: bool = True, overwrite: bool = True) -> None:
+        """Write the bead as a YAML scene, with docs and units as comments."""
+        call(lib.fst_scene_write, path_bytes(path), self._params, comments, overwrite)
+
+    def scene(self, comments: bool = False) -> str:
+        """The bead as YAML text; Bead(text) is the same bead, bit by bit."""
+        return take_text(lib.fst_scene_text(self._params, comments))
+
+    def replace(self, **keywords: Any) -> "Bead":
+        """The same bead with other values.
+
+        >>> Bead().replace(kappa=1.2).kappa
+        1.2
+        """
+        made = type(self).__new__(type(self))
+        made._params = ffi.new("fst_params *", self._params[0])
+        made._set(keywords)
+        return made
+
+    # ------------------------------------------------------------------ what it is
+
+    def _parameter(self, key: str) -> Any:
+        kind, unit, _ = PARAMETERS[key]
+        value = getattr(self._params, key.replace(".", "_"))
+        if kind == "str":
+            return unit.split(", ")[value]
+        if kind == "int":
+            return int(value)
+        return None if math.isnan(value) else float(value)
+
+    @property
+    def parameters(self) -> Dict[str, Any]:
+        """All parameters by their keys, in SI; None where one was not given."""
+        return {key: self._parameter(key) for key in PARAMETERS}
+
+    @property
+    def groups(self) -> Groups:
+        """The scaled groups on which the motion depends."""
+        return Groups(lib.fst_model_groups(self._model))
+
+    @property
+    def omega(self) -> float:
+        """The drive, scaled: omega_0/gamma."""
+        return float(lib.fst_model_groups(self._model).omega)
+
+    @property
+    def frequency(self) -> float:
+        """The drive in Hz."""
+        if math.isnan(self._params.drive_omega):
+            return float(self._params.drive_frequency)
+        return self.omega * self.gamma / (2 * math.pi)
+
+    @property
+    def kappa(self) -> float:
+        """Magnetic strength mu B0/(m R^2 gamma^2)."""
+        return float(lib.fst_model_groups(self._model).kappa)
+
+    @property
+    def gamma(self) -> float:
+        """The friction rate, and the inverse unit of time, 1/s."""
+        return float(self._params.friction_gamma)
+
+    @property
+    def mu(self) -> float:
+        """Coefficient of dry friction."""
+        return float(self._params.friction_mu)
+
+    def start_state(self) -> Any:
+        """The state at the start: X Y vX vY nX nY nZ WX WY WZ."""
+        state = ffi.new("double[]", lib.FST_STATE_SIZE)
+        call(lib.fst_start_state, self._params, self._model, state)
+        return np.array(list(state))
+
+    def _given(self) -> Dict[str, str]:
+        """The parameters that differ from the default bead's, as text."""
+        default = ffi.new("fst_params *", lib.fst_default_params())
+        texts: Dict[str, str] = {}
+        size = 4096
+        ours, theirs = ffi.new("char[]", size), ffi.new("char[]", size)
+        for i, row in enumerate(rows_of("param")):
+            lib.fst_params_get(self._params, i, ours, size)
+            lib.fst_params_get(default, i, theirs, size)
+            if ffi.string(ours) != ffi.string(theirs) and ours[0] != b"\0":
+                texts[text_of(row.key)] = text_of(ours)
+        return texts
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Bead) and self.scene() == other.scene()
+
+    def __hash__(self) -> int:
+        return hash(self.scene())
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return type(self), (self.scene() + "\n",)
+
+    def __repr__(self) -> str:
+        words = []
+        for key, text in self._given().items():
+            kind = PARAMETERS[key][0] if key in PARAMETERS else "str"
+            words.append(f"{keyword_of(key)}={text!r}" if kind == "str" else f"{keyword_of(key)}={text}")
+        return f"Bead({', '.join(words)})"
+
+    def _repr_html_(self) -> str:
+        from . import _cards
+
+        return _cards.bead_card(self)
+
+    # ------------------------------------------------------------------ what can be asked of it
+
+    def _asked(self) -> "Bead":
+        """The bead of which something is asked: refuse values without effect, say where mass and radius
+        contradict any material, and take for run.discard what a run leaves out, so that what is told is done."""
+        call(lib.fst_params_check_effects, self._params)
+        sentence = ffi.new("char[]", 512)
+        if lib.fst_bead_contradiction(self._params, sentence, 512):
+            warnings.warn(text_of(sentence), MaterialWarning, stacklevel=4)
+        discard = lib.fst_run_discard(self._params)
+        if discard == self._params.run_discard:
+            return self
+        made = self.replace()
+        made._params.run_discard = discard
+        return made
+
+    def run(
+        self,
+        *,
+        periods: Optional[float] = None,
+        discard: Optional[float] = None,
+        trajectory: Union[bool, Path] = False,
+        fps: Optional[float] = None,
+        sample_from: float = 0.0,
+        start: Any = None,
+        ramp: Any = None,
+        ramp_points: Optional[int] = None,
+        ramp_wait: Optional[float] = None,
+        ramp_disturbance: Optional[float] = None,
+        progress: Progress = None,
+    ) -> "Any":
+        """Simulate the bead and describe its motion: a :class:`Run`.
+
+        Parameters
+        ----------
+        periods, discard
+            Length in drive periods, and how many of them are left out of the means.
+        trajectory
+            True: the result has a `trajectory`; a path (.h5 or .csv): the samples go into that file.
+        fps
+            Samples a second, as a camera takes them, instead of run.samples in a drive period.
+        sample_from
+            Drive periods before the first sample.
+        start
+            A state of ten numbers instead of start.*.
+        ramp
+            (FROM, TO): a slow ramp of the drive after the discard, in Hz or with units; the result has `ramp`.
+        progress
+            True: a bar; or a function of (fraction, what).
+
+        >>> run = Bead().run(periods=60)
+        >>> run.regime, run.symmetry
+        ('counter-rotating', 'S1')
+        """
+        from . import runs
+
+        return runs.run(
+            self.replace(run__periods=periods, run__discard=discard)._asked(),
+            trajectory=trajectory,
+            fps=fps,
+            sample_from=sample_from,
+            start=start,
+            ramp=ramp,
+            ramp_points=ramp_points,
+            ramp_wait=ramp_wait,
+            ramp_disturbance=ramp_disturbance,
+            progress=progress,
+        )
+
+    def sweep(self, **keywords: Any) -> Any:
+        """Runs over a grid of parameters: :func:`festoon.sweep` with this bead."""
+        from .sweeps import sweep
+
+        return sweep(self, **keywords)
+
+    def orbit(self, *, festoons: Optional[float] = None, progress: Progress = None) -> Any:
+        """The stable periodic orbit to which the start leads, or the one with so many festoons: an `Orbit`."""
+        from . import orbits
+
+        return orbits.orbit(self._asked(), festoons, progress)
+
+    def locked(self, *, progress: Progress = None) -> Any:
+        """Every locked state at this drive: a `LockedStates`."""
+        from . import orbits
+
+        return orbits.locked(self._asked(), progress)
+
+    def branch(self, *, kind: str = "counter", progress: Progress = None, **keywords: Any) -> Any:
+        """Follow a family of solutions over a parameter, `omega=(0.15, 0.6)`: a `Branch`.
+
+        Parameters
+        ----------
+        kind
+            counter (the counter-rotating family), locked (all families of equilibria), all.
+        tolerance, step, follow
+            Of the integration (1e-12); longest step along the curve (0.5); switch branches where they cross.
+        special
+            With a second parameter, `kappa=(1, 2)`: the type of special point that is followed over both.
+        """
+        from . import orbits
+
+        return orbits.branch(self._asked(), kind, progress, keywords)
+
+    def lyapunov(self, *, progress: Progress = None) -> Any:
+        """The spectrum of Lyapunov exponents: a `Lyapunov`."""
+        from . import orbits
+
+        return orbits.lyapunov(self._asked(), progress)
+
+    def field(self, x: Any, y: Any, *, height: Any = None, units: str = "scaled") -> Tuple[Any, Any]:
+        """The magnet's field and its gradient in the magnet's frame: (B, G), G[..., i, j] = dB_i/dx_j.
+
+        `x` and `y` broadcast; they are in l and B in B0, or in m and T with ``units="si"``.  A text may carry a
+        unit ("10 mm").  `height` is another one over the magnet's mid-plane than that of the bead's centre.
+
+        >>> B, G = Bead().field([0.0, 0.5], 0.0)
+        >>> B.shape, G.shape
+        ((2, 3), (2, 3, 3))
+        """
+        from . import fields
+
+        return fields.field(self, x, y, height, units)
+
+    def flow(self, state: Any = None, **options: Any) -> Any:
+        """A trajectory that is advanced step by step: a `Flow`."""
+        from .flows import Flow
+
+        return Flow(self, state, **options)
+
+    # ------------------------------------------------------------------ pictures
+
+    def movie(self, path: Path, *, periods: float = 20.0, progress: Progress = None, **options: Any) -> None:
+        """Run the bead and make a film of the first periods after run.discard: see `Trajectory.movie`."""
+        begin = float(lib.fst_run_discard(self._params))
+        bead = self.replace(run__periods=begin + periods)
+        made = bead.run(trajectory=True, sample_from=begin, progress=progress)
+        made.trajectory.movie(path, progress=progress, **options)
+
+    def plot_field(self, **options: Any) -> Any:
+        """Draw the map of the magnet's field with matplotlib; returns its Axes: see `festoon.plots.field`."""
+        from . import plots
+
+        return plots.field(self, **options)
+
+    def figure(self, path: Path, units: str = "given") -> None:
+        """The program's figure of the magnet's field on the plane of the bead's centre: .svg, .pdf or .png."""
+        from . import figures
+
+        figures.field(self, path, units)
+
+    def lab(self, height: int = 720) -> Any:
+        """The browser page with this bead, shown in a notebook."""
+        from .lab import Lab
+
+        return Lab(self, height)
+
+
+def _sign(cls: Any) -> None:
+    """Editors and help() show the keywords."""
+    import inspect
+
+    names = [*SHORT, *(key.replace(".", "__") for key in PARAMETERS)]
+    keywords = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None) for name in names]
+    first = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)]
+    scene = inspect.Parameter("scene", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None)
+    cls.__init__.__signature__ = inspect.Signature([*first, scene, *keywords])
+    cls.replace.__signature__ = inspect.Signature([*first, *keywords])
+
+
+_sign(Bead)

@@ -1,0 +1,98 @@
+"""The program's figures, drawn by gnuplot: .svg, .pdf or .png, with script and data beside them."""
+
+import os
+from typing import Any, Dict, Iterable, List, Optional, Tuple, Union
+
+from ._errors import BadInput
+from ._native import call, ffi, lib, options_of, path_bytes, strings
+from ._quantities import units_of
+
+Path = Union[str, "os.PathLike[str]"]
+
+KINDS: Dict[str, int] = {
+    "path": lib.FST_FIGURE_PATH,
+    "local-n": lib.FST_FIGURE_LOCAL_N,
+    "radius-field": lib.FST_FIGURE_RADIUS_FIELD,
+    "time": lib.FST_FIGURE_TIME,
+    "section": lib.FST_FIGURE_SECTION,
+    "ramp": lib.FST_FIGURE_RAMP,
+}
+
+
+def set_options(options: Any, given: Dict[str, Any], where: str) -> List[Any]:
+    """Set fields of a struct of options by name; returns what must stay alive with it.
+
+    `begin` and `end` are the fields `from` and `to`, for `from` is a word of Python.
+    """
+    names = {name: field.type for name, field in ffi.typeof(options).item.fields}
+    hidden = {"cookie", "progress", "kind", "keys"}
+    kept: List[Any] = []
+    for word, value in given.items():
+        name = {"begin": "from", "end": "to"}.get(word, word)
+        if name not in names or name in hidden:
+            usable = [{"from": "begin", "to": "end"}.get(n, n) for n in names if n not in hidden]
+            raise BadInput(where, f'unknown option "{word}"; there are {", ".join(usable)}')
+        if value is None:
+            continue
+        if name == "units":
+            value = units_of(value)
+        elif isinstance(value, (str, os.PathLike)):
+            value = ffi.new("char[]", os.fsencode(value))
+            kept.append(value)
+        setattr(options, name, value)
+    return kept
+
+
+def trajectory(
+    samples: Any, path: Path, kind: str, *, keys: Iterable[str] = (), **given: Any
+) -> None:
+    """See Trajectory.figure()."""
+    options = options_of(lib.fst_default_figure_options())
+    if kind not in KINDS:
+        raise BadInput("fst_figure_options.kind", f'unknown kind "{kind}"; there are {", ".join(KINDS)}')
+    options.kind = KINDS[kind]
+    kept = set_options(options, given, "Trajectory.figure")
+    words = list(keys)
+    if len(words) > lib.FST_FIGURE_KEYS:
+        raise BadInput("fst_figure_options.keys", f"a figure shows at most {lib.FST_FIGURE_KEYS} columns")
+    for i, word in enumerate(words):
+        kept.append(ffi.new("char[]", word.encode()))
+        options.keys[i] = kept[-1]
+    table, arrays = samples._table()
+    call(lib.fst_figure_trajectory, table, path_bytes(path), options)
+    del arrays, kept
+
+
+def branch(
+    branches: Any, path: Path, observable: Optional[str], *, units: str = "given", dots: Iterable[Tuple[float, float]] = ()
+) -> None:
+    """See Branch.figure(); `dots` are pairs of abscissa and ordinate."""
+    pairs = [float(number) for pair in dots for number in pair]
+    name = observable or ("second" if branches.second_key else "mean_r")
+    call(
+        lib.fst_figure_branch,
+        branches._branch,
+        name.encode(),
+        units_of(units),
+        ffi.new("double[]", pairs) if pairs else ffi.NULL,
+        len(pairs) // 2,
+        path_bytes(path),
+    )
+
+
+def field(bead: Any, path: Path, units: str) -> None:
+    """See Bead.figure()."""
+    call(lib.fst_figure_field, bead._params, units_of(units), path_bytes(path))
+
+
+def sweep(database: Path, path: Path, keys: Iterable[str] = (), units: str = "given") -> None:
+    """Draw a sweep's database: curves of the keys over one axis, a map of one key over two."""
+    words, kept = strings(list(keys))
+    call(lib.fst_figure_sweep, path_bytes(database), words, len(kept), units_of(units), path_bytes(path))
+
+
+def points(results: Path, measured: Path, path: Path) -> Tuple[float, int, int]:
+    """Lay measured points over a sweep or a branch over the drive: (chi^2, numbers counted, numbers in all)."""
+    fit = ffi.new("fst_points_fit *")
+    call(lib.fst_figure_points, path_bytes(results), path_bytes(measured), path_bytes(path), fit)
+    return float(fit.chi2), int(fit.counted), int(fit.all)

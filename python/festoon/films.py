@@ -1,0 +1,70 @@
+"""Films of a trajectory, and the track of a bead in a film."""
+
+import os
+from typing import Any, Dict, Optional, Union
+
+from ._native import Watch, ffi, lib, options_of, path_bytes, text_of
+from ._progress import Progress
+from .figures import set_options
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+def movie(samples: Any, path: Path, progress: Progress, **given: Any) -> None:
+    """See Trajectory.movie()."""
+    options = options_of(lib.fst_default_film_options())
+    kept = set_options(options, given, "movie")
+    table, arrays = samples._table()
+    with Watch(progress, title="film") as watch:
+        options.progress = watch.told
+        watch.call(lib.fst_film, table, path_bytes(path), options)
+    del arrays, kept
+
+
+def _facts(struct: Any) -> Dict[str, Any]:
+    """The fields of a struct as Python objects."""
+    found: Dict[str, Any] = {}
+    for name, field in ffi.typeof(struct).item.fields:
+        value = getattr(struct, name)
+        if field.type.kind == "array":
+            is_text = field.type.item.cname == "char"
+            value = text_of(value) if is_text else ffi.unpack(value, len(value))
+            if not is_text and field.type.item.kind == "array":
+                value = [list(row) for row in value]
+        found[name] = value
+    return found
+
+
+def camera(samples: Any, path: Path, truth: Optional[Path], progress: Progress, **given: Any) -> Dict[str, Any]:
+    """See Trajectory.film()."""
+    options = options_of(lib.fst_default_camera_options())
+    kept = set_options(options, given, "film")
+    table, arrays = samples._table()
+    facts = ffi.new("fst_camera_facts *")
+    truth_path = ffi.NULL if truth is None else path_bytes(truth)
+    with Watch(progress, title="film") as watch:
+        options.progress = watch.told
+        watch.call(lib.fst_camera_film, table, path_bytes(path), truth_path, options, facts)
+    del arrays, kept
+    return _facts(facts)
+
+
+def track(film: Path, *, progress: Progress = None, **given: Any) -> Any:
+    """Find the bead in every frame of a film: a `Track`, whose `report` says what is known of the film.
+
+    Options: fps, scale ("bead 5 mm", "plate 460 mm", "X1,Y1:X2,Y2=50mm"), distance, and the files csv, overlay,
+    picture.
+    """
+    from .measuring import Track
+
+    options = options_of(lib.fst_default_film_track_options())
+    kept = set_options(options, given, "track")
+    found = ffi.gc(ffi.new("fst_track *"), lib.fst_track_free)
+    report = ffi.new("fst_film_track_report *")
+    with Watch(progress, title="track") as watch:
+        options.progress = watch.told
+        watch.call(lib.fst_film_track, path_bytes(film), options, found, report)
+    del kept
+    made = Track(found)
+    made.report = _facts(report)
+    return made

@@ -1,0 +1,322 @@
+"""Tracks of filmed beads, what is measured of them, and the parameters that follow."""
+
+import json
+import math
+import os
+from typing import Any, Dict, Iterable, List, Optional, Union
+
+import numpy as np
+
+from ._errors import BadInput
+from ._native import (
+    Watch,
+    call,
+    ffi,
+    lib,
+    options_of,
+    owned_array,
+    path_bytes,
+    strings,
+    take_text,
+    text_of,
+)
+from ._progress import Progress
+from ._quantities import quantity
+from ._tables import MEASURED, MeasuredNumbers
+from .bead import Bead, key_of
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+class Track:
+    """Where a filmed bead was, frame by frame; its arrays lie over the library's memory."""
+
+    #: What is known of the film that was tracked.
+    report: Optional[Dict[str, Any]]
+
+    def __init__(self, track: Any, understood: str = "") -> None:
+        self._track = track
+        self.report = None
+        #: How the file was understood: format, clock, unit, where y points.
+        self.understood = understood
+        self.length_unit = text_of(track.length_unit)
+
+    def _column(self, name: str, dtype: str) -> Any:
+        return owned_array(getattr(self._track, name), self._track.rows, dtype, self._track)
+
+    @property
+    def frame(self) -> Any:
+        """Numbers of the frames."""
+        return self._column("frame", "i8")
+
+    @property
+    def t(self) -> Any:
+        """Times, s; NaN: the file has no clock."""
+        return self._column("t", "f8")
+
+    @property
+    def x(self) -> Any:
+        """Places in `length_unit`, NaN where the bead was lost."""
+        return self._column("x", "f8")
+
+    @property
+    def y(self) -> Any:
+        """Places, upward."""
+        return self._column("y", "f8")
+
+    @property
+    def flag(self) -> Any:
+        """0: seen, 1: lost, 2: rejected."""
+        return self._column("flag", "u1")
+
+    @property
+    def fps(self) -> float:
+        """Frames a second."""
+        return float(self._track.fps)
+
+    def __len__(self) -> int:
+        return int(self._track.rows)
+
+    def save(self, path: Path) -> None:
+        """Write the track as festoon's CSV."""
+        call(lib.fst_track_write, path_bytes(path), self._track)
+
+    def __repr__(self) -> str:
+        return f"Track: {len(self)} frames, {self.fps:.6g} a second, in {self.length_unit}"
+
+
+def read_track(
+    path: Path,
+    *,
+    format: Optional[str] = None,
+    name: Optional[str] = None,
+    fps: Optional[float] = None,
+    scale: Union[None, float, str] = None,
+) -> Track:
+    """Read the track of a bead in any of the formats of `festoon measure`; `scale` is the length of one unit."""
+    options = options_of(lib.fst_default_track_options())
+    kept = []
+    for field, text in (("format", format), ("name", name)):
+        if text is not None:
+            kept.append(ffi.new("char[]", text.encode()))
+            setattr(options, field, kept[-1])
+    if fps is not None:
+        options.fps = fps
+    if scale is not None:
+        options.scale = quantity(scale, lib.FST_UNIT_LENGTH)
+    track = ffi.gc(ffi.new("fst_track *"), lib.fst_track_free)
+    understood = ffi.new("char **")
+    call(lib.fst_track_read, path_bytes(path), options, track, understood)
+    return Track(track, take_text(understood[0]) if understood[0] else "")
+
+
+class Measurement(MeasuredNumbers):
+    """What was measured of a track; lengths in `length_unit`, NaN where a number is unknown."""
+
+    def __init__(self, track: Track, found: Any) -> None:
+        self.track, self._found = track, found
+        self.length_unit = text_of(found.length_unit)
+        #: The centre of the path, in the axes of the file.
+        self.centre = tuple(found.centre)
+        self.frames, self.lost = int(found.frames), int(found.lost)
+        self.motion = ["turning", "locked", "unknown"][found.motion]
+        self.warnings = [text_of(found.warnings[i]) for i in range(found.warning_count)]
+
+    def _number(self, name: str) -> float:
+        return float(getattr(self._found, name))
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What `festoon measure --json` prints."""
+        text: Dict[str, Any] = json.loads(take_text(lib.fst_measurement_json(self._found)))
+        return text
+
+    def plot(self, kind: str = "path", **options: Any) -> Any:
+        """Draw the track with matplotlib; returns its Axes: see `festoon.plots.measurement`."""
+        from . import plots
+
+        return plots.measurement(self, kind, **options)
+
+    def figure(self, path: Path, compare: Optional[Bead] = None, progress: Progress = None) -> None:
+        """The program's figure of the track, with a bead's path laid over it."""
+        with Watch(progress, title="figure") as watch:
+            watch.call(
+                lib.fst_figure_measurement,
+                self.track._track,
+                self._found,
+                ffi.NULL if compare is None else compare._params,
+                path_bytes(path),
+                watch.told,
+            )
+
+    def __repr__(self) -> str:
+        lines = [f"Measurement: {self.motion}, {self.frames} frames, {self.lost} lost"]
+        for name, (unit, _) in MEASURED.items():
+            value = self._number(name)
+            if not name.endswith("_error") and not math.isnan(value):
+                error = self._number(f"{name}_error") if f"{name}_error" in MEASURED else math.nan
+                unit = self.length_unit if unit == "length" else unit
+                spread = "" if math.isnan(error) else f" +- {error:.2g}"
+                lines.append(f"  {name} = {value:.6g}{spread}" + ("" if unit == "1" else f" {unit}"))
+        return "\n".join([*lines, *(f"  warning: {text}" for text in self.warnings)])
+
+
+def measure(
+    track: Union[Track, Path],
+    *,
+    drive: Union[None, float, str] = None,
+    exposure: Union[None, float, str] = None,
+    progress: Progress = None,
+    **reading: Any,
+) -> Measurement:
+    """Measure a track: mean radius and its deviation, frequencies, festoons, each with an error.
+
+    `drive` is in Hz or with a unit, negative where the magnet turns clockwise; `exposure` in s.  Further keywords
+    are those of :func:`read_track`.
+    """
+    if not isinstance(track, Track):
+        track = read_track(track, **reading)
+    elif reading:
+        raise TypeError("format, name, fps and scale belong to the reading of a file")
+    options = options_of(lib.fst_default_measure_options())
+    if drive is not None:
+        options.drive = quantity(drive, lib.FST_UNIT_FREQUENCY)
+    if exposure is not None:
+        options.exposure = _seconds(exposure)
+    found = ffi.new("fst_measurement *")
+    with Watch(progress, title="measure") as watch:
+        options.progress = watch.told
+        watch.call(lib.fst_measure_track, track._track, options, found)
+    return Measurement(track, found)
+
+
+def _seconds(value: Union[float, str]) -> float:
+    """A time: a number in s, or a text with s, ms or us."""
+    if not isinstance(value, str):
+        return float(value)
+    for ending, factor in (("ms", 1e-3), ("us", 1e-6), ("s", 1.0)):
+        if value.strip().endswith(ending):
+            try:
+                return float(value.strip()[: -len(ending)]) * factor
+            except ValueError:
+                break
+    raise BadInput("exposure", f'"{value}" is no time: a number of seconds, or one with s, ms or us')
+
+
+# ---------------------------------------------------------------------------------------- fits
+
+
+class FitParameter:
+    """A parameter that was sought: `value`, `error` and `interval`, in SI."""
+
+    def __init__(self, parameter: Any) -> None:
+        self.key = text_of(parameter.key)
+        self.unit = text_of(lib.fst_unit_name(parameter.unit))
+        self.value = float(parameter.value)
+        self.error = float(parameter.error)
+        self.interval = (float(parameter.interval[0]), float(parameter.interval[1]))
+        self.bootstrap_error = float(parameter.bootstrap_error)
+
+    def __repr__(self) -> str:
+        unit = "" if self.unit == "1" else f" {self.unit}"
+        return f"{self.key} = {self.value:.6g} +- {self.error:.2g}{unit}"
+
+
+class Fit:
+    """Parameters that follow from measured points, and how well they are known."""
+
+    def __init__(self, fit: Any, points: Any, begun: Bead) -> None:
+        self._fit, self._points, self._begun = fit, points, begun
+        #: The bead with the values that were found.
+        self.bead = Bead._of(fit.params)
+        self.parameters = [FitParameter(fit.parameters[i]) for i in range(fit.free_count)]
+        #: A matrix in the order of the parameters.
+        self.correlation = np.array([list(row)[: fit.count] for row in fit.correlation[0 : fit.count]])[
+            : fit.free_count, : fit.free_count
+        ]
+        self.kappa_gamma2 = float(fit.kappa_gamma2)
+        self.kappa_gamma2_error = float(fit.kappa_gamma2_error)
+        self.chi2, self.dof, self.points = float(fit.chi2), int(fit.dof), int(fit.points)
+        self.error_scale = float(fit.error_scale)
+        self.weakest = text_of(fit.weakest)
+        self.remarks = text_of(fit.remarks)
+
+    def __getitem__(self, keyword: str) -> FitParameter:
+        for parameter in self.parameters:
+            if parameter.key == key_of(keyword):
+                return parameter
+        raise KeyError(keyword)
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What `festoon fit --json` prints."""
+        text: Dict[str, Any] = json.loads(take_text(lib.fst_fit_json(self._begun._params, self._fit)))
+        return text
+
+    def plot(self, y: Optional[str] = None, **options: Any) -> Any:
+        """Draw points over the model with matplotlib; returns the Axes: see `festoon.plots.fit`."""
+        from . import plots
+
+        return plots.fit(self, y, **options)
+
+    def figure(self, path: Path) -> None:
+        """The program's figure: points with errors over the model's curves; give the fit `curve_points`."""
+        if self._points is None:
+            raise BadInput("Fit.figure", "a fit to a track has no points to draw: festoon.measure() draws a track")
+        call(lib.fst_figure_fit, self._points, self._fit, path_bytes(path))
+
+    def __repr__(self) -> str:
+        lines = [f"Fit: chi^2 {self.chi2:.6g}, {self.dof} degrees of freedom"]
+        lines += [f"  {parameter!r}" for parameter in self.parameters]
+        return "\n".join([*lines, *(f"  {line}" for line in self.remarks.splitlines())])
+
+
+def fit(
+    points: Optional[Path] = None,
+    free: Iterable[str] = (),
+    given: Iterable[str] = (),
+    *,
+    track: Union[None, Track, Path] = None,
+    bead: Optional[Bead] = None,
+    drive: Union[None, float, str] = None,
+    exposure: Union[None, float, str] = None,
+    rivals: bool = False,
+    bootstrap: int = 0,
+    seed: int = 0,
+    curve_points: int = 0,
+    progress: Progress = None,
+) -> Fit:
+    """Find the parameters with which the model comes nearest to measured points, or to one track.
+
+    `free` are the parameters sought, by key or keyword; `given` is what is known otherwise, as in
+    "magnet.depth=16.2+-0.2 mm"; `bead` is where the search begins.
+    """
+    if (points is None) == (track is None):
+        raise BadInput("fit", "give a table of points, or a track")
+    bead = (bead or Bead())._asked()
+    options = options_of(lib.fst_default_fit_options())
+    free_words, kept_free = strings([key_of(word) for word in free])
+    given_words, kept_given = strings(list(given))
+    options.free, options.free_count = free_words, len(kept_free)
+    options.given, options.given_count = given_words, len(kept_given)
+    options.rivals, options.bootstrap, options.seed = rivals, bootstrap, seed
+    options.curve_points = curve_points
+    if drive is not None:
+        options.drive = quantity(drive, lib.FST_UNIT_FREQUENCY)
+    if exposure is not None:
+        options.exposure = _seconds(exposure)
+    found = ffi.gc(ffi.new("fst_fit *"), lib.fst_fit_free)
+    table: Any = None
+    if points is not None:
+        table = ffi.gc(ffi.new("fst_points *"), lib.fst_points_free)
+        call(lib.fst_points_read, path_bytes(points), table)
+    else:
+        track = track if isinstance(track, Track) else read_track(track)  # type: ignore[arg-type]
+    with Watch(progress, title="fit") as watch:
+        options.progress = watch.told
+        if table is not None:
+            watch.call(lib.fst_fit_points, bead._params, table, options, found)
+        else:
+            watch.call(lib.fst_fit_track, bead._params, track._track, options, found)  # type: ignore[union-attr]
+    return Fit(found, table, bead)
+
+
+__all__: List[str] = ["Fit", "FitParameter", "Measurement", "Track", "fit", "measure", "read_track"]

@@ -1,0 +1,491 @@
+"""Periodic orbits, locked states, their branches, Lyapunov spectra."""
+
+import json
+import os
+from typing import Any, Dict, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from ._errors import BadInput
+from ._native import (
+    Watch,
+    call,
+    dtype_of,
+    ffi,
+    lib,
+    options_of,
+    owned_array,
+    path_bytes,
+    strings,
+    take_text,
+    text_of,
+)
+from ._progress import Progress
+from ._quantities import quantity
+from .bead import Bead, key_of, keyword_of
+from .runs import SYMMETRIES, Run
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+def _names(function: Any, last: int) -> List[str]:
+    return [text_of(function(i)) for i in range(last + 1)]
+
+
+KINDS = _names(lib.fst_branch_kind_name, lib.FST_BRANCH_ALL)
+SPECIALS = _names(lib.fst_special_name, lib.FST_SPECIAL_GRAZING)
+ENDS = _names(lib.fst_end_name, lib.FST_END_LOST)
+
+
+def _choose(word: str, names: Sequence[str], where: str) -> int:
+    if word in names:
+        return names.index(word)
+    nearest = ffi.new("char[]", 64)
+    lib.fst_nearest_name(str(word).encode(), "|".join(names).encode(), nearest, 64)
+    raise BadInput(where, f'unknown name "{word}"; did you mean {text_of(nearest)}? (names: {", ".join(names)})')
+
+
+def _complex(re: Any, im: Any) -> Any:
+    return np.array(list(re)) + 1j * np.array(list(im))
+
+
+# ---------------------------------------------------------------------------------------- orbits
+
+
+class Orbit(Run):
+    """A periodic orbit of the turning frame; its numbers are those of a run over one period."""
+
+    #: Further stable patterns with the same number of festoons.
+    others: "List[Orbit]"
+
+    def __init__(self, bead: Bead, orbit: Any) -> None:
+        super().__init__(bead, ffi.new("fst_run_result *", orbit.means))
+        self._orbit = orbit
+        self.others = []
+
+    @property
+    def symmetry(self) -> Optional[str]:
+        """S1, S2 or None."""
+        return SYMMETRIES[int(self._orbit.symmetry)]
+
+    @property
+    def turns(self) -> int:
+        """Turns of Phi in the period: -1 for counter-rotation, 0 for a libration."""
+        return int(self._orbit.turns)
+
+    @property
+    def stable(self) -> bool:
+        """Whether all multipliers lie inside the unit circle."""
+        return bool(self._orbit.stable)
+
+    @property
+    def multipliers(self) -> Any:
+        """Floquet multipliers, of the half map for S2, otherwise of the full one."""
+        return _complex(self._orbit.multiplier_re, self._orbit.multiplier_im)
+
+    @property
+    def relaxation_time(self) -> float:
+        """In which a small disturbance falls by a factor e, 1/gamma; NaN: unstable."""
+        return float(self._orbit.relaxation_time)
+
+    @property
+    def swing_ratio(self) -> float:
+        """The paper's p; NaN where r does not fall twice in a turn."""
+        return float(self._orbit.swing_ratio)
+
+    @property
+    def residual(self) -> float:
+        """The greatest component of the residual of Newton's equations."""
+        return float(self._orbit.residual)
+
+    @property
+    def state(self) -> Any:
+        """The state on Phi = pi/2, passed downward."""
+        return np.array(list(self._orbit.state))
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What `festoon orbit --json` prints."""
+        others, _ = _orbit_array([other._orbit for other in self.others])
+        text: Dict[str, Any] = json.loads(
+            take_text(lib.fst_orbit_json(self.bead._params, self._orbit, others, len(self.others)))
+        )
+        return text
+
+    def plot(self, colour: str = "n_z", **options: Any) -> Any:
+        """Draw the orbit with matplotlib; returns its Axes: see `festoon.plots.orbit`."""
+        from . import plots
+
+        return plots.orbit(self, colour, **options)
+
+    def __repr__(self) -> str:
+        stable = "stable" if self.stable else "unstable"
+        return f"Orbit: {stable}, {self.symmetry}, period {self.period:.9g}, <r> {self.mean_r:.9g}"
+
+
+def _orbit_array(orbits: List[Any]) -> Tuple[Any, Any]:
+    if not orbits:
+        return ffi.NULL, None
+    made = ffi.new("fst_orbit[]", len(orbits))
+    for i, orbit in enumerate(orbits):
+        made[i] = orbit[0]
+    return made, made
+
+
+def orbit(bead: Bead, festoons: Optional[float], progress: Progress) -> Orbit:
+    """See Bead.orbit()."""
+    if festoons is None:
+        found = ffi.new("fst_orbit *")
+        with Watch(progress, title="orbit") as watch:
+            watch.call(lib.fst_orbit_find, bead._params, watch.told, found)
+        return Orbit(bead, found)
+    patterns = ffi.new("fst_festoon_list *")
+    with Watch(progress, title="orbit") as watch:
+        watch.call(lib.fst_festoons_find, bead._params, festoons, watch.told, patterns)
+    patterns = ffi.gc(patterns, lib.fst_festoons_free)
+    orbits = [
+        Orbit(bead.replace(omega=patterns.omegas[i]), ffi.new("fst_orbit *", patterns.orbits[i]))
+        for i in range(patterns.count)
+    ]
+    orbits[0].others = orbits[1:]
+    return orbits[0]
+
+
+# ---------------------------------------------------------------------------------------- locked states
+
+
+class Locked:
+    """A state in which the bead goes round with the magnet."""
+
+    def __init__(self, state: Any, owner: Any) -> None:
+        self._state, self._owner = state, owner
+
+    @property
+    def r(self) -> float:
+        """Distance from the axis, l."""
+        return float(self._state.r)
+
+    @property
+    def phi_deg(self) -> float:
+        """Phi, degrees; NaN on the axis."""
+        return float(self._state.bead_angle_deg)
+
+    @property
+    def stable(self) -> bool:
+        """Whether all eigenvalues have negative real parts."""
+        return bool(self._state.stable)
+
+    @property
+    def slip(self) -> float:
+        """Speed of the contact point, l gamma."""
+        return float(self._state.slip)
+
+    @property
+    def friction_power(self) -> float:
+        """<f.V> per mass."""
+        return float(self._state.friction_power)
+
+    @property
+    def eigenvalues(self) -> Any:
+        """Of the linearised motion, gamma."""
+        return _complex(self._state.eigenvalue_re, self._state.eigenvalue_im)
+
+    @property
+    def state(self) -> Any:
+        """X Y vX vY nX nY nZ WX WY WZ."""
+        return np.array(list(self._state.state))
+
+    @property
+    def n(self) -> Any:
+        """Direction of the moment in the turning frame."""
+        return self.state[lib.FST_NX : lib.FST_NZ + 1]
+
+    @property
+    def w(self) -> Any:
+        """Angular velocity in the turning frame."""
+        return self.state[lib.FST_WX : lib.FST_WZ + 1]
+
+    def __repr__(self) -> str:
+        stable = "stable" if self.stable else "unstable"
+        return f"Locked: r {self.r:.6g}, Phi {self.phi_deg:.6g} deg, {stable}"
+
+
+class RollingLock:
+    """An end of a family of locked states that roll without slipping."""
+
+    def __init__(self, lock: Any, owner: Any) -> None:
+        self._lock, self._owner = lock, owner
+        self.r = float(lock.r)
+        self.phi_deg = float(lock.bead_angle_deg)
+        #: |f|/(mu_s N)
+        self.use = float(lock.use)
+        #: Why the family ends here: cone, lifted, spin, radius, closed or lost.
+        self.end = text_of(lib.fst_rolling_end_name(lock.end))
+        self.state = np.array(list(lock.state))
+
+    def __repr__(self) -> str:
+        return f"RollingLock: r {self.r:.6g}, Phi {self.phi_deg:.6g} deg, {self.end}"
+
+
+class LockedStates(Sequence[Locked]):
+    """Every locked state at one drive, stable ones first."""
+
+    def __init__(self, bead: Bead, states: Any) -> None:
+        self.bead, self._list = bead, states
+        #: Families of states that roll, under dry friction, as pairs of ends.
+        self.families = [
+            (RollingLock(getattr(family, "from"), states), RollingLock(family.to, states))
+            for family in (states.families[i] for i in range(states.family_count))
+        ]
+        self.starts = int(states.starts)
+        self.index_sum = int(states.index_sum)
+        self.truncated = bool(states.truncated)
+
+    def __len__(self) -> int:
+        return int(self._list.count)
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return [self[i] for i in range(*index.indices(len(self)))]
+        place = index + len(self) if index < 0 else index
+        if not 0 <= place < len(self):
+            raise IndexError(index)
+        return Locked(self._list.states[place], self._list)
+
+    @property
+    def stable(self) -> List[Locked]:
+        """The stable ones."""
+        return [state for state in self if state.stable]
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What `festoon locked --json` prints."""
+        text: Dict[str, Any] = json.loads(
+            take_text(lib.fst_locked_json(self.bead._params, self.bead.omega, self._list))
+        )
+        return text
+
+    def __repr__(self) -> str:
+        return "\n".join(repr(state) for state in self) or "no locked states"
+
+
+def locked(bead: Bead, progress: Progress) -> LockedStates:
+    """See Bead.locked()."""
+    found = ffi.new("fst_locked_list *")
+    with Watch(progress, title="locked") as watch:
+        watch.call(lib.fst_locked_find, bead._params, watch.told, found)
+    return LockedStates(bead, ffi.gc(found, lib.fst_locked_free))
+
+
+# ---------------------------------------------------------------------------------------- branches
+
+
+class Special:
+    """A special point of a branch: fold, pitchfork, period-doubling, hopf, ..."""
+
+    def __init__(self, special: Any, parameter: str, owner: Any) -> None:
+        self._special, self._owner = special, owner
+        self.type = SPECIALS[special.type]
+        self.parameter = parameter
+        self.value = float(special.value)
+        self.omega = float(special.omega)
+        self.branch = int(special.branch)
+        #: supercritical, subcritical, or None where it is undecided or meaningless
+        self.criticality = {1: "supercritical", -1: "subcritical"}.get(int(special.criticality))
+        #: The branch that leaves here, or None.
+        self.born = int(special.born) if special.born >= 0 else None
+
+    @property
+    def state(self) -> Any:
+        """X Y vX vY nX nY nZ WX WY WZ."""
+        return np.array(list(self._special.at.state))
+
+    def __repr__(self) -> str:
+        return f"Special: {self.type} at {self.parameter} = {self.value:.9g}, branch {self.branch}"
+
+
+class BranchEnd:
+    """An end of a branch, and why it ends there."""
+
+    def __init__(self, end: Any) -> None:
+        self.branch = int(end.branch)
+        self.type = ENDS[end.type]
+        self.value = float(end.value)
+        self.reason = text_of(end.reason)
+        self.family = int(end.family) if end.family >= 0 else None
+        self.image = int(end.image) if end.image >= 0 else None
+
+    def __repr__(self) -> str:
+        return f"BranchEnd: branch {self.branch} at {self.value:.9g}, {self.type}: {self.reason}"
+
+
+class Branch:
+    """Families of orbits or of locked states over a parameter.
+
+    `points` is an array over the library's memory, its fields those of fst_branch_point: value, omega, mean_r,
+    stable, branch, ...; the fields are attributes too.
+    """
+
+    def __init__(self, branch: Any, bead: Optional[Bead]) -> None:
+        self._branch = branch
+        #: The bead, None of a branch that was read from a file.
+        self.bead = bead
+        self.kind = KINDS[branch.kind]
+        self.key = text_of(branch.key)
+        self.second_key = text_of(branch.second_key) or None
+        self.range = (float(getattr(branch, "from")), float(branch.to))
+        self.complete = bool(branch.complete)
+        self.points = owned_array(branch.points, branch.point_count, dtype_of("fst_branch_point"), branch)
+        self.specials = [
+            Special(branch.specials[i], self.key, branch) for i in range(branch.special_count)
+        ]
+        self.ends = [BranchEnd(branch.ends[i]) for i in range(branch.end_count)]
+        self.count = int(branch.branches)
+
+    def __getattr__(self, name: str) -> Any:
+        points = self.__dict__.get("points")
+        if points is None or name not in points.dtype.names:
+            raise AttributeError(name)
+        return points[name]
+
+    def __dir__(self) -> List[str]:
+        return [*super().__dir__(), *self.points.dtype.names]
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def __iter__(self) -> Iterator[Any]:
+        """The points of each branch, an array each."""
+        for number in range(self.count):
+            yield self.points[self.points["branch"] == number]
+
+    @property
+    def keyword(self) -> str:
+        """The parameter as a keyword."""
+        return keyword_of(self.key)
+
+    @property
+    def multipliers(self) -> Any:
+        """Multipliers or eigenvalues of each point, NaN beyond their number."""
+        values = self.points["multiplier_re"] + 1j * self.points["multiplier_im"]
+        values[np.arange(values.shape[1]) >= self.points["multipliers"][:, None]] = np.nan
+        return values
+
+    def save(self, path: Path) -> None:
+        """Write the branch as JSON, which the program and festoon.read() read."""
+        bead = self.bead or Bead()
+        call(lib.fst_branch_write, path_bytes(path), bead._params, self._branch)
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What `festoon branch --json` prints."""
+        bead = self.bead or Bead()
+        text: Dict[str, Any] = json.loads(take_text(lib.fst_branch_json(bead._params, self._branch)))
+        return text
+
+    def plot(self, y: str = "mean_r", **options: Any) -> Any:
+        """Draw the branch with matplotlib; returns its Axes: see `festoon.plots.branch`."""
+        from . import plots
+
+        return plots.branch(self, y, **options)
+
+    def figure(self, path: Path, observable: Optional[str] = None, **options: Any) -> None:
+        """The program's figure as .svg, .pdf or .png."""
+        from . import figures
+
+        figures.branch(self, path, observable, **options)
+
+    def __repr__(self) -> str:
+        head = f"Branch: {self.kind} over {self.key}, {len(self)} points on {self.count} branches"
+        head += "" if self.complete else " (interrupted)"
+        return "\n".join([head, *(f"  {special!r}" for special in self.specials)])
+
+
+def _range(key: str, value: Any) -> Tuple[float, float]:
+    place = lib.fst_param_find(key.encode())
+    if place < 0:
+        # The sentence names the nearest key.
+        params = ffi.new("fst_params *", lib.fst_default_params())
+        call(lib.fst_params_set, params, key.encode(), b"0")
+    try:
+        low, high = value
+    except (TypeError, ValueError):
+        raise BadInput("branch", f"{keyword_of(key)} must be a range (LO, HI)") from None
+    unit = lib.fst_param_at(place).unit
+    return quantity(low, unit), quantity(high, unit)
+
+
+def branch(bead: Bead, kind: str, progress: Progress, keywords: Mapping[str, Any]) -> Branch:
+    """See Bead.branch()."""
+    options = options_of(lib.fst_default_branch_options())
+    options.kind = _choose(kind, KINDS, "fst_branch_options.kind")
+    ranges: List[Tuple[str, Tuple[float, float]]] = []
+    for name, value in keywords.items():
+        if name == "special":
+            options.special = _choose(value, SPECIALS, "fst_branch_options.special")
+        elif name in ("tolerance", "follow"):
+            setattr(options, name, value)
+        elif name == "step":
+            options.longest_step = value
+        else:
+            ranges.append((key_of(name), _range(key_of(name), value)))
+    if not 1 <= len(ranges) <= 2:
+        raise BadInput("branch", "give the range of one parameter, as in omega=(0.15, 0.6), or of two")
+    words, kept = strings([key for key, _ in ranges])
+    options.key = words[0]
+    setattr(options, "from", ranges[0][1][0])
+    options.to = ranges[0][1][1]
+    if len(ranges) == 2:
+        options.second_key = words[1]
+        options.second_from, options.second_to = ranges[1][1]
+    found = ffi.gc(ffi.new("fst_branch *"), lib.fst_branch_free)
+    with Watch(progress, lambda: Branch(found, bead), "branch") as watch:
+        options.progress = watch.told
+        watch.call(lib.fst_branch_follow, bead._params, options, found)
+    del kept
+    return Branch(found, bead)
+
+
+def read_branch(path: Path) -> Branch:
+    """Read a branch from JSON."""
+    found = ffi.new("fst_branch *")
+    call(lib.fst_branch_read, path_bytes(path), found)
+    return Branch(ffi.gc(found, lib.fst_branch_free), None)
+
+
+# ---------------------------------------------------------------------------------------- Lyapunov exponents
+
+
+class Lyapunov:
+    """The spectrum of Lyapunov exponents, falling, in gamma."""
+
+    def __init__(self, bead: Bead, found: Any) -> None:
+        self.bead, self._found = bead, found
+        self.exponents = np.array(list(found.exponents))
+        self.errors = np.array(list(found.errors))
+        #: The greatest of the errors.
+        self.error = float(found.error)
+        self.converged = bool(found.converged)
+        #: The index of the exponent of the flow; None at an equilibrium.
+        self.flow_direction = int(found.flow_direction) if found.flow_direction >= 0 else None
+        #: The mean divergence of the flow, which equals the sum of the exponents.
+        self.divergence = float(found.divergence)
+        self.time = float(found.time)
+        count = found.trace_count
+        #: Running means of the exponents at the times `trace_time`.
+        self.trace_time = np.array(list(found.trace_time)[:count])
+        self.trace = np.array([list(row) for row in found.trace][:count])
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What `festoon lyapunov --json` prints."""
+        text: Dict[str, Any] = json.loads(take_text(lib.fst_lyapunov_json(self.bead._params, self._found)))
+        return text
+
+    def __repr__(self) -> str:
+        pairs = ", ".join(f"{x:.4g}+-{e:.2g}" for x, e in zip(self.exponents, self.errors))
+        return f"Lyapunov: {pairs}" + ("" if self.converged else " (not converged)")
+
+
+def lyapunov(bead: Bead, progress: Progress) -> Lyapunov:
+    """See Bead.lyapunov()."""
+    found = ffi.new("fst_lyapunov *")
+    with Watch(progress, title="lyapunov") as watch:
+        watch.call(lib.fst_lyapunov_find, bead._params, watch.told, found)
+    return Lyapunov(bead, found)

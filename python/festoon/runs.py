@@ -1,0 +1,238 @@
+"""One run, and what it says."""
+
+import json
+import math
+import os
+from typing import Any, Dict, List, Optional, Union
+
+import numpy as np
+
+from ._errors import BadInput
+from ._native import Watch, call, dtype_of, ffi, freed_array, lib, options_of, path_bytes, take_text, text_of
+from ._progress import Progress
+from ._quantities import Scales, quantity
+from ._tables import RESULTS, RunNumbers
+from .bead import Bead
+
+REGIMES = [text_of(lib.fst_regime_name(i)) for i in range(lib.FST_REGIME_LIFTED + 1)]
+SYMMETRIES: List[Optional[str]] = [text_of(lib.fst_symmetry_name(i)) or None for i in range(3)]
+
+
+class RunIn(RunNumbers):
+    """The numbers of a run in other units."""
+
+    def __init__(self, run: "Run", units: str) -> None:
+        self._run = run
+        self._scales = Scales(run.bead._params, units)
+
+    def _number(self, name: str) -> float:
+        return self._run._number(name) * self._scales.factor(RESULTS[name][0])[0]
+
+    def unit(self, name: str) -> str:
+        """The unit of a number here."""
+        return self._scales.factor(RESULTS[name][0])[1]
+
+    def __repr__(self) -> str:
+        return _listing(self, {name: self.unit(name) for name in RESULTS})
+
+
+def _listing(numbers: RunNumbers, units: Dict[str, str]) -> str:
+    lines = []
+    for name in RESULTS:
+        value = getattr(numbers, name)
+        if not math.isnan(value):
+            lines.append(f"  {name} = {value:.9g}" + (f" {units[name]}" if units[name] != "1" else ""))
+    return "\n".join(lines)
+
+
+class Run(RunNumbers):
+    """The result of a run.  Numbers are scaled (l, 1/gamma, B0); `si` and `lab` have them in other units."""
+
+    #: The bead that ran.
+    bead: Bead
+    #: The samples, a `Trajectory`; None where none was asked for.
+    trajectory: Any
+    #: The means of each piece of a ramp, an array with names; None: no ramp.
+    ramp: Any
+    #: False: the run was interrupted.
+    complete: bool
+
+    def __init__(
+        self, bead: Bead, result: Any, trajectory: Any = None, ramp: Any = None, complete: bool = True
+    ) -> None:
+        self.bead = bead
+        self._result = result
+        self.trajectory = trajectory
+        self.ramp = ramp
+        self.complete = complete
+
+    def _number(self, name: str) -> float:
+        return float(getattr(self._result, name))
+
+    @property
+    def regime(self) -> str:
+        """counter-rotating, corotating, locked, librating, chaotic, ejected, lifted or undecided."""
+        return REGIMES[int(self._result.regime)]
+
+    @property
+    def symmetry(self) -> Optional[str]:
+        """S1, S2 or None."""
+        return SYMMETRIES[int(self._result.symmetry)]
+
+    @property
+    def reason(self) -> str:
+        """Why this regime: the criterion and its numbers."""
+        return text_of(self._result.reason)
+
+    @property
+    def never_slips(self) -> Optional[bool]:
+        """Dry friction: whether the contact stuck all the time of the means; None: other laws."""
+        return None if self._result.never_slips < 0 else bool(self._result.never_slips)
+
+    @property
+    def rhs_calls(self) -> int:
+        """Evaluations of the equations of motion."""
+        return int(self._result.rhs_calls)
+
+    @property
+    def steps(self) -> int:
+        """Accepted steps."""
+        return int(self._result.accepted)
+
+    @property
+    def returns(self) -> int:
+        """Half turns of Phi in the window of the means."""
+        return int(self._result.returns)
+
+    @property
+    def final_state(self) -> Any:
+        """The state at the end: X Y vX vY nX nY nZ WX WY WZ."""
+        return np.array(list(self._result.final_state))
+
+    @property
+    def si(self) -> RunIn:
+        """The same numbers in SI units."""
+        return RunIn(self, "si")
+
+    @property
+    def lab(self) -> RunIn:
+        """The same numbers in the units of a laboratory: Hz, mm, s, mT."""
+        return RunIn(self, "lab")
+
+    def in_units(self, units: str) -> RunIn:
+        """The same numbers in given, lab, scaled or si units."""
+        return RunIn(self, units)
+
+    def to_dict(self) -> Dict[str, Any]:
+        """What `festoon run --json` prints."""
+        count = 0 if self.ramp is None else len(self.ramp)
+        points = ffi.from_buffer("fst_ramp_point[]", self.ramp) if count else ffi.NULL
+        text: Dict[str, Any] = json.loads(
+            take_text(lib.fst_run_json(self.bead._params, self._result, points, count))
+        )
+        return text
+
+    def __repr__(self) -> str:
+        head = f"Run: {self.regime}" + (f", {self.symmetry}" if self.symmetry else "")
+        head += "" if self.complete else " (interrupted)"
+        return head + "\n" + _listing(self, {name: row[0] for name, row in RESULTS.items()})
+
+    def _repr_html_(self) -> str:
+        from . import _cards
+
+        return _cards.run_card(self)
+
+
+def _ramp_ends(bead: Bead, ramp: Any, options: Any) -> None:
+    factor = 2 * math.pi / bead.gamma
+    try:
+        ends = [quantity(end, lib.FST_UNIT_FREQUENCY) * factor for end in ramp]
+    except TypeError:
+        ends = []
+    if len(ends) != 2:
+        raise BadInput("ramp", "it must be (FROM, TO), as in (7, 20) or ('420 rpm', '1200 rpm')")
+    for end, name in zip(ends, ("ramp_from", "ramp_to")):
+        bead.replace(omega=end)  # refuses what is out of range
+        setattr(options, name, end)
+
+
+def _file(trajectory: Any, bead: Bead, samples: Any) -> None:
+    made = ffi.new("fst_trajectory **")
+    call(lib.fst_trajectory_create, path_bytes(trajectory), bead._params, made)
+    samples.file = made[0]
+
+
+def _close(samples: Any, result: Any, complete: bool) -> None:
+    file, samples.file = samples.file, ffi.NULL
+    if file:
+        call(lib.fst_trajectory_close, file, result, complete)
+
+
+def _finished(bead: Bead, result: Any, samples: Any, options: Any, wanted: bool, complete: bool) -> Run:
+    """The result, with the arrays that the run has filled; they own their memory from here on."""
+    from .trajectories import DTYPE, Trajectory
+
+    _close(samples, result, complete)
+    values, samples.values = samples.values, ffi.NULL
+    trajectory = ramp = None
+    if wanted:
+        trajectory = Trajectory._of(freed_array(values, samples.rows, DTYPE), bead, complete)
+    points, samples.ramp = samples.ramp, ffi.NULL
+    if not math.isnan(options.ramp_from):
+        ramp = freed_array(points, samples.ramp_count, dtype_of("fst_ramp_point"))
+    return Run(bead, result, trajectory, ramp, complete)
+
+
+def run(
+    bead: Bead,
+    *,
+    trajectory: Union[bool, str, "os.PathLike[str]"],
+    fps: Optional[float],
+    sample_from: float,
+    start: Any,
+    ramp: Any,
+    ramp_points: Optional[int],
+    ramp_wait: Optional[float],
+    ramp_disturbance: Optional[float],
+    progress: Progress,
+) -> Run:
+    """See Bead.run()."""
+    result = ffi.new("fst_run_result *")
+    samples = ffi.new("pyf_samples *")
+    options = options_of(lib.fst_default_run_options())
+    options.sink.user = samples
+    options.sink.ramp_point = ffi.addressof(lib, "pyf_take_ramp_point")
+    if trajectory is not False:
+        options.sink.sample = ffi.addressof(lib, "pyf_take_sample")
+    options.sample_from = sample_from
+    if fps is not None:
+        options.sample_spacing = bead.gamma / fps
+    if start is not None:
+        state = ffi.new("double[]", [float(x) for x in start])
+        if len(state) != lib.FST_STATE_SIZE:
+            raise BadInput("start", f"a state has {lib.FST_STATE_SIZE} numbers, not {len(state)}")
+        options.start = state
+    if ramp is not None:
+        _ramp_ends(bead, ramp, options)
+    for name, value in (
+        ("ramp_points", ramp_points),
+        ("ramp_wait", ramp_wait),
+        ("ramp_disturbance", ramp_disturbance),
+    ):
+        if value is not None:
+            setattr(options, name, value)
+    in_memory = trajectory is True
+    if not isinstance(trajectory, bool):
+        _file(trajectory, bead, samples)
+    try:
+        with Watch(
+            progress, lambda: _finished(bead, result, samples, options, in_memory, False), "run"
+        ) as watch:
+            options.progress = watch.told
+            watch.call(lib.fst_run, bead._params, options, result)
+            return _finished(bead, result, samples, options, in_memory, True)
+    finally:
+        if samples.file:
+            lib.fst_trajectory_discard(samples.file)
+        lib.pyf_free(samples.values)
+        lib.pyf_free(samples.ramp)

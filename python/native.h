@@ -1,0 +1,53 @@
+/* native.h - the part of the Python module that is written in C, because Python is never in the inner loop: a
+ * buffer of samples, a batch of runs, a tell() that seldom bothers Python, the field at many points.
+ */
+#ifndef FESTOON_PYTHON_NATIVE_H
+#define FESTOON_PYTHON_NATIVE_H
+
+#include <festoon/festoon_tools.h>
+
+/* A tell() that calls Python at most every few hundredths of a second.  `last` begins with 0. */
+typedef struct pyf_watch {
+    double last; /* when Python was called, s */
+    void *handle;
+} pyf_watch;
+fst_status pyf_tell(void *watch, double fraction, const char *what, fst_error *error);
+
+/* What a run leaves: rows of all columns, ramp points, and the file (NULL: none) into which samples go
+ * instead.  Begin with {0}; the arrays are free()d one by one, by pyf_free(). */
+typedef struct pyf_samples {
+    double *values;
+    size_t rows, room;
+    fst_ramp_point *ramp;
+    size_t ramp_count, ramp_room;
+    fst_trajectory *file;
+} pyf_samples;
+fst_status pyf_take_sample(void *samples, const fst_sample *sample, fst_error *error);
+fst_status pyf_take_ramp_point(void *samples, const fst_ramp_point *point, fst_error *error);
+void pyf_free(void *memory);
+
+/* A row of a batch.  `status` is -1 as long as the run is not done. */
+typedef struct pyf_row {
+    fst_run_result result;
+    int status;
+    fst_error *error; /* of a run that failed, otherwise NULL */
+} pyf_row;
+
+/* The runs of a grid, done by any number of threads, each with a call of pyf_batch_work().  The grid must live
+ * as long as the batch is at work.  NULL: no memory. */
+typedef struct pyf_batch pyf_batch;
+pyf_batch *pyf_batch_new(const fst_grid *grid, fst_arithmetic arithmetic, int lanes);
+void pyf_batch_free(pyf_batch *batch);
+fst_status pyf_batch_work(pyf_batch *batch, fst_error *error);
+/* Make all of them return within a tenth of a second, with FST_INTERRUPTED. */
+void pyf_batch_stop(pyf_batch *batch);
+int64_t pyf_batch_done(const pyf_batch *batch);
+pyf_row *pyf_batch_rows(pyf_batch *batch);
+
+/* Keep the error of a row that failed; 0: no memory. */
+int pyf_row_fail(pyf_row *row, const char *where, const char *sentence);
+
+/* The field at `count` points: 3 numbers of b and 9 of grad for each. */
+void pyf_field(const fst_model *model, size_t count, const double *x, const double *y, double *b, double *grad);
+
+#endif

@@ -1,0 +1,127 @@
+"""The program's figures and films through the library."""
+
+import struct
+import subprocess
+
+import numpy as np
+import pytest
+
+import festoon as fs
+
+TURNING = {"run__periods": 40, "run__discard": 20}
+
+
+@pytest.fixture(scope="module")
+def samples():
+    return fs.Bead(**TURNING).run(trajectory=True).trajectory
+
+
+def needs(word):
+    if f"{word} yes" not in fs.components:
+        pytest.skip(f"there is no {word}")
+
+
+@pytest.mark.parametrize("kind", ["path", "local-n", "radius-field", "time", "section"])
+def test_figure_of_a_trajectory(samples, kind, tmp_path, program):
+    """The data of the figure are those of the program's."""
+    needs("gnuplot")
+    samples.figure(tmp_path / "ours.svg", kind=kind)
+    words = ["--set", "run.periods=40", "--set", "run.discard=20"]
+    subprocess.run([program, "run", *words, "-o", tmp_path / "run.h5"], check=True, capture_output=True)
+    subprocess.run([program, "plot", tmp_path / "run.h5", "--kind", kind, "-o", tmp_path / "theirs.svg"],
+                   check=True, capture_output=True)
+    assert (tmp_path / "ours.dat").read_bytes() == (tmp_path / "theirs.dat").read_bytes()
+    assert b"<svg" in (tmp_path / "ours.svg").read_bytes()
+
+
+def test_options_of_figures(samples, tmp_path):
+    needs("gnuplot")
+    samples.figure(tmp_path / "path.png", colour="n_z", begin=25, end=30, title="one", zoom=[-30, 30, -30, 30])
+    samples.figure(tmp_path / "time.svg", kind="time", keys=["r", "n_z"], units="lab")
+    for kind, options, words in (
+        ("path", {"color": "r"}, "unknown option"),
+        ("pfad", {}, "unknown kind"),
+        ("time", {"keys": ["rr"]}, "rr"),
+    ):
+        with pytest.raises(fs.BadInput, match=words):
+            samples.figure(tmp_path / "none.svg", kind=kind, **options)
+    assert not (tmp_path / "none.svg").exists()
+
+
+def test_figures_of_branches_fields_and_sweeps(tmp_path):
+    needs("gnuplot")
+    branch = fs.Bead().branch(omega=(0.24, 0.28))
+    branch.figure(tmp_path / "branch.svg", "festoons")
+    fs.Bead().figure(tmp_path / "field.svg")
+    fs.sweep(fs.Bead(run__periods=20), frequency="9:11:5", file=tmp_path / "sweep.db")
+    fs.figures.sweep(tmp_path / "sweep.db", tmp_path / "sweep.svg", ["mean_r"])
+    for name in ("branch", "field", "sweep"):
+        assert b"</svg>" in (tmp_path / f"{name}.svg").read_bytes()
+
+
+def test_movie(tmp_path):
+    needs("cairo")
+    fs.Bead(run__discard=5).movie(tmp_path / "frames", periods=1, width=200, height=200, fps=10)
+    frames = sorted((tmp_path / "frames").glob("*.png"))
+    assert len(frames) >= 10
+    assert struct.unpack(">II", frames[0].read_bytes()[16:24]) == (200, 200)
+    with pytest.raises(fs.BadInput):
+        fs.Bead().movie(tmp_path / "odd.mp4", periods=1, width=201)
+
+
+def test_film_and_track(samples, tmp_path):
+    """A camera's film of a run, tracked, gives the run's places."""
+    needs("cairo")
+    needs("ffmpeg")
+    facts = samples.film(tmp_path / "film.mp4", truth=tmp_path / "truth.csv", begin=20, end=26, width=640, height=360)
+    assert facts["frames"] > 50 and (tmp_path / "truth.csv").exists()
+    track = fs.track(tmp_path / "film.mp4", scale="bead 5 mm", csv=tmp_path / "track.csv")
+    assert track.report["frames"] == facts["frames"] == len(track) and track.report["lost"] == 0
+    r = np.hypot(track.x - track.x.mean(), track.y - track.y.mean())
+    assert 0 < r.max() < 60 and track.length_unit == "mm"
+    assert np.allclose(fs.read_track(tmp_path / "track.csv").x, track.x, atol=1e-3)
+
+
+def test_notebook_bar(monkeypatch):
+    """In a kernel the bar is HTML, and is gone at the end."""
+    display = pytest.importorskip("IPython.display")
+    shown = []
+
+    class Handle:
+        def update(self, html):
+            shown.append(html.data)
+
+    def show(html, display_id):
+        shown.append(html.data)
+        return Handle()
+
+    monkeypatch.setattr(display, "display", show)
+    monkeypatch.setattr("festoon._progress.in_notebook", lambda: True)
+    fs.Bead(run__periods=3000).run(progress=True)
+    assert shown[0].startswith("<progress") and shown[-1] == ""
+
+
+def test_terminal_bar():
+    """On a terminal a line with the time that is left, removed at the end."""
+    import os
+    import pty
+    import sys
+
+    from conftest import BUILD
+
+    leader, follower = pty.openpty()
+    code = "import festoon as fs; fs.sweep(fs.Bead(), frequency='9:12:200', progress=True)"
+    child = subprocess.Popen([sys.executable, "-B", "-c", code], stderr=follower,
+                             env={**os.environ, "PYTHONPATH": str(BUILD / "python")})
+    os.close(follower)
+    said = b""
+    try:
+        while data := os.read(leader, 4096):
+            said += data
+    except OSError:  # the other end is closed
+        pass
+    assert child.wait() == 0
+    os.close(leader)
+    assert b"of 200 runs [" in said and b" left" in said and said.endswith(b"\r\x1b[K")
+
+

@@ -1,0 +1,62 @@
+/* bead.c - the bead's mass and magnetic moment, of whatever tells them: directly, or by density and remanence.
+ */
+#include <math.h>
+
+#include "base/constants.h"
+#include "model/kinds.h"
+#include "model/params.h"
+
+/* The remanence in T of a bead beside a real magnet of which nothing is said: neodymium, as sold. */
+static const double USUAL_REMANENCE = 1.2;
+
+int fst_magnet_in_tesla(const fst_params *p)
+{
+    return p->magnet_shape == FST_MAGNET_PARTS || p->magnet_shape == FST_MAGNET_GRID;
+}
+
+/* R in m: of a scaled bead, model.eps, R/l tells it. */
+static double radius_of(const fst_params *p)
+{
+    return isnan(p->model_eps) ? p->bead_radius : p->model_eps * p->magnet_half_length;
+}
+
+static double volume_of(const fst_params *p)
+{
+    const double radius = radius_of(p);
+    return 4.0 / 3.0 * FST_PI * (radius * radius * radius);
+}
+
+double fst_bead_mass(const fst_params *p)
+{
+    return isnan(p->bead_density) ? p->bead_mass : p->bead_density * volume_of(p);
+}
+
+double fst_moment_unit(const fst_params *p)
+{
+    const int physical = fst_magnet_in_tesla(p) || !isnan(p->bead_density) || !isnan(p->bead_remanence);
+    const double radius = physical ? radius_of(p) : p->bead_radius;
+    return fst_bead_mass(p) * (radius * radius) * (p->friction_gamma * p->friction_gamma);
+}
+
+double fst_given_moment(const fst_params *p)
+{
+    double remanence = p->bead_remanence;
+    if (!isnan(p->bead_moment))
+        return p->bead_moment;
+    if (isnan(remanence) && fst_magnet_in_tesla(p) && !fst_kappa_given(p))
+        remanence = USUAL_REMANENCE;
+    return volume_of(p) * remanence / FST_MU_0;
+}
+
+double fst_field_unit(const fst_params *p)
+{
+    return isnan(p->magnet_b0) && fst_magnet_in_tesla(p) ? FST_PARTS_FIELD_UNIT : p->magnet_b0;
+}
+
+double fst_bead_moment(const fst_params *p)
+{
+    const double given = fst_given_moment(p);
+    if (p->bead_material == FST_MATERIAL_PARAMAGNETIC)
+        return 0.0;
+    return isnan(given) ? p->model_kappa * fst_moment_unit(p) / fst_field_unit(p) : given;
+}

@@ -1,0 +1,243 @@
+/* part_rows.c - the keys of a magnet's parts: one static table for all parts that a magnet may have, so that a
+ * number of a part is set, swept, fitted and compared like any parameter of params.def. */
+#include "model/part_rows.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "base/units.h"
+
+#define KINDS "cuboid|cylinder|sphere|dipole"
+
+#define NUMBER(i, name, unit, initial, least, greatest, doc)                                                   \
+    {                                                                                                          \
+        "magnet.parts[" #i "]." #name, FST_KIND_REAL, FST_UNIT_##unit, NULL, initial, least, greatest, doc,    \
+            offsetof(fst_params, magnet_parts[i].name)                                                         \
+    }
+#define CENTRE(i, k, axis)                                                                                     \
+    NUMBER(i, centre[k], LENGTH, NAN, -10.0, 10.0, "Centre of the part along " axis " of the magnet's frame.")
+#define REMANENCE(i, k, axis)                                                                                  \
+    NUMBER(i, remanence[k], FIELD, NAN, -10.0, 10.0,                                                           \
+           "Remanence along the part's own " axis "; not of a dipole.")
+#define MOMENT(i, k, axis)                                                                                     \
+    NUMBER(i, moment[k], MOMENT, NAN, -1e6, 1e6, "Magnetic moment of a dipole along its own " axis ".")
+#define TURN(i, k, axis)                                                                                       \
+    NUMBER(i, rotation[k], NUMBER, 0.0, -1e6, 1e6,                                                             \
+           "The axis about which the part is turned, its component along " axis ".")
+#define PART(i)                                                                                                \
+    {"magnet.parts[" #i "].kind",                                                                              \
+     FST_KIND_CHOICE,                                                                                          \
+     FST_UNIT_NUMBER,                                                                                          \
+     KINDS,                                                                                                    \
+     NAN,                                                                                                      \
+     0,                                                                                                        \
+     0,                                                                                                        \
+     "What the part is: a block, a cylinder, a sphere or a point dipole.",                                     \
+     offsetof(fst_params, magnet_parts[i].kind)},                                                              \
+        CENTRE(i, 0, "x"), CENTRE(i, 1, "y"), CENTRE(i, 2, "z"),                                               \
+        NUMBER(i, size[0], LENGTH, NAN, 1e-6, 10.0,                                                            \
+               "Edge of a cuboid along its own x; diameter of a cylinder or a sphere."),                       \
+        NUMBER(i, size[1], LENGTH, NAN, 1e-6, 10.0,                                                            \
+               "Edge of a cuboid along its own y; height of a cylinder, along its own z."),                    \
+        NUMBER(i, size[2], LENGTH, NAN, 1e-6, 10.0, "Edge of a cuboid along its own z."),                      \
+        REMANENCE(i, 0, "x"), REMANENCE(i, 1, "y"), REMANENCE(i, 2, "z"), MOMENT(i, 0, "x"),                   \
+        MOMENT(i, 1, "y"), MOMENT(i, 2, "z"),                                                                  \
+        NUMBER(i, rotation[0], ANGLE, 0.0, -1e6, 1e6,                                                          \
+               "Angle by which the part is turned about an axis through its centre."),                         \
+        TURN(i, 1, "x"), TURN(i, 2, "y"), TURN(i, 3, "z")
+
+static const fst_param_info rows[] = {PART(0),  PART(1),  PART(2),  PART(3), PART(4),  PART(5),
+                                      PART(6),  PART(7),  PART(8),  PART(9), PART(10), PART(11),
+                                      PART(12), PART(13), PART(14), PART(15)};
+_Static_assert(sizeof rows / sizeof rows[0] == FST_PART_ROWS, "a row for each key of each part");
+
+const fst_param_info *fst_part_row(int row)
+{
+    return &rows[row];
+}
+
+/* ------------------------------------------------------------------ what a kind has */
+
+enum { KIND_FIELD, CENTRE_FIELD, SIZE_FIELD = 4, REMANENCE_FIELD = 7, MOMENT_FIELD = 10, TURN_FIELD = 13 };
+
+static const struct {
+    const char *name, *sizes;
+    int size_count;
+} kinds[FST_PART_KINDS] = {
+    [FST_PART_CUBOID] = {"cuboid", "three sizes, its edges", 3},
+    [FST_PART_CYLINDER] = {"cylinder", "two sizes, its diameter and its height", 2},
+    [FST_PART_SPHERE] = {"sphere", "one size, its diameter", 1},
+    [FST_PART_DIPOLE] = {"dipole", "no size", 0},
+};
+
+const char *fst_part_kind_name(int kind)
+{
+    return kinds[kind].name;
+}
+
+int fst_part_has(int kind, int row)
+{
+    const int field = row % FST_PART_FIELDS;
+    if (field >= SIZE_FIELD && field < REMANENCE_FIELD)
+        return field - SIZE_FIELD < kinds[kind].size_count;
+    if (field >= REMANENCE_FIELD && field < MOMENT_FIELD)
+        return kind != FST_PART_DIPOLE;
+    if (field >= MOMENT_FIELD && field < TURN_FIELD)
+        return kind == FST_PART_DIPOLE;
+    return 1;
+}
+
+static fst_status has_not(int kind, int row, fst_error *error)
+{
+    const int field = row % FST_PART_FIELDS;
+    const char *key = rows[row].key;
+    if (field < REMANENCE_FIELD)
+        return fst_fail(error, FST_BAD_INPUT, key, "%s: a %s has %s", key, kinds[kind].name, kinds[kind].sizes);
+    if (field < MOMENT_FIELD)
+        return fst_fail(error, FST_BAD_INPUT, key, "%s: a dipole has no remanence: give its moment", key);
+    return fst_fail(error, FST_BAD_INPUT, key, "%s: a %s has no moment of its own: give its remanence", key,
+                    kinds[kind].name);
+}
+
+static const fst_magnet_part *part_of(const fst_params *params, int row)
+{
+    return &params->magnet_parts[row / FST_PART_FIELDS];
+}
+
+fst_status fst_part_may_set(const fst_params *params, int row, fst_error *error)
+{
+    const int part = row / FST_PART_FIELDS, count = params->magnet_part_count;
+    const int begins = row % FST_PART_FIELDS == KIND_FIELD && part == count;
+    if (part >= count && !begins)
+        return fst_fail(error, FST_BAD_INPUT, rows[row].key,
+                        "%s: the magnet has %d part%s, so there is no part %d: magnet.parts[%d].kind adds one",
+                        rows[row].key, count, count == 1 ? "" : "s", part, count);
+    if (!begins && !fst_part_has(part_of(params, row)->kind, row))
+        return has_not(part_of(params, row)->kind, row, error);
+    return FST_OK;
+}
+
+static double *number_of(fst_params *params, int row)
+{
+    return (double *)(void *)((char *)params + rows[row].offset);
+}
+
+static double value_of(const fst_params *params, int row)
+{
+    double value;
+    memcpy(&value, (const char *)params + rows[row].offset, sizeof value);
+    return value;
+}
+
+void fst_part_was_set(fst_params *params, int row)
+{
+    if (row % FST_PART_FIELDS != KIND_FIELD)
+        return;
+    const int part = row / FST_PART_FIELDS, kind = params->magnet_parts[part].kind;
+    const int begins = part == params->magnet_part_count;
+    params->magnet_part_count += begins;
+    for (int field = 1; field < FST_PART_FIELDS; ++field)
+        if (begins || !fst_part_has(kind, field))
+            *number_of(params, row + field) = 0.0;
+}
+
+/* ------------------------------------------------------------------ keys that are none */
+
+fst_status fst_part_unknown_key(const char *key, fst_error *error)
+{
+    static const char list[] = "magnet.parts";
+    char quoted[FST_QUOTE_SIZE], names[FST_PART_FIELDS * 40] = "", nearest[48], *end;
+    fst_quote(key, quoted);
+    const char *behind = key + strlen(list);
+    const long part = *behind == '[' ? strtol(behind + 1, &end, 10) : -1;
+    if (part < 0 || *end != ']' || end == behind + 1)
+        return fst_fail(
+            error, FST_BAD_INPUT, key,
+            "unknown key %s: a number of a part has a key such as magnet.parts[0].size[2], its kind "
+            "magnet.parts[0].kind",
+            quoted);
+    if (part >= FST_PARTS_MAX)
+        return fst_fail(error, FST_BAD_INPUT, key,
+                        "unknown key %s: a magnet has at most %d parts, magnet.parts[0] to magnet.parts[%d]",
+                        quoted, FST_PARTS_MAX, FST_PARTS_MAX - 1);
+    for (int field = 0; field < FST_PART_FIELDS; ++field) {
+        const size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "%s%s", used ? "|" : "",
+                       rows[(int)part * FST_PART_FIELDS + field].key);
+    }
+    fst_nearest_name(key, names, nearest, sizeof nearest);
+    return fst_fail(error, FST_BAD_INPUT, key, "unknown key %s; the nearest is %s", quoted, nearest);
+}
+
+/* ------------------------------------------------------------------ checking parts as a whole */
+
+static fst_status validate_number(const fst_params *params, int row, fst_error *error)
+{
+    const double value = value_of(params, row);
+    const fst_param_info *info = &rows[row];
+    const int kind = part_of(params, row)->kind;
+    if (!fst_part_has(kind, row))
+        return value == 0.0 ? FST_OK : has_not(kind, row, error);
+    if (value >= info->least && value <= info->greatest)
+        return FST_OK;
+    const int is_size = row % FST_PART_FIELDS >= SIZE_FIELD && row % FST_PART_FIELDS < REMANENCE_FIELD;
+    char shown[64], least[64], greatest[64];
+    (void)fst_value_write(shown, sizeof shown, value, info->unit);
+    (void)fst_value_write(least, sizeof least, info->least, info->unit);
+    (void)fst_value_write(greatest, sizeof greatest, info->greatest, info->unit);
+    return fst_fail(error, FST_BAD_INPUT, info->key, "%s = %s is out of range: it must be %s to %s%s%s%s%s%s",
+                    info->key, shown, least, greatest, is_size ? " (a " : "", is_size ? kinds[kind].name : "",
+                    is_size ? " has " : "", is_size ? kinds[kind].sizes : "", is_size ? ")" : "");
+}
+
+static fst_status validate_numbers(const fst_params *params, int part, fst_error *error)
+{
+    const fst_magnet_part *p = &params->magnet_parts[part];
+    const int first = part * FST_PART_FIELDS;
+    if (p->kind < 0 || p->kind >= FST_PART_KINDS)
+        return fst_fail(error, FST_BAD_INPUT, rows[first].key, "%s: no kind has the number %d (kinds: %s)",
+                        rows[first].key, p->kind, KINDS);
+    for (int field = 1; field < FST_PART_FIELDS; ++field) {
+        const fst_status status = validate_number(params, first + field, error);
+        if (status != FST_OK)
+            return status;
+    }
+    const double *turn = p->rotation;
+    if (turn[0] != 0.0 && turn[1] == 0.0 && turn[2] == 0.0 && turn[3] == 0.0)
+        return fst_fail(
+            error, FST_BAD_INPUT, rows[first + TURN_FIELD].key,
+            "magnet.parts[%d].rotation: a turn by %g degrees needs an axis: [degrees, x, y, z] with x, y "
+            "and z not all 0",
+            part, turn[0]);
+    return FST_OK;
+}
+
+fst_status fst_params_check_part(const fst_params *params, int part, fst_error *error)
+{
+    if (part < 0 || part >= params->magnet_part_count || part >= FST_PARTS_MAX)
+        return fst_fail(error, FST_BAD_INPUT, "magnet.parts", "the magnet has %d parts, and none is number %d",
+                        params->magnet_part_count, part);
+    const fst_status status = validate_numbers(params, part, error);
+    return status == FST_OK ? fst_part_lies_below(params, part, error) : status;
+}
+
+fst_status fst_parts_validate(const fst_params *params, fst_error *error)
+{
+    const int count = params->magnet_part_count;
+    if (count < 0 || count > FST_PARTS_MAX)
+        return fst_fail(error, FST_BAD_INPUT, "magnet.parts", "magnet_part_count is %d: it must be 0 to %d",
+                        count, FST_PARTS_MAX);
+    if (params->magnet_shape == FST_MAGNET_PARTS && count == 0)
+        return fst_fail(error, FST_BAD_INPUT, "magnet.parts",
+                        "magnet.shape is parts, but there are none: list them in magnet.parts, each with kind, "
+                        "centre, size and remanence");
+    fst_status status = FST_OK;
+    for (int part = 0; part < count && status == FST_OK; ++part)
+        status = params->magnet_shape == FST_MAGNET_PARTS ? fst_params_check_part(params, part, error)
+                                                          : validate_numbers(params, part, error);
+    return status;
+}
