@@ -50,6 +50,7 @@ static inline fst_params over_map(const fst_params *p, const fst_field_map *map)
     fst_params measured = *p;
     measured.magnet_shape = FST_MAGNET_GRID;
     measured.magnet_b0 = MAP_B0;
+    measured.model_kappa_given = 1; /* else the bead would be of neodymium */
     measured.magnet_map = map;
     return measured;
 }

@@ -132,28 +132,31 @@ static double length_before(const xml_file *file, const unsigned char *bytes)
     return length;
 }
 
-/* The numbers of a binary array, raw or in base 64. */
-static fst_status read_binary(const xml_file *file, const char *from, const char *end, int raw, int size,
+/* How binary arrays stand in the file: alone between their tags in base 64, or one behind the other. */
+typedef enum { INLINE, APPENDED_BASE64, APPENDED_RAW } placement;
+
+static fst_status read_binary(const xml_file *file, const char *from, const char *end, placement how, int size,
                               size_t count, double *numbers)
 {
     const size_t head = file->long_lengths ? 8 : 4, wanted = head + count * (size_t)size;
     const unsigned char *bytes = (const unsigned char *)from;
     unsigned char *decoded = NULL;
     size_t there = (size_t)(end - from);
-    if (!raw) {
-        decoded = malloc(wanted);
+    if (how != APPENDED_RAW) {
+        decoded = malloc(wanted + 1);
         if (!decoded)
             return FST_NO_MEMORY;
-        there = decode(from, end, wanted, decoded);
+        there = decode(from, end, wanted + 1, decoded);
         bytes = decoded;
     }
     fst_status status = FST_OK;
-    if (there < wanted || length_before(file, bytes) != (double)(count * (size_t)size))
+    if (there < wanted || (how == INLINE && there > wanted) ||
+        length_before(file, bytes) != (double)(count * (size_t)size))
         status = fst_map_points_refuse(
             file->grid->points,
             "a binary array of %zu numbers of %d bytes is expected, but %s: is it compressed, or of "
             "another header_type?",
-            count, size, there < wanted ? "the data end before" : "the length before it is another");
+            count, size, there < wanted ? "the data end before" : "the file has another number of bytes");
     else
         vtk_floats(bytes + head, count, size, file->highest_first, numbers);
     free(decoded);
@@ -195,7 +198,7 @@ static fst_status read_array(const xml_file *file, const tag *t, size_t count, d
         const char *from = t->to + 1;
         while (from < file->end && isspace((unsigned char)*from))
             ++from;
-        return read_binary(file, from, stop ? stop : file->end, 0, size, count, numbers);
+        return read_binary(file, from, stop ? stop : file->end, INLINE, size, count, numbers);
     }
     int raw = 0;
     const char *begin = strcmp(format, "appended") == 0 ? appended(file, &raw) : NULL;
@@ -205,7 +208,8 @@ static fst_status read_array(const xml_file *file, const tag *t, size_t count, d
         !(offset <= (double)(file->end - begin)))
         return fst_map_points_refuse(file->grid->points, "an array of format %s has no place in the file",
                                      fst_quote(format, quoted));
-    return read_binary(file, begin + (size_t)offset, file->end, raw, size, count, numbers);
+    return read_binary(file, begin + (size_t)offset, file->end, raw ? APPENDED_RAW : APPENDED_BASE64, size,
+                       count, numbers);
 }
 
 /* ------------------------------------------------------------------ the grid */

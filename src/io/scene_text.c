@@ -108,12 +108,12 @@ static int write_part_numbers(FILE *out, const fst_params *params, int row)
     const double *turn = part->rotation;
     const int stays = turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0 && turn[3] == 0.0;
     const int silent = strncmp(key, "rotation", length) == 0 && stays;
-    char value[64];
+    char value[VALUE_SIZE];
     int count = 0, written = 0;
     for (; row + count < fst_params_row_count(params); ++count) {
         if (strncmp(key, strrchr(fst_param_at(row + count)->key, '.') + 1, length + 1) != 0)
             break;
-        value_text(params, row + count, value, sizeof value);
+        value_text(params, row + count, value);
         if (!value[0] || silent)
             continue;
         if (written++)
