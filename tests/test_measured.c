@@ -309,7 +309,7 @@ static void test_refusals(void **unused)
         const char *sentence;
     } cases[] = {{0, 7, -1, 0.3, 0, "at least 8"},    {1, 8, 1, 0.3, 0, "surround the axis"},
                  {1, 8, -1, -0.3, 0, "not positive"}, {0, 8, NAN, 0.3, 0, "the place of the map along x"},
-                 {2, 0, 0, 0, 0, "at least 1"},       {0, 8, -1, 0.3, INFINITY, "not finite"}};
+                 {2, 0, 0, 0, 0, "at least 1"},       {0, 8, -1, 0.3, INFINITY, "a number of at most"}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         fst_field_samples samples = good;
         samples.count[cases[i].axis] = cases[i].count;

@@ -82,6 +82,11 @@ class Program(Maps):
         self.assertTrue(self.good("locked", *grid, "--set", "drive.omega=0.1", "--json"))
         check = json.loads(self.good("check", *grid, "--json"))
         self.assertEqual(len(check["scene"]["magnet.checksum"]), 16)
+        self.assertEqual(check["map"]["count"], [31, 31, 1])
+        self.assertTrue(0 < check["map"]["curl"] < 1e-2, check["map"])
+        self.assertIn("curl", self.good("check", *grid))
+        turned = self.write("turned.csv", "\n".join(self.lines).replace("Bx", "B?").replace("By", "Bx").replace("B?", "By"))
+        self.assertIn("exchanged?", self.good("check", *self.over(turned)))
 
     def test_where_the_map_ends(self):
         small = self.path("small.csv")
@@ -92,8 +97,9 @@ class Program(Maps):
         status, out, err = festoon("orbit", *self.over(small, "--set", "start.r=0.5"))
         self.assertEqual((status, out), (1, ""))
         self.assertIn("leaves the map", err)
-        status, out, err = festoon("run", *self.over(small, "--set", "start.r=0.95"))
-        self.assertEqual((status, out), (2, ""))
+        for words in (["run", *self.over(small, "--set", "start.r=0.95")], ["field", *self.over(small), "--at", "0.9,0"]):
+            self.assertEqual(festoon(*words)[:2], (2, ""))
+        self.good("field", *self.over(small), "-o", self.path("small.svg"))
 
     def test_scenes_and_trajectories(self):
         """A path in a scene begins at the scene's folder; a trajectory knows its map's content."""

@@ -221,8 +221,9 @@ FST_API fst_status fst_parse_value(const char *text, fst_unit unit, double *valu
 /* Set one parameter from text: checks key, unit and range, and clears the other form of the same quantity
  * (drive.omega and drive.frequency, model.eps and bead.radius, model.h and magnet.depth, model.lambda and
  * magnet.width, model.kappa and magnet.b0, bead.density and bead.mass, bead.remanence and bead.moment).
- * Another magnet.file takes magnet.checksum and the map away.  The key magnet.parts[N].kind of the part behind the last one adds a part.  FST_BAD_INPUT: the sentence names the
- * nearest valid key, the units, or the range. */
+ * Another magnet.file takes magnet.checksum and the map away.  The key magnet.parts[N].kind of the part behind
+ * the last one adds a part.  FST_BAD_INPUT: the sentence names the nearest valid key, the units, or the range.
+ */
 FST_API fst_status fst_params_set(fst_params *params, const char *key, const char *text, fst_error *error);
 
 /* The drive periods that a run leaves out of its means: run.discard; but the first half of a run that is no
@@ -336,8 +337,8 @@ FST_API fst_status fst_start_state(const fst_params *params, const fst_model *mo
                                    double state[FST_STATE_SIZE], fst_error *error);
 
 /* The magnet's field at the height of the bead's centre, in the magnet's frame: b[3], grad[i][j] = dB_i/dx_j
- * (traceless, and symmetric but for the curl that a measured field has), scaled.  Paper, section IV: lines of
- * dipoles, each two point charges, Eq. (11). */
+ * (traceless, and symmetric but for the curl that a measured field has), scaled; NAN beyond the samples of a
+ * map.  Paper, section IV: lines of dipoles, each two point charges, Eq. (11). */
 FST_API void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
 
 /* d(state)/dt in the turning frame, at the drive omega of the model. */

@@ -108,6 +108,13 @@ static fst_status set_height(const char *height, fst_params *params, fst_error *
     return FST_OK;
 }
 
+static int is_known(const fst_model *model, const double at[2])
+{
+    double b[3], grad[3][3];
+    fst_field(model, at[0], at[1], b, grad);
+    return isfinite(b[0]);
+}
+
 static fst_status print_point(const arguments *given, const fst_params *scene, fst_shown_units units, FILE *out,
                               fst_error *error)
 {
@@ -123,6 +130,9 @@ static fst_status print_point(const arguments *given, const fst_params *scene, f
     static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
+    if (status == FST_OK && !is_known(model, at))
+        status = fail(error, FST_BAD_INPUT, "--at",
+                      "%g,%g lies beyond the map of magnet.file, where the field is not known", at[0], at[1]);
     if (status == FST_OK && option_value(given, "json"))
         status = print_and_free(fst_field_json(model, at[0], at[1], units), out, error);
     else if (status == FST_OK)

@@ -316,6 +316,7 @@ fst_status fst_figure_field(const fst_params *params, fst_shown_units units, con
      * another source it shows a square of that width. */
     double half_lines = 0.5 * (map.groups.lines - 1) * map.groups.lambda;
     map.half_width = 1.0 + 0.9 * map.groups.h + 0.3;
+    map.half_width = fmin(map.half_width, map.groups.map_radius); /* a measured field ends there */
     map.half_height = map.bar ? half_lines + 0.9 * map.groups.h : map.half_width;
     status = draw(&map, out, error);
     fst_model_free(model);

@@ -201,6 +201,22 @@ char *fst_run_json(const fst_params *params, const fst_run_result *result, const
     return fst_json_dump(run, JSON_INDENT(2));
 }
 
+/* What can be told of a measured field, in SI. */
+static json_t *map_object(const fst_field_map *map)
+{
+    const fst_field_map_facts facts = fst_field_map_describe(map);
+    json_t *object = json_object(), *count = json_array();
+    for (int axis = 0; axis < 3; ++axis)
+        json_array_append_new(count, json_integer(facts.count[axis]));
+    json_object_set_new(object, "count", count);
+    json_object_set_new(object, "first_m", fst_json_numbers(facts.first, 3));
+    json_object_set_new(object, "spacing_m", fst_json_numbers(facts.spacing, 3));
+    json_object_set_new(object, "radius_m", fst_json_number(facts.radius));
+    json_object_set_new(object, "greatest_b_tesla", fst_json_number(facts.greatest));
+    json_object_set_new(object, "curl", fst_json_number(facts.curl));
+    return object;
+}
+
 char *fst_scene_json(const fst_params *params)
 {
     json_t *document = json_object();
@@ -211,6 +227,8 @@ char *fst_scene_json(const fst_params *params)
     if (fst_bead_contradiction(params, sentence, sizeof sentence))
         json_array_append_new(warnings, json_string(sentence));
     json_object_set_new(document, "warnings", warnings);
+    if (params->magnet_map)
+        json_object_set_new(document, "map", map_object(params->magnet_map));
     return fst_json_dump(document, JSON_INDENT(2));
 }
 

@@ -218,6 +218,9 @@ static double radius_of(const fst_field_samples *s)
 /* More samples than any hall probe takes; coefficients then fill 1 GiB. */
 #define MOST_SAMPLES 32000000
 
+/* T: no magnet is as strong, but a map in wrong units may be. */
+static const double STRONGEST = 1e3;
+
 static fst_status check_samples(const fst_field_samples *s, fst_error *error)
 {
     static const char axes[] = "xyz";
@@ -241,10 +244,11 @@ static fst_status check_samples(const fst_field_samples *s, fst_error *error)
         return fst_fail(error, FST_BAD_INPUT, PLACE, "the map has %.0f samples, more than %d", all,
                         MOST_SAMPLES);
     for (size_t i = 0; i < 3 * (size_t)all; ++i)
-        if (!isfinite(s->b[i]))
-            return fst_fail(error, FST_BAD_INPUT, PLACE,
-                            "the component %c of sample %zu of the map is %g, not finite", axes[i % 3],
-                            i / 3 + 1, s->b[i]);
+        if (!(fabs(s->b[i]) <= STRONGEST))
+            return fst_fail(
+                error, FST_BAD_INPUT, PLACE,
+                "the component %c of sample %zu of the map is %g T: a number of at most %g is expected",
+                axes[i % 3], i / 3 + 1, s->b[i], STRONGEST);
     if (!(radius_of(s) > 0))
         return fst_fail(
             error, FST_BAD_INPUT, PLACE,

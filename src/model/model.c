@@ -138,8 +138,26 @@ fst_groups fst_model_groups(const fst_model *model)
     return model->groups;
 }
 
+/* Whether the samples of a measured field surround a place. */
+static int is_known(const fst_model *model, double x, double y)
+{
+    const fst_map_plane *plane = model->coefficients.kinds.plane;
+    const double place[2] = {x * model->groups.length_unit, y * model->groups.length_unit};
+    for (int axis = 0; plane && axis < 2; ++axis) {
+        const double cells = (place[axis] - plane->first[axis]) / plane->spacing[axis];
+        if (!(cells >= -1e-9 && cells <= plane->cells[axis] + 1e-9))
+            return 0;
+    }
+    return 1;
+}
+
 void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3])
 {
+    if (!is_known(model, x, y)) {
+        for (int i = 0; i < 3; ++i)
+            b[i] = grad[i][0] = grad[i][1] = grad[i][2] = NAN;
+        return;
+    }
     fst_gradient_double g;
     fst_field_double(&model->coefficients, x, y, b, &g);
     const double all[3][3] = {{g.xx, g.xy, g.xz}, {g.yx, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
