@@ -184,14 +184,15 @@ static inline __attribute__((always_inline)) void FN(grid_look)(const FN(grid) *
     t->yyz = by_yy * bz.yy;
 }
 
+SOURCE_FIELD_BY_LOOK(grid)
+
+/* As SOURCE_ALONG_BY_FIELD(), of a field with curl. */
 static inline void FN(grid_along)(const FN(grid) * grid, const fst_kinds *kinds, REAL x, REAL y,
                                   const REAL u[3], REAL b[3], REAL gu[3])
 {
-    FN(local_field) at;
-    FN(grid_look)(grid, kinds, x, y, &at);
-    for (int i = 0; i < 3; ++i)
-        b[i] = at.b[i];
-    FN(times_gradient)(&at.gradient, u, gu);
+    FN(gradient) g;
+    FN(grid_field)(grid, kinds, x, y, b, &g);
+    FN(times_gradient)(&g, u, gu);
 }
 
 #undef GRID_CELL
