@@ -129,7 +129,7 @@ static void test_order_of_steps(void **unused)
     start_of(&p, model, start);
     end_state(model, start, 30.0 / 3000, exact);
     for (int i = 0; i < 3; ++i) {
-        end_state(model, start, 30.0 / (90 << i), end);
+        end_state(model, start, 30.0 / (60 << i), end);
         off[i] = greatest_difference(end, exact, FST_STATE_SIZE);
     }
     CHECK_WITHIN(order_of(off, 3), 7.3, 9.5);
