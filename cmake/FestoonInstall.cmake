@@ -30,7 +30,7 @@ if(FESTOON_TOOLS)
     install(FILES "${PROJECT_BINARY_DIR}/docs/festoon.1" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
     install(DIRECTORY examples DESTINATION "${CMAKE_INSTALL_DOCDIR}" USE_SOURCE_PERMISSIONS
         FILES_MATCHING PATTERN "*.yaml" PATTERN "*.csv" PATTERN "*.c" PATTERN "*.inl" PATTERN "*.def" PATTERN "*.sh" PATTERN "*.sbatch"
-        PATTERN "*.py")
+        PATTERN "*.py" PATTERN "*.ipynb")
     # Shells look in these folders for what completes the words of a program.
     set(completion_dir "${PROJECT_BINARY_DIR}/completion")
     install(FILES "${completion_dir}/festoon.bash" RENAME festoon

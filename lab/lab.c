@@ -132,6 +132,12 @@ EXPORT(lab_param_number) double lab_param_number(int index, int which)
     return numbers[which];
 }
 
+/* The place of a key in the table, the parts of a magnet included, or -1. */
+EXPORT(lab_param_find) int lab_param_find(const char *key)
+{
+    return fst_param_find(key);
+}
+
 EXPORT(lab_result_count) int lab_result_count(void)
 {
     return fst_result_count();
@@ -181,6 +187,12 @@ EXPORT(lab_value) double lab_value(const lab *l, int index)
     }
     memcpy(&integer, at, sizeof integer);
     return integer;
+}
+
+/* The rows that say something of these parameters: those of the table, and those of the magnet's parts. */
+EXPORT(lab_row_count) int lab_row_count(const lab *l)
+{
+    return fst_params_row_count(&l->params);
 }
 
 /* Settle what follows from other values, as `festoon run` does, and check all together. */

@@ -5,6 +5,7 @@ sentence names it and the line to type.
 """
 
 import base64
+import contextlib
 import hashlib
 import io
 import os
@@ -104,15 +105,25 @@ def _version():
     return ".".join(numbers[f"FST_VERSION_{part}"] for part in ("MAJOR", "MINOR", "PATCH"))
 
 
+@contextlib.contextmanager
+def _build_folder():
+    """Where the package is built: build-python among the sources, so that building again is quick; a folder that
+    goes again where the sources cannot be written to."""
+    if os.access(ROOT, os.W_OK):
+        yield ROOT / "build-python"
+    else:
+        with tempfile.TemporaryDirectory(prefix="festoon-build-") as folder:
+            yield pathlib.Path(folder)
+
+
 def _cmake(folder, settings):
     """Configure and build the package in `folder`; returns the package's folder."""
     _check()
     options = ["-DCMAKE_BUILD_TYPE=Release", "-DFESTOON_PYTHON=ON", f"-DFESTOON_PYTHON_PROGRAM={sys.executable}"]
     given = (settings or {}).get("cmake", [])
     options += [given] if isinstance(given, str) else given
-    if shutil.which("ninja"):
+    if shutil.which("ninja") and not (folder / "CMakeCache.txt").exists():
         options += ["-G", "Ninja"]
-    # Options that pip's caller has for other compilers would change bits.
     for command in (
         ["cmake", "-S", str(ROOT), "-B", str(folder), "--log-level=WARNING", *options],
         ["cmake", "--build", str(folder), "--target", "festoon_python_package", "-j", str(os.cpu_count() or 1)],
@@ -191,8 +202,7 @@ class _Wheel:
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    with tempfile.TemporaryDirectory(prefix="festoon-build-") as folder:
-        build = pathlib.Path(folder)
+    with _build_folder() as build:
         package = _cmake(build, config_settings)
         wheel = _Wheel(wheel_directory)
         for path in sorted(package.iterdir()):
@@ -200,7 +210,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
                 wheel.add(f"festoon/{path.name}", path.read_bytes(), 0o755 if path.suffix == ".so" else 0o644)
         for name, path in _libraries(build):
             wheel.add(f"festoon/{name}", path.read_bytes(), 0o755)
-        page = build / "festoon-lab.html"
+        page = ROOT / "build" / "festoon-lab.html"  # where `make lab` has made it
         if page.exists():
             wheel.add("festoon/festoon-lab.html", page.read_bytes())
         wheel.close()

@@ -1,5 +1,5 @@
-/* both_precisions.h - the bodies of the model over double and over long double in one test, so that what the one
- * rounds is seen by the other. */
+/* both_precisions.h - the bodies of the model over double and over long double in one test, so that what the
+ * one rounds is seen by the other. */
 #ifndef FST_TESTS_BOTH_PRECISIONS_H
 #define FST_TESTS_BOTH_PRECISIONS_H
 

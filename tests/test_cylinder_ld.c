@@ -367,6 +367,48 @@ static void test_scale(void **unused)
     }
 }
 
+/* The disc cut into strips of equal angle, each a block of as much area: what is left falls as the square of
+ * their number. */
+static void strips(const cylinder *c, int count, const long double place[3], long double *sum)
+{
+    memset(sum, 0, FIELD_NUMBERS * sizeof *sum);
+    for (int n = 0; n < count; ++n) {
+        const long double from = SURFACE_PI * n / count, to = SURFACE_PI * (n + 1) / count;
+        const long double low = c->radius * cosl(to), high = c->radius * cosl(from);
+        const long double area = c->radius * c->radius * ((to - from) - (sinl(2 * to) - sinl(2 * from)) / 2);
+        fst_part_long_double block = part_ld(c);
+        block.half[0] = (high - low) / 2;
+        block.half[1] = area / (2 * (high - low));
+        const long double d[3] = {place[0] - (low + high) / 2, place[1], place[2]};
+        fst_local_field_long_double f;
+        fst_cuboid_look_long_double(&block, d, &f);
+        const long double flat[FIELD_NUMBERS] = FLAT(f);
+        for (int i = 0; i < FIELD_NUMBERS; ++i)
+            sum[i] += flat[i];
+    }
+}
+
+static void test_blocks(void **unused)
+{
+    (void)unused;
+    static const long double places[][3] = {{0.3L, 0.2L, 1.1L}, {1, 0.1L, 1.2L}, {1.6L, -1, 0.2L}, {0, 0, -1}};
+    for (size_t n = 0; n < COUNT(places); ++n)
+        for (size_t k = 0; k < COUNT(REMANENCES); ++k) {
+            cylinder c = {1, 0.5, {0}};
+            memcpy(c.j, REMANENCES[k], sizeof c.j);
+            long double exact[FIELD_NUMBERS], coarse[FIELD_NUMBERS], fine[FIELD_NUMBERS];
+            field_ld(&c, places[n], exact);
+            strips(&c, 60, places[n], coarse);
+            strips(&c, 240, places[n], fine);
+            const errors at_60 = errors_of(coarse, exact, places[n]),
+                         at_240 = errors_of(fine, exact, places[n]);
+            check_errors(at_240, 1e-4, 1e-3, 1e-2);
+            CHECK_CLOSE(log2(at_60.b / at_240.b) / 2, 2, 0.1);
+            CHECK_CLOSE(log2(at_60.g / at_240.g) / 2, 2, 0.1);
+            CHECK_CLOSE(log2(at_60.t / at_240.t) / 2, 2, 0.1);
+        }
+}
+
 /* ------------------------------------------------------------------ turned and displaced */
 
 typedef struct rotation {
@@ -550,6 +592,7 @@ int main(void)
         cmocka_unit_test(test_stack),
         cmocka_unit_test(test_tensor),
         cmocka_unit_test(test_scale),
+        cmocka_unit_test(test_blocks),
         cmocka_unit_test(test_turned),
         cmocka_unit_test(test_double_rounds_only),
         cmocka_unit_test(test_exact_places),

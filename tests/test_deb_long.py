@@ -3,6 +3,7 @@
 Environment: SOURCE_DIR the source tree.  Status 77 where Debian's tools for packages are missing.
 """
 
+import importlib.util
 import json
 import os
 import pathlib
@@ -14,7 +15,7 @@ import tempfile
 import unittest
 
 SOURCE = pathlib.Path(os.environ["SOURCE_DIR"])
-NAMES = ("festoon", "libfestoon-dev", "libfestoon0")
+NAMES = ("festoon", "libfestoon-dev", "libfestoon0", "python3-festoon")
 
 
 def run(*words, **options):
@@ -41,7 +42,7 @@ class Packages(unittest.TestCase):
     def field(self, name, field):
         return run("dpkg-deb", "-f", self.packages[name], field).strip()
 
-    def test_the_three(self):
+    def test_the_four(self):
         self.assertEqual(sorted(self.packages), sorted(NAMES))
         self.assertEqual(sorted(line.split("/")[-1].split("_")[0] for line in self.told.splitlines()), sorted(NAMES))
         version = run(self.program, "--version").split()[1]
@@ -49,6 +50,10 @@ class Packages(unittest.TestCase):
             self.assertEqual(self.field(name, "Version"), version)
         self.assertIn(f"libfestoon0 (= {version})", self.field("festoon", "Depends"))
         self.assertIn(f"libfestoon0 (= {version})", self.field("libfestoon-dev", "Depends"))
+        self.assertIn(f"libfestoon0 (= {version})", self.field("python3-festoon", "Depends"))
+        for package in ("python3-numpy", "python3-cffi-backend", "python3:any"):
+            self.assertIn(package, self.field("python3-festoon", "Depends"))
+        self.assertIn("python3-matplotlib", self.field("python3-festoon", "Recommends"))
         self.assertIn("libhdf5", self.field("libfestoon0", "Depends"))
         self.assertNotIn("openmpi", self.field("libfestoon0", "Depends"))
         self.assertIn("openmpi", self.field("libfestoon0", "Recommends"))
@@ -80,6 +85,18 @@ class Packages(unittest.TestCase):
         shutil.copy(example, self.out)
         run("sh", "-c", line, cwd=self.out, env={**os.environ, "PKG_CONFIG_PATH": str(library / "pkgconfig")})
         run("./" + line.split()[-1], cwd=self.out, env={**os.environ, "LD_LIBRARY_PATH": str(library)})
+
+    @unittest.skipUnless(importlib.util.find_spec("numpy") and importlib.util.find_spec("_cffi_backend"), "numpy is missing")
+    def test_the_module(self):
+        """The packaged module finds the packaged library, and says what the packaged program says."""
+        library = next(self.root.glob("usr/lib/*/libfestoon.so")).parent
+        modules = self.root / "usr/lib/python3/dist-packages"
+        where = {**os.environ, "PYTHONPATH": str(modules), "LD_LIBRARY_PATH": str(library)}
+        lines = "import festoon, json; print(json.dumps(festoon.Bead(run__periods=3).run().to_dict()))"
+        ours = json.loads(run(sys.executable, "-B", "-c", lines, env=where))
+        self.assertEqual(ours, json.loads(run(self.program, "run", "--set", "run.periods=3", "--json")))
+        self.assertTrue(list((self.root / "usr/share/doc/python3-festoon/examples").rglob("plot_1_five_lines.py*")))
+        self.assertTrue((modules / "festoon/py.typed").exists())
 
     @unittest.skipUnless(os.geteuid() == 0, "dpkg installs as root only")
     def test_dpkg_installs_and_removes(self):

@@ -659,6 +659,37 @@ class Paper(unittest.TestCase):
             done = run("paper", *wrong)
             self.assertEqual((done.returncode, done.stdout), (2, ""))
 
+    # ------------------------------------------------------------ real magnets
+
+    def test_real_magnets(self):
+        """Distances and remanences from the charges of both ends, summed here; facts from the runs beside them."""
+        magnets = self.paper["magnets"]
+        self.assertEqual([m["id"] for m in magnets["magnets"]], ["lines", "bar", "short", "upright"])
+        of = {m["id"]: m for m in magnets["magnets"]}
+
+        def strength(length, x, height=18.7):  # mT of 1 T, on the axis: ends of 40 x 9 mm as 41 x 9 charges
+            b = [0.0, 0.0]
+            for end in (0.5, -0.5):
+                for i in range(41):
+                    for k in range(9):
+                        d = (x - end * length, 40 * ((i + 0.5) / 41 - 0.5), height - 9 * ((k + 0.5) / 9 - 0.5))
+                        charge = 2000 * end * 360 / 369 / (4 * math.pi) / math.hypot(*d) ** 3
+                        b[0] += charge * d[0]
+                        b[1] += charge * d[2]
+            return math.hypot(*b)
+
+        for name, length in (("bar", 56.0), ("short", 45.0)):
+            apart = of[name]["maxima_mm"]
+            at = [strength(length, apart / 2 + shift) for shift in (-0.3, 0.0, 0.3)]
+            self.assertGreater(at[1], max(at[0], at[2]), name)
+            self.assertAlmostEqual(at[1] * of[name]["remanence_t"], 1e3 * magnets["greatest_field_t"], delta=0.03)
+        runs = [r for r in of["bar"]["runs"] if r["law"] == "dry"]
+        self.assertGreater(len(runs), 4)
+        window = [r for r in runs if 7 <= r["frequency_hz"] <= 10]
+        value = {(f["id"], v["magnet"], v["law"]): v["value"] for f in magnets["facts"] for v in f["values"]}
+        gone = 100 * sum(r["outcome"] in ("ejected", "lifted") for r in window) / len(window)
+        self.close_to(value["ejection", "bar", "dry"], gone, 1e-12, window)
+
     def test_no_such_statement(self):
         done = run("paper", "--only", "maximum")
         self.assertEqual((done.returncode, done.stdout), (2, ""))

@@ -121,7 +121,7 @@ export class Controls {
                 row.field.value = said;
                 continue;
             }
-            row.field.value = texts[key] ?? (said === "" ? "" : `${plain(value * factor)}${unit && ` ${unit}`}`);
+            row.field.value = /[a-z]/i.test(texts[key] || "") ? texts[key] : (said === "" ? "" : `${plain(value * factor)}${unit && ` ${unit}`}`);
             row.field.placeholder = said === "" ? T.notGiven : "";
             if (row.slider && row.slider !== from && said !== "")
                 row.slider.value = String(value * factor);

@@ -122,17 +122,22 @@ export class Core {
     }
 
     readParameters() {
-        const rows = [];
-        for (let i = 0; i < this.c.lab_param_count(); ++i) {
-            const [key, unit, units, names, doc, otherForm] = [0, 1, 2, 3, 4, 5].map((which) =>
-                this.text(this.c.lab_param_text(i, which)));
-            const [kind, initial, least, greatest] = [0, 1, 2, 3].map((which) => this.c.lab_param_number(i, which));
-            rows.push({
-                key, unit, doc, otherForm, initial, least, greatest, kind: KINDS[kind], names: names ? names.split("|") : null,
-                units: units ? units.split(" ") : [],
-            });
-        }
-        return rows;
+        return Array.from({ length: this.c.lab_param_count() }, (_, i) => this.readParameter(i));
+    }
+
+    readParameter(i) {
+        const [key, unit, units, names, doc, otherForm] = [0, 1, 2, 3, 4, 5].map((which) =>
+            this.text(this.c.lab_param_text(i, which)));
+        const [kind, initial, least, greatest] = [0, 1, 2, 3].map((which) => this.c.lab_param_number(i, which));
+        return {
+            key, unit, doc, otherForm, initial, least, greatest, kind: KINDS[kind], names: names ? names.split("|") : null,
+            units: units ? units.split(" ") : [],
+        };
+    }
+
+    /* Whether the library knows a key; those of a magnet's parts are not in `parameters`. */
+    knows(key) {
+        return this.withTexts([key], (text) => this.c.lab_param_find(text)) >= 0;
     }
 
     readResults() {
@@ -156,7 +161,11 @@ export class Core {
 
     /* The value as a scene would say it, in SI; "" where it was not given. */
     get(key) {
-        return this.text(this.c.lab_get(this.bead, this.places.get(key)));
+        return this.at(this.places.get(key));
+    }
+
+    at(index) {
+        return this.text(this.c.lab_get(this.bead, index));
     }
 
     value(key) {
@@ -184,10 +193,25 @@ export class Core {
     }
 
     scene() {
-        return Object.fromEntries(this.parameters.map((row) => {
+        const scene = Object.fromEntries(this.parameters.map((row) => {
             const text = this.get(row.key);
             return [row.key, text === "" ? null : row.kind === "choice" || row.kind === "text" ? text : number(this.value(row.key))];
         }));
+        const parts = this.parts();
+        return parts.length ? { ...scene, "magnet.parts": parts } : scene;
+    }
+
+    /* The parts of a real magnet, as `festoon run --json` lists them, in SI units. */
+    parts() {
+        const parts = [];
+        for (let i = this.parameters.length; i < this.c.lab_row_count(this.bead); ++i) {
+            const { key, kind } = this.readParameter(i), text = this.at(i), name = /\.(\w+)[^.]*$/.exec(key)[1];
+            if (kind === "choice")
+                parts.push({ [name]: text });
+            else if (text !== "")
+                (parts.at(-1)[name] ||= []).push(number(this.c.lab_value(this.bead, i)));
+        }
+        return parts;
     }
 
     /* ------------------------------------------------------------ runs */

@@ -98,12 +98,12 @@ export class Files {
             if (/\.(ya?ml)$/i.test(file.name)) {
                 lab.lesson.close();
                 const wrong = lab.open({ scene: readScene(text), view: lab.viewWords() });
-                lab.tell(wrong ? T.failed(name, wrong) : T.opened(name));
+                lab.tell(wrong ? T.failed(name, wrong) : T.opened(name), Boolean(wrong));
             } else {
                 this.showTrack(readTrack(text));
             }
         } catch (error) {
-            lab.tell(T.failed(name, sentence(error)));
+            lab.tell(T.failed(name, sentence(error)), true);
         }
     }
 

@@ -7,6 +7,11 @@ export class Lesson {
         this.lab = lab;
         this.box = box;
         this.at = -1;
+        /* On a narrow page the lesson stands below the picture, elsewhere above the controls. */
+        const narrow = window.matchMedia("(max-width: 700px)"), home = box.parentElement;
+        const settle = () => (narrow.matches ? document.getElementById("camera-help").after(box) : home.prepend(box));
+        narrow.addEventListener("change", settle);
+        settle();
     }
 
     toggle() {
@@ -22,7 +27,7 @@ export class Lesson {
         this.at = -1;
         this.lab.hideTrail = false;
         this.box.hidden = true;
-        document.body.classList.remove("lesson-on");
+        document.body.classList.remove("lesson-on", "lesson-waits");
         document.getElementById("lesson-open").textContent = T.lesson;
         this.lab.remember();
     }
@@ -45,6 +50,7 @@ export class Lesson {
         lab.hideTrail = true;
         lab.open({ scene: step.scene, view: { "ui.settle": String(step.settle ?? 0), ...step.view } });
         lab.play(false);
+        document.body.classList.add("lesson-waits"); /* nothing tells the answer before it is given */
         this.heading.focus({ preventScroll: false });
     }
 
@@ -64,6 +70,7 @@ export class Lesson {
             other.setAttribute("aria-pressed", String(other === button));
         this.reply.replaceChildren(element("p", { class: right ? "good" : "bad" }, right ? T.right : T.wrong), element("h3", {}, T.observe), element("p", {}, step.observe), why);
         why.addEventListener("click", () => why.replaceWith(element("h3", {}, T.explain), element("p", { class: "explain" }, step.explain)));
+        document.body.classList.remove("lesson-waits");
         this.lab.play(true);
         if (step.plot)
             this.lab.panels.choosePlot(step.plot);

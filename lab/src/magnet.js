@@ -7,13 +7,22 @@
 /* The paper's bar is 56 mm long for lines of 46 mm, and 9 mm thick. */
 const BAR_OVER_LINES = 56 / 46, BAR_THICKNESS = 9e-3;
 
-/* `north` is the sign of the end on +X, which the field itself tells. */
-export function bodiesOf(groups, north, parts) {
-    if (parts?.length)
-        return parts;
-    const depth = groups.h - groups.eps, width = groups.lambda * Math.max(groups.lines - 1, 0);
+/* A part of a real magnet, in SI units from the reference plane at a depth below the plate. */
+function bodyOf(part, length, depth) {
+    const [x, y, z] = part.centre, scaled = (list) => list.map((value) => value / length);
+    return {
+        kind: part.kind, centre: scaled([x, y, z - depth]), size: part.size ? scaled(part.size) : [0.12], axis: part.remanence || part.moment,
+        turn: part.rotation?.[0] ? part.rotation : undefined,
+    };
+}
+
+/* `north` is the sign of the end on +X, which the field itself tells; `parts` and `depth` are in metres. */
+export function bodiesOf(groups, north, parts = [], depth = 0) {
+    if (parts.length)
+        return parts.map((part) => bodyOf(part, groups.length_unit_m, depth));
+    const below = groups.h - groups.eps, width = groups.lambda * Math.max(groups.lines - 1, 0);
     return [{
-        kind: "cuboid", centre: [0, 0, -depth], axis: [north, 0, 0],
-        size: [2 * BAR_OVER_LINES, Math.max(width, 0.08), Math.min(BAR_THICKNESS / groups.length_unit_m, 1.6 * depth)],
+        kind: "cuboid", centre: [0, 0, -below], axis: [north, 0, 0],
+        size: [2 * BAR_OVER_LINES, Math.max(width, 0.08), Math.min(BAR_THICKNESS / groups.length_unit_m, 1.6 * below)],
     }];
 }

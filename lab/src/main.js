@@ -14,7 +14,7 @@ import { QUANTITIES, Trail, unitsOf } from "./trail.js";
 import { View2D } from "./view2d.js";
 import { View3D } from "./view3d.js";
 
-const ROOM = 6000, RAMP_SECONDS = 5, RUN_DELAY = 350;
+const ROOM = 6000, RAMP_SECONDS = 5, RUN_DELAY = 350, TURNS = 7;
 const SLOWS = [1, 1.5, 2, 3, 4, 5, 7, 10, 13, 16, 20, 25, 30, 40, 50, 60, 70, 80, 100, 120, 140, 160, 180, 200];
 const $ = (id) => document.getElementById(id);
 
@@ -30,9 +30,9 @@ class Lab {
     constructor(core, pool) {
         this.core = core;
         this.pool = pool;
-        this.known = new Set(core.parameters.map((row) => row.key));
+        this.known = (key) => core.knows(key);
         this.scene = {};
-        this.settings = { slow: 20, colour: "nz", turns: 12, arrows: new Set(), ramp: null, settle: 0 };
+        this.settings = { slow: 20, colour: "nz", turns: TURNS, arrows: new Set(), ramp: null, settle: 0 };
         this.trail = new Trail(ROOM);
         this.camera = new Camera();
         this.row = new Float64Array(COLUMNS);
@@ -45,10 +45,7 @@ class Lab {
 
     openView() {
         const canvas = $("view");
-        const refuse = new URLSearchParams(location.search).has("no-webgl");
         try {
-            if (refuse)
-                throw new Error("refused");
             this.view = new View3D(canvas, ROOM);
         } catch {
             const plain = canvas.cloneNode();
@@ -56,7 +53,6 @@ class Lab {
             this.view = new View2D(plain);
             this.camera.choose("above");
             this.flat = true;
-            this.tell(T.noWebgl);
         }
         const box = $("view-box");
         new ResizeObserver(() => {
@@ -77,21 +73,23 @@ class Lab {
         const north = Math.sign(this.core.field(1, 0)[2]) || 1;
         this.view.furnish({
             eps: groups.eps, plateRadius: groups.plate_radius, ring: 10 / this.units.mm, fieldScale: Math.hypot(...b) || 1,
-            reach: Math.max(1.5, 1.25 * this.core.value("start.r")), bodies: bodiesOf(groups, north),
+            reach: Math.max(1.5, 1.25 * this.core.value("start.r")), bodies: bodiesOf(groups, north, this.core.parts(), this.core.value("magnet.depth")),
         });
     }
 
     draw() {
         if (!this.units)
             return;
-        this.range = this.trail.range();
+        this.range = this.trail.range(QUANTITIES[this.settings.colour]);
         this.view.draw({ row: this.row, trail: this.trail, range: this.range, camera: this.camera, arrows: this.settings.arrows });
     }
 
     /* ------------------------------------------------------------ scene and motion */
 
-    tell(text) {
+    /* A line at the top: news, or what went wrong. */
+    tell(text, bad = false) {
         $("notice").textContent = text;
+        $("notice").classList.toggle("bad", bad);
     }
 
     /* Take a scene; on an error the old one stays and the sentence is returned. */
@@ -138,7 +136,7 @@ class Lab {
             this.core.change(ramp);
             this.furnish();
         } catch (error) {
-            this.tell(sentence(error));
+            this.tell(sentence(error), true);
         }
         this.draw();
     }
@@ -163,7 +161,7 @@ class Lab {
             if (this.settings.ramp)
                 this.beginRamp();
         } catch (error) {
-            this.tell(sentence(error));
+            this.tell(sentence(error), true);
         }
         this.draw();
     }
@@ -205,7 +203,7 @@ class Lab {
             this.row.set(done.rows.subarray((done.count - 1) * COLUMNS, done.count * COLUMNS));
             this.leave(done.stop);
         } catch (error) {
-            this.tell(sentence(error));
+            this.tell(sentence(error), true);
             this.play(false);
         }
         if (this.ramping && (this.ramping.up ? this.frequency() >= this.ramping.to : this.frequency() <= this.ramping.to)) {
@@ -272,7 +270,7 @@ class Lab {
         const s = this.settings, words = { "ui.slow": String(s.slow), "ui.camera": this.camera.mode };
         if (s.colour !== "nz")
             words["ui.colour"] = s.colour;
-        if (s.turns !== 12)
+        if (s.turns !== TURNS)
             words["ui.trail"] = String(s.turns);
         if (s.arrows.size)
             words["ui.arrows"] = [...s.arrows].join();
@@ -286,7 +284,11 @@ class Lab {
     }
 
     remember() {
-        history.replaceState(null, "", writeAddress(this.scene, this.viewWords()));
+        try {
+            history.replaceState(null, "", writeAddress(this.scene, this.viewWords()));
+        } catch {
+            /* a page within another one, as in a notebook, has no address of its own */
+        }
     }
 
     /* Take settings of the view, as words of an address. */
@@ -298,7 +300,7 @@ class Lab {
         if (CAMERAS.includes(view["ui.camera"]) && view["ui.camera"] !== this.camera.mode)
             this.camera.choose(view["ui.camera"]);
         s.colour = view["ui.colour"] in QUANTITIES ? view["ui.colour"] : "nz";
-        s.turns = Math.max(1, Math.min(60, number("ui.trail") || 12));
+        s.turns = Math.max(1, Math.min(60, number("ui.trail") || TURNS));
         s.arrows = new Set((view["ui.arrows"] || "").split(",").filter((name) => name in ARROWS));
         s.ramp = number("ui.ramp") > 0 ? number("ui.ramp") : null;
         s.settle = Math.max(0, Math.min(1000, number("ui.settle")));
@@ -309,11 +311,11 @@ class Lab {
     open({ scene, view }) {
         const wrong = this.takeScene(scene);
         if (wrong)
-            this.tell(wrong);
+            this.tell(wrong, true);
         this.takeView(view);
         this.begin();
         if (wrong)
-            this.tell(wrong);
+            this.tell(wrong, true);
         this.controls.show(null, this.scene);
         this.changed();
         return wrong;
@@ -385,6 +387,8 @@ async function begin() {
     }
     if (unknown.length)
         lab.tell(T.unknown(unknown.join(", ")));
+    else if (lab.flat && !$("notice").textContent)
+        lab.tell(T.noWebgl);
     lab.play(lab.lesson.at < 0 && !window.matchMedia("(prefers-reduced-motion: reduce)").matches);
     lab.listenKeys();
     window.addEventListener("hashchange", () => {

@@ -9,7 +9,7 @@ import { PALETTE, QUANTITIES } from "./trail.js";
 
 const $ = (id) => document.getElementById(id);
 const DEGREES = 180 / Math.PI, PLOT_EVERY = 120, BLUE = "#2f7fd0", ORANGE = "#d2622a", GREEN = "#2a9d74";
-const digits = (value, n = 4) => (value === null || value === undefined ? "–" : String(Number(value.toPrecision(n))));
+const digits = (value, n = 4) => (value === null || value === undefined || !Number.isFinite(value) ? "–" : String(Number((Math.abs(value) < 5e-4 ? 0 : value).toPrecision(n))));
 
 export class Panels {
     constructor(lab, slows) {
@@ -32,6 +32,7 @@ export class Panels {
         $("step").addEventListener("click", () => lab.step());
         $("restart").addEventListener("click", () => lab.restart());
         $("lesson-open").addEventListener("click", () => lab.lesson.toggle());
+        $("slow").setAttribute("aria-label", T.slow);
         $("slow").max = String(this.slows.length - 1);
         $("slow").addEventListener("input", () => {
             lab.settings.slow = this.slows[Number($("slow").value)];
@@ -212,7 +213,7 @@ export class Panels {
         const { lab } = this, row = lab.row;
         const text = lab.ramping ? T.rampOn(lab.frequency().toFixed(2)) : `${digits(lab.frequency(), 4)} Hz`;
         $("live").textContent = `${text} · ${T.live(row[COLUMN.turns].toFixed(1), row[COLUMN.time].toFixed(2))} · ${T.ring}`;
-        const quantity = QUANTITIES[lab.settings.colour], range = lab.range || [0, 1];
+        const quantity = QUANTITIES[lab.settings.colour], range = lab.trail.count > 1 ? lab.range : [NaN, NaN];
         const unit = typeof quantity.unit === "function" ? quantity.unit(lab.units) : quantity.unit;
         const words = `${lab.settings.colour} ${range.map((v) => digits(v, 3)).join(" ")} ${[...lab.settings.arrows]}`;
         if (words === this.legend)
@@ -294,7 +295,7 @@ export class Panels {
         const { lab } = this, mm = 1e3 * result.groups.length_unit_m, hertz = 1 / (2 * Math.PI * result.groups.time_unit_s);
         this.result = result;
         const ratio = result.mean_alpha_dot ? Math.abs(result.omega / result.mean_alpha_dot) : null;
-        const measures = { r: digits(result.mean_r === null ? null : result.mean_r * mm), turns: digits(ratio, 3), festoons: digits(result.festoons, 3) };
+        const measures = { r: digits(result.mean_r === null ? null : result.mean_r * mm), turns: digits(ratio, 3), festoons: digits(result.festoons, 3), reason: result.reason };
         $("regime").textContent = T.regimes[result.regime](measures);
         $("regime").title = result.reason || "";
         const circles = result.mean_alpha_dot === null ? null : result.mean_alpha_dot * hertz;

@@ -12,7 +12,7 @@ export function readAddress(text, known) {
             continue;
         if (VIEW_KEYS.includes(key))
             view[key] = value.slice(0, LONGEST);
-        else if (known.has(key))
+        else if (known(key))
             scene[key] = value.slice(0, LONGEST);
         else
             unknown.push(key.slice(0, 60));
@@ -27,12 +27,24 @@ export function writeAddress(scene, view) {
     return `#${words}`;
 }
 
-/* A scene as `festoon` reads it: groups with keys below them. */
+const PART = /^magnet\.parts\[(\d+)\]\.(\w+)(?:\[(\d)\])?$/;
+
+/* A scene as `festoon` reads it: groups with keys below them, and the parts of a magnet as a list. */
 export function writeScene(scene, comment) {
-    const groups = new Map();
+    const groups = new Map(), parts = [];
     for (const [key, value] of Object.entries(scene)) {
-        const [group, name] = key.split(".");
-        groups.set(group, [...(groups.get(group) || []), `  ${name}: ${value}`]);
+        const part = PART.exec(key), [group, name] = key.split(".");
+        if (part) {
+            const found = (parts[Number(part[1])] ||= {});
+            found[part[2]] = part[3] === undefined ? value : [...(found[part[2]] || []), value];
+        } else {
+            groups.set(group, [...(groups.get(group) || []), `  ${name}: ${value}`]);
+        }
+    }
+    if (parts.length) {
+        const lines = parts.flatMap((part) => Object.entries(part).map(([name, value], i) =>
+            `    ${i ? " " : "-"} ${name}: ${Array.isArray(value) ? `[${value.join(", ")}]` : value}`));
+        groups.set("magnet", [...(groups.get("magnet") || []), "  parts:", ...lines]);
     }
     return `# ${comment}\n${[...groups].map(([group, lines]) => `${group}:\n${lines.join("\n")}\n`).join("\n")}`;
 }
@@ -40,24 +52,35 @@ export function writeScene(scene, comment) {
 /* Read such a file: the plain part of YAML that scenes consist of.  A line that is none of it is an error. */
 export function readScene(text) {
     const scene = {};
-    let group = "";
+    let group = "", list = null;
+    const give = (key, value, line) => {
+        if (key in scene)
+            throw new Error(`line ${line}: ${key.slice(0, 60)} is given twice`);
+        scene[key] = value.replace(/^(["'])(.*)\1$/, "$2").slice(0, LONGEST);
+    };
     text.replace(/^\uFEFF/, "").split(/\r?\n/).forEach((whole, index) => {
         const line = whole.replace(/(^|\s)#.*$/, "").trimEnd();
         if (!line.trim() || line.trim() === "---")
             return;
-        const found = /^(\s*)"?([A-Za-z_][\w.]*)"?\s*:\s*(.*)$/.exec(line);
-        if (!found)
+        const found = /^(\s*)(- +)?"?([A-Za-z_][\w.]*)"?\s*:\s*(.*)$/.exec(line);
+        if (!found || (found[2] && list === null))
             throw new Error(`line ${index + 1}: expected "key: value", as festoon init writes it`);
-        const [, indent, name, raw] = found;
-        const value = raw.replace(/^(["'])(.*)\1$/, "$2");
-        if (!indent && raw === "") {
-            group = name;
-            return;
+        const [, indent, dash, name, value] = found, depth = indent.length + (dash || "").length;
+        if (!indent && value === "") {
+            [group, list] = [name, null];
+        } else if (list !== null && (dash || depth > list.depth)) {
+            list.count += dash ? 1 : 0;
+            const key = `${list.key}[${list.count - 1}].${name}`, row = /^\[(.*)\]$/.exec(value);
+            if (row)
+                row[1].split(",").forEach((cell, i) => give(`${key}[${i}]`, cell.trim(), index + 1));
+            else
+                give(key, value, index + 1);
+        } else if (indent && value === "") {
+            list = { key: `${group}.${name}`, depth: indent.length, count: 0 };
+        } else {
+            list = null;
+            give(indent ? `${group}.${name}` : name, value, index + 1);
         }
-        const key = indent ? `${group}.${name}` : name;
-        if (key in scene)
-            throw new Error(`line ${index + 1}: ${key.slice(0, 60)} is given twice`);
-        scene[key] = value.slice(0, LONGEST);
     });
     return scene;
 }

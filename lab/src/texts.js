@@ -13,7 +13,7 @@ const EN = {
         bead: "You ride with the bead: watch its marks to see it roll, slip or stick.",
     },
     presets: "Experiments",
-    ramp: "Ramp", rampOn: (f) => `The magnet speeds up slowly: ${f} Hz`,
+    ramp: "Ramp", rampOn: (f) => `speeding up: ${f} Hz`,
     numbers: "What the bead does",
     wait: "computing …",
     left: { edge: "The bead has left the plate. Press Restart.", lift: "The load on the plate has vanished: the bead jumps. Press Restart." },
@@ -24,7 +24,7 @@ const EN = {
         load: "load on the plate", use: "use of static friction", sticks: "slips or sticks", angle: "angle of moment and field",
         spin: "spin about the moment", time: "time",
     },
-    plots: { phi: "Over the angle", sweep: "Over the speed", path: "Path of the moment" },
+    plots: { phi: "Over the angle", sweep: "Over the speed", path: "Moment" },
     plotLabels: {
         phi: "angle Φ of the bead against the magnet (degrees)", r: "r (mm)", nz: "n_z", b: (unit) => `|B| (${unit})`,
         f: "turns of the magnet per second (Hz)", meanR: "mean distance ⟨r⟩ (mm)", nAlpha: "n along the circle", nUp: "n upward (n_z)",
@@ -64,7 +64,7 @@ const EN = {
     right: "That is what you will see.", wrong: "Look closely: it does something else.",
     show: "Show me", why: "Why?",
     ring: "rings: 10 mm",
-    live: (turns, seconds) => `${turns} turns of the magnet, ${seconds} s of the bead's time`,
+    live: (turns, seconds) => `turn ${turns} · ${seconds} s`,
     rows: {
         mean_r: "mean distance from the axis", bead: "bead circles", festoons: "festoons", angle: "moment against field, at most",
         sticking: "contact at rest", symmetry: "symmetry", slip: "slip, rms",
@@ -78,21 +78,36 @@ const EN = {
         chaotic: (m) => `Chaotic: the motion never repeats itself, mean distance ${m.r} mm.`,
         ejected: () => "Ejected: the bead leaves the plate.",
         lifted: () => "Lifted: the load vanishes and the bead jumps, which this model does not follow.",
-        undecided: () => "Undecided: this run does not show what the motion is.",
+        undecided: (m) => `Undecided: ${m.reason}.`,
     },
 };
 
+/* Two upright discs of neodymium side by side, as many stirrers have them. */
+function twoDiscs() {
+    const scene = { "magnet.shape": "parts" };
+    [1, -1].forEach((side, i) => {
+        const part = `magnet.parts[${i}]`;
+        Object.assign(scene, {
+            [`${part}.kind`]: "cylinder", [`${part}.centre[0]`]: `${18 * side} mm`, [`${part}.centre[1]`]: "0 mm", [`${part}.centre[2]`]: "0 mm",
+            [`${part}.size[0]`]: "15 mm", [`${part}.size[1]`]: "8 mm",
+            [`${part}.remanence[0]`]: "0 T", [`${part}.remanence[1]`]: "0 T", [`${part}.remanence[2]`]: `${1.2 * side} T`,
+        });
+    });
+    return scene;
+}
+
 /* An experiment: scene and view. */
 export const PRESETS = [
-    { id: "locked", name: "Locked, 3 Hz", scene: { "drive.frequency": "3 Hz" }, view: { "ui.slow": "5", "ui.camera": "free" } },
+    { id: "locked", settle: 30, name: "Locked, 3 Hz", scene: { "drive.frequency": "3 Hz" }, view: { "ui.slow": "5", "ui.camera": "free" } },
     { id: "four", settle: 200, name: "10.7 Hz: four festoons", scene: { "drive.frequency": "10.7 Hz" }, view: { "ui.slow": "20", "ui.camera": "free" } },
     { id: "twelve", settle: 200, name: "14.5 Hz", scene: { "drive.frequency": "14.5 Hz" }, view: { "ui.slow": "20", "ui.camera": "above" } },
     { id: "many", settle: 200, name: "19.9 Hz: many festoons", scene: { "drive.frequency": "19.9 Hz" }, view: { "ui.slow": "50", "ui.camera": "above" } },
     { id: "critical", settle: 100, name: "Critical speed: a ramp", scene: { "drive.frequency": "8.3 Hz" },
         view: { "ui.slow": "5", "ui.camera": "above", "ui.ramp": "9.6" } },
-    { id: "none", name: "No friction", scene: { "friction.law": "none", "start.r": "0.8", "drive.frequency": "14.92 Hz" }, view: { "ui.slow": "20", "ui.camera": "above" } },
+    { id: "none", name: "No friction", scene: { "friction.law": "none", "drive.frequency": "19.9 Hz" }, view: { "ui.slow": "20", "ui.camera": "above" } },
     { id: "dry", settle: 100, name: "Dry friction: slip and stick", scene: { "friction.law": "coulomb", "drive.frequency": "10.7 Hz" },
         view: { "ui.slow": "50", "ui.camera": "bead", "ui.colour": "sticks", "ui.arrows": "friction" } },
+    { id: "discs", settle: 100, name: "Two real magnets, 15 Hz", scene: { ...twoDiscs(), "drive.frequency": "15 Hz" }, view: { "ui.slow": "50", "ui.camera": "free" } },
 ];
 
 /* The lesson: each step a state, a question with answers, what to look at, and why it is so.  `answer` is the place
@@ -111,8 +126,8 @@ export const LESSON = [
         scene: { "drive.frequency": "8.3 Hz" }, view: { "ui.slow": "5", "ui.camera": "above", "ui.ramp": "9.6" },
         question: "Now the magnet speeds up slowly, from 8.3 to 9.6 turns a second. What will the bead do in the end?",
         answers: ["It goes round faster and faster with the magnet.", "It is thrown off the plate.", "It turns back and goes round against the magnet."], answer: 2,
-        observe: "Watch the trail, and the frequency below the picture. At first the bead goes with the magnet and swings. Near 8.9 turns a second its path passes through the axis – and then it runs backwards.",
-        explain: "This is the critical speed: 8.90 Hz, 534 turns a minute. There the path passes exactly through the axis. Below it the path leaves the axis outside, and the bead is taken along. Above it the path goes round the axis the other way.",
+        observe: "Watch the trail, and the frequency in the corner of the picture. At first the bead goes with the magnet and swings. Near 8.9 turns a second its path passes through the axis – and then it runs backwards.",
+        explain: "This is the critical speed: 8.90 Hz, 534 turns a minute. Somebody who rides with the magnet sees the bead run round a loop. Below the critical speed the axis lies outside the loop: the bead swings about its pole and is taken along. Above it the loop goes round the axis. Each time the bead falls back by a whole turn, and that takes less than one turn of the magnet: so it runs backwards.",
     },
     {
         title: "A gear wheel", settle: 200,

@@ -14,7 +14,7 @@ export const QUANTITIES = {
     speed: { read: (row, s) => row[COLUMN.speed] * s.speed, unit: "mm/s" },
     load: { read: (row) => row[COLUMN.load], unit: "weights" },
     use: { read: (row) => row[COLUMN.use], unit: "" },
-    sticks: { read: (row) => row[COLUMN.sticks], unit: "" },
+    sticks: { read: (row) => row[COLUMN.sticks], unit: "", range: [0, 1] },
     angle: { read: (row) => row[COLUMN.angle] * DEGREES, unit: "°" },
     spin: { read: (row, s) => row[COLUMN.spin] / s.seconds / (2 * Math.PI), unit: "Hz" },
     time: { read: (row) => row[COLUMN.time], unit: "s" },
@@ -79,7 +79,10 @@ export class Trail {
         });
     }
 
-    range() {
+    /* What the colours range over. */
+    range(quantity) {
+        if (quantity.range || this.count === 0)
+            return quantity.range || [0, 1];
         let least = Infinity, most = -Infinity;
         for (let i = 0; i < this.count; ++i) {
             const value = this.value[(this.first + i) % this.room];

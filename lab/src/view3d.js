@@ -8,7 +8,7 @@ import { COLUMN } from "./core.js";
 import { ARROWS, FRICTION, LOAD, NORTH, SOUTH } from "./colours.js";
 import { PALETTE } from "./trail.js";
 
-const FOV = 34;
+const FOV = 34, OLD = 0.75, BACK = [0.2, 0.23, 0.28];
 
 /* The bead's skin: a red half about its north pole, a blue one about the other, and marks that show every turn. */
 function beadTexture() {
@@ -230,9 +230,13 @@ export class View3D {
         const places = riding ? trail.turning : trail.lab, c = range[1] - range[0];
         const at = (i) => (trail.first + i) % trail.room;
         const here = riding ? [row[COLUMN.r] * Math.cos(row[COLUMN.phi]), row[COLUMN.r] * Math.sin(row[COLUMN.phi])] : [x, y];
-        this.ribbon.fill(trail.count + 1, (i) => (i < trail.count ? [places[2 * at(i)], places[2 * at(i) + 1]] : here),
-            (i) => PALETTE[Math.floor(255 * Math.max(0, Math.min(1, (trail.value[at(Math.min(i, trail.count - 1))] - range[0]) / c)))] || PALETTE[0],
-            0.011);
+        const colour = (i) => {
+            const value = trail.value[at(Math.min(i, trail.count - 1))];
+            const full = PALETTE[Math.floor(255 * Math.max(0, Math.min(1, (value - range[0]) / c)))] || PALETTE[0];
+            const age = 1 - i / (trail.count + 1), fresh = 1 - OLD * age * age; /* the oldest part fades */
+            return full.map((v, k) => fresh * v + (1 - fresh) * BACK[k]);
+        };
+        this.ribbon.fill(trail.count + 1, (i) => (i < trail.count ? [places[2 * at(i)], places[2 * at(i) + 1]] : here), colour, 0.011);
         this.ribbon.mesh.rotation.z = riding ? this.turning.rotation.z : 0;
         this.point(row, arrows);
         const look = camera.look(row, eps, this.setup.reach, this.eye.aspect, FOV);

@@ -101,6 +101,7 @@ class Watch:
             raise error_of(error)
 
     def __enter__(self) -> "Watch":
+        self.raised = None
         return self
 
     def __exit__(

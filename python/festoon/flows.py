@@ -5,7 +5,8 @@ from typing import Any, Tuple, Union
 import numpy as np
 
 from ._errors import BadInput
-from ._native import call, ffi, lib, options_of
+from ._native import Watch, call, ffi, lib, options_of
+from ._progress import Progress
 from .bead import Bead
 
 STOPS = {
@@ -20,7 +21,8 @@ NAMES = {number: name for name, number in STOPS.items()}
 class Flow:
     """A trajectory from a state at t = 0 (that of start.*, unless given), in the turning frame.
 
-    Options are those of the integration: rtol and atol (one number or ten), first_step, greatest_step, ramp.
+    Options are those of the integration: rtol and atol (one number or ten), first_step, greatest_step, ramp;
+    `progress` is told of each advance().
 
     >>> flow = Bead().flow()
     >>> t, y = flow.advance(until="section")
@@ -31,7 +33,7 @@ class Flow:
     #: Why the last advance() returned: time, section, edge or lift-off; "" before the first.
     stop: str
 
-    def __init__(self, bead: Bead, state: Any = None, **options: Any) -> None:
+    def __init__(self, bead: Bead, state: Any = None, *, progress: Progress = None, **options: Any) -> None:
         self.bead = bead
         self.stop = ""
         chosen = options_of(lib.fst_default_flow_options())
@@ -44,6 +46,8 @@ class Flow:
         start = bead.start_state() if state is None else np.asarray(state, float)
         if start.shape != (lib.FST_STATE_SIZE,):
             raise BadInput("flow", f"a state has {lib.FST_STATE_SIZE} numbers")
+        self._watch = Watch(progress)  # its address is the flow's for good
+        chosen.progress = self._watch.told
         made = ffi.new("fst_flow **")
         call(lib.fst_flow_new, bead._model, chosen, ffi.new("double[]", list(start)), made)
         self._flow = ffi.gc(made[0], lib.fst_flow_free)
@@ -54,7 +58,8 @@ class Flow:
         """Go on to the time `t`, or to the first of the events `until`; returns (t, state).
 
         Events are "section" (Phi = pi/2 or -pi/2), "edge" (of the plate) and "lift-off".  Without `t` an event
-        is awaited for so many `turns` of the magnet; `stop` says whether it came.
+        is awaited for so many `turns` of the magnet; `stop` says whether it came.  After Ctrl-C the flow stands
+        where it was last, and goes on with the same bits.
         """
         events = 0
         for name in (until,) if isinstance(until, str) else until or ():
@@ -66,7 +71,8 @@ class Flow:
                 raise BadInput("flow.advance", "say to which time t, or until which event")
             t = self.t + turns * 2 * np.pi / self.omega
         stop = ffi.new("fst_stop *")
-        call(lib.fst_flow_advance, self._flow, float(t), events, stop)
+        with self._watch as watch:
+            watch.call(lib.fst_flow_advance, self._flow, float(t), events, stop)
         self.stop = NAMES[int(stop[0])]
         info = lib.fst_flow_get(self._flow)
         return float(info.t), np.array(list(info.state))

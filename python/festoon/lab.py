@@ -15,8 +15,9 @@ PAGE = "festoon-lab.html"
 def places() -> List[pathlib.Path]:
     """Where the page may be: beside the module, in the build tree, installed."""
     here = pathlib.Path(__file__).absolute().parent
+    sources = pathlib.Path(__file__).resolve().parents[2]  # modules of a build tree are links to the sources
     shares = [pathlib.Path(prefix) / "share" / "festoon" for prefix in (sys.prefix, "/usr/local", "/usr")]
-    return [folder / PAGE for folder in (here, *here.parents[1:3], *shares)]
+    return [folder / PAGE for folder in (here, *here.parents[:2], sources / "build", *shares)]
 
 
 def page() -> Optional[pathlib.Path]:

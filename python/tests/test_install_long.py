@@ -68,7 +68,6 @@ def test_editable(repository, venv, tmp_path):
     with open(repository / "python/festoon/__init__.py", "a", encoding="utf-8") as file:
         file.write("\nEDITED = True\n")
     assert quiet(str(venv), "-c", "import festoon; print(festoon.EDITED)", cwd=tmp_path) == "True\n"
-    shutil.rmtree(repository / "build-python")
 
 
 def test_sdist(repository, venv, tmp_path):

@@ -60,6 +60,10 @@ CALLS = {
         "bead.branch(omega=(1e-3, 50), kind='all', step=2e-5, progress=tell)",
         "assert not partial.complete",
     ),
+    "flow": (
+        "flow = bead.flow(progress=tell); flow.advance(t=1e9)",
+        "assert 0 < flow.t < 1e9 and flow.stop == ''",
+    ),
     "lyapunov": ("bead.lyapunov(progress=tell)", "assert partial is None"),
 }
 

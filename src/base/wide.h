@@ -41,6 +41,7 @@
 #undef REAL_OVER_SQRT
 #undef REAL_ROOT
 #undef REAL_RECIPROCAL
+#undef REAL_QUOTIENT
 #undef RHS_KIND
 #undef REAL_BITS
 #undef REAL_AS_BITS
@@ -205,6 +206,17 @@ static inline fst_wide fst_wide_reciprocal(fst_wide x)
 #endif
 }
 
+/* a/b */
+static inline fst_wide fst_wide_quotient(fst_wide a, fst_wide b)
+{
+#if FST_LANES == 8
+    const fst_wide inverse = fst_wide_reciprocal(b), quotient = a * inverse;
+    return WIDE_MULADD(WIDE_NEGMULADD(quotient, b, a), inverse, quotient);
+#else
+    return a / b;
+#endif
+}
+
 /* 1/x to about 1e-8, which is enough to scale errors. */
 static inline fst_wide fst_wide_rough_reciprocal(fst_wide x)
 {
@@ -243,6 +255,7 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
     fst_wide_reciprocal_sqrt(x) /* this form computes it without a root and a quotient */
 #define REAL_ROOT(x, inverse) ((x) * (inverse))
 #define REAL_RECIPROCAL(x) fst_wide_reciprocal(x)
+#define REAL_QUOTIENT(a, b) fst_wide_quotient(a, b)
 #define REAL_ESTIMATE_RECIPROCAL_SQRT(x) fst_wide_estimate_reciprocal_sqrt(x)
 #define REAL_INVERSE_FIFTH(x, estimate) fst_wide_inverse_fifth(x, estimate)
 #define REAL_INVERSE(x, estimate) fst_wide_inverse(x, estimate)
@@ -253,6 +266,7 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
 #define REAL_ROOT(x, inverse) REAL_SQRT(x)
 #define REAL_RECIPROCAL(x) (R(1.0) / (x))
+#define REAL_QUOTIENT(a, b) ((a) / (b))
 #define REAL_MULADD(a, b, c) ((a) * (b) + (c))
 #define REAL_MULSUB(a, b, c) ((a) * (b) - (c))
 #define REAL_NEGMULADD(a, b, c) ((c) - (a) * (b))

@@ -15,7 +15,9 @@ static const option options[] = {
     {"units", '\0', "scaled|lab|si",
      "the units of --csv (or of -o FILE.csv alone): scaled (l, 1/gamma, B0), which festoon plot reads; or, "
      "for\n"
-     "other programs, those of the laboratory (mm, s, mm/s, mT where B0 is known, mN, mW), or SI"},
+     "other programs, those of the laboratory (mm, s, mm/s, mT where B0 is known, mN, mW), or SI. The report "
+     "too\n"
+     "is in tesla, newtons and watts with si; --json with lab or si has SI beside the scaled numbers"},
     {"fps", '\0', "F",
      "samples of the trajectory as a camera of F frames a second takes them, not run.samples a turn"},
     {"ramp", '\0', "FROM:TO",
@@ -162,8 +164,6 @@ static fst_status open_files(const arguments *given, const fst_params *params, r
         return status;
     outputs->paths[0] = option_value(given, "output");
     outputs->paths[1] = csv;
-    if (option_value(given, "units") && !csv && !is_csv(outputs->paths[0]))
-        return fail(error, FST_BAD_INPUT, "--units", "it concerns a trajectory as CSV: give --csv FILE.csv");
     if (csv && !is_csv(csv))
         return fail(error, FST_BAD_INPUT, "--csv", "the name \"%.200s\" must end in .csv", csv);
     if (csv && outputs->paths[0] && strcmp(csv, outputs->paths[0]) == 0)
@@ -202,10 +202,14 @@ static fst_status close_files(run_outputs *outputs, fst_status status, const fst
 static fst_status print_result(const arguments *given, const fst_params *params, const fst_run_result *result,
                                const run_outputs *outputs, FILE *out, fst_error *error)
 {
-    if (option_value(given, "json"))
-        return print_and_free(fst_run_json(params, result, outputs->ramp, outputs->ramp_count), out, error);
-    fst_model *model;
-    fst_status status = fst_model_new(params, &model, error);
+    fst_shown_units units;
+    fst_status status = read_units(given, &units, error);
+    if (status == FST_OK && option_value(given, "json"))
+        return print_and_free(fst_run_json_in(params, result, outputs->ramp, outputs->ramp_count, units), out,
+                              error);
+    fst_model *model = NULL;
+    if (status == FST_OK)
+        status = fst_model_new(params, &model, error);
     if (status != FST_OK)
         return status;
     const fst_groups groups = fst_model_groups(model);
@@ -213,7 +217,7 @@ static fst_status print_result(const arguments *given, const fst_params *params,
     if (option_value(given, "ramp"))
         print_ramp(out, &groups, result, outputs->ramp, outputs->ramp_count);
     else
-        print_run(out, &groups, result);
+        print_run(out, &groups, result, units == FST_SHOWN_SI);
     return FST_OK;
 }
 

@@ -27,6 +27,8 @@ static const word parameters[] = {
     {"bead.radius", "bead's radius"},
     {"bead.mass", "bead's mass"},
     {"bead.moment", "bead's magnetic moment"},
+    {"bead.density", "bead's density"},
+    {"bead.remanence", "bead's remanence"},
     {"magnet.depth", "magnet's depth"},
     {"magnet.width", "magnet's width"},
     {"magnet.half_length", "half length ℓ of the magnet's lines"},
@@ -136,11 +138,32 @@ static fst_quantity length(const char *words, int in_metres, fst_shown_units uni
                     units == FST_SHOWN_LAB ? "mm" : "m");
 }
 
+/* "remanence z of part 0"; a size by its number, since its meaning depends on the kind of part. */
+static void part_words(const char *key, int part, char *words, size_t size)
+{
+    static const char *const turns[] = {"turn", "axis of turning, x", "axis of turning, y",
+                                        "axis of turning, z"};
+    const char *field = strrchr(key, '.') + 1, *bracket = strchr(field, '[');
+    const int length = (int)strcspn(field, "["), k = bracket ? bracket[1] - '0' : 0;
+    if (!bracket)
+        (void)snprintf(words, size, "%s of part %d", field, part);
+    else if (strncmp(field, "rotation", 8) == 0)
+        (void)snprintf(words, size, "%s, of part %d", turns[k], part);
+    else if (strncmp(field, "size", 4) == 0)
+        (void)snprintf(words, size, "size[%d] of part %d", k, part);
+    else
+        (void)snprintf(words, size, "%.*s %c of part %d", length, field, 'x' + k, part);
+}
+
 fst_quantity fst_quantity_of_parameter(const char *key, fst_shown_units units, const fst_scales *scales)
 {
     const fst_param_info *info = fst_param_at(fst_param_find(key));
     char words[96];
-    find_words(parameters, sizeof parameters / sizeof parameters[0], key, 0, words, sizeof words);
+    const int part = fst_param_part(fst_param_find(key));
+    if (part >= 0)
+        part_words(key, part, words, sizeof words);
+    else
+        find_words(parameters, sizeof parameters / sizeof parameters[0], key, 0, words, sizeof words);
     if (strcmp(key, "drive.frequency") == 0)
         return drive(1, units != FST_SHOWN_SCALED, scales->time);
     if (strcmp(key, "drive.omega") == 0)

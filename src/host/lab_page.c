@@ -66,11 +66,13 @@ static int append_scene(char address[FST_LAB_ADDRESS_SIZE], const fst_params *pa
 {
     const fst_params usual = fst_default_params();
     int fits = append(address, "#v=1", "#=");
-    for (int i = 0; i < fst_param_count() && fits; ++i) {
+    for (int i = 0; i < fst_params_row_count(params) && fits; ++i) {
         char value[FST_LAB_VALUE_SIZE], initial[FST_LAB_VALUE_SIZE];
         const int length = fst_params_get(params, i, value, sizeof value);
-        (void)fst_params_get(&usual, i, initial, sizeof initial);
-        if (length <= 0 || strcmp(value, initial) == 0)
+        const int in_both = i < fst_param_count(); /* the default scene has no parts of a magnet */
+        if (length > 0 && in_both)
+            (void)fst_params_get(&usual, i, initial, sizeof initial);
+        if (length <= 0 || (in_both && strcmp(value, initial) == 0))
             continue;
         fits = length < FST_LAB_VALUE_SIZE && append(address, "&", "&") &&
                append(address, fst_param_at(i)->key, "._") && append(address, "=", "=") &&
@@ -111,7 +113,7 @@ static fst_status write_way(const char *address, char *path, size_t size, fst_er
         }
         return fst_fail(error, FST_IO, folder, "no page could be written there: %s", strerror(reason));
     }
-    (void)fputs("<!doctype html>\n<meta charset=\"utf-8\">\n<title>festoon lab</title>\n"
+    (void)fputs("<!doctype html>\n<meta charset=\"utf-8\">\n<title>A bead</title>\n"
                 "<meta http-equiv=\"refresh\" content=\"0;url=",
                 stream);
     for (const char *at = address; *at; ++at)

@@ -189,10 +189,51 @@ char *fst_result_line(const fst_params *params, const fst_run_result *result)
     return text;
 }
 
+/* How the key of a number in SI ends, by the number's scaled unit. */
+static const struct {
+    const char *unit, *ending;
+} si_endings[] = {
+    {"l", "_m"},       {"B0", "_tesla"},          {"l gamma", "_m_per_s"},    {"gamma", "_per_s"},
+    {"1/gamma", "_s"}, {"l gamma^2", "_newtons"}, {"l^2 gamma^2", "_joules"}, {"l^2 gamma^3", "_watts"},
+};
+
+/* The numbers of a run in SI; a load in weights, mean_load_weights, becomes mean_load_newtons. */
+static void add_si(json_t *run, const fst_params *params, const fst_run_result *result)
+{
+    const fst_scales scales = fst_scales_of(params);
+    for (int i = 0; i < fst_result_count(); ++i) {
+        const fst_result_info *info = fst_result_at(i);
+        const char *in_weights = strstr(info->name, "_weights"), *unused;
+        char key[64];
+        double value;
+        memcpy(&value, (const char *)result + info->offset, sizeof value);
+        if (in_weights) {
+            (void)snprintf(key, sizeof key, "%.*s_newtons", (int)(in_weights - info->name), info->name);
+            json_object_set_new(run, key, fst_json_number(value * scales.mass * params->plate_gravity));
+        }
+        for (size_t k = 0; k < sizeof si_endings / sizeof *si_endings; ++k) {
+            if (strcmp(info->unit, si_endings[k].unit) != 0)
+                continue;
+            const int unknown = strcmp(info->unit, "B0") == 0 && isnan(scales.field);
+            const double factor = fst_unit_shown(info->unit, FST_SHOWN_SI, &scales, &unused);
+            (void)snprintf(key, sizeof key, "%s%s", info->name, si_endings[k].ending);
+            json_object_set_new(run, key, fst_json_number(unknown ? NAN : value * factor));
+        }
+    }
+}
+
 char *fst_run_json(const fst_params *params, const fst_run_result *result, const fst_ramp_point *ramp,
                    size_t ramp_count)
 {
+    return fst_run_json_in(params, result, ramp, ramp_count, FST_SHOWN_SCALED);
+}
+
+char *fst_run_json_in(const fst_params *params, const fst_run_result *result, const fst_ramp_point *ramp,
+                      size_t ramp_count, fst_shown_units units)
+{
     json_t *run = fst_json_run(params, result);
+    if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
+        add_si(run, params, result);
     json_object_set_new(run, "groups", groups_object(params));
     json_object_set_new(run, "scene", fst_json_scene(params));
     if (ramp_count)
@@ -249,6 +290,24 @@ static void add_field(json_t *document, const double b[3], double grad[3][3], do
     json_object_set_new(document, slope_key, rows);
 }
 
+/* The magnetic force on a bead whose moment lies along the field, and its load on the plate. */
+static void add_pull(json_t *document, const fst_model *model, double x, double y, fst_shown_units units)
+{
+    const fst_groups g = fst_model_groups(model);
+    const double newton = g.mass * g.length_unit / (g.time_unit * g.time_unit);
+    double force[3], load;
+    fst_field_pull(model, x, y, force, &load);
+    json_object_set_new(document, "height", fst_json_number(g.h));
+    json_object_set_new(document, "force", fst_json_numbers(force, 3));
+    json_object_set_new(document, "load", fst_json_number(load));
+    if (units != FST_SHOWN_SI && units != FST_SHOWN_LAB)
+        return;
+    for (int i = 0; i < 3; ++i)
+        force[i] *= newton;
+    json_object_set_new(document, "force_newtons", fst_json_numbers(force, 3));
+    json_object_set_new(document, "load_newtons", fst_json_number(newton * load));
+}
+
 char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units units)
 {
     double b[3], grad[3][3];
@@ -261,6 +320,7 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
     if (units == FST_SHOWN_SI || units == FST_SHOWN_LAB)
         add_field(document, b, grad, groups.field_unit, groups.field_unit / groups.length_unit, "b_tesla",
                   "grad_tesla_per_m");
+    add_pull(document, model, x, y, units);
     return fst_json_dump(document, JSON_INDENT(2));
 }
 

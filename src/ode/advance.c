@@ -10,6 +10,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/watch.h"
 
 static int sign_of(double x)
 {
@@ -86,14 +87,24 @@ fst_status fst_flow_advance(fst_flow *flow, double t_end, unsigned events, fst_s
     if (!isfinite(t_end))
         return fst_fail(error, FST_BAD_INPUT, "fst_flow_advance", "t_end = %g is not finite", t_end);
     const fst_twofold end = {t_end, 0.0};
+    const double all = fst_twofold_difference(end, flow->t);
+    unsigned evaluations = 0; /* of the last step */
+    fst_watch watch;
+    fst_watch_begin(&watch, flow->progress);
     for (;;) {
         if (flow->cursor == 1.0) {
-            if (fst_twofold_difference(end, flow->t) == 0.0)
+            const double left = fst_twofold_difference(end, flow->t);
+            if (left == 0.0)
                 break;
             flow->section_side = flow->section_side ? flow->section_side : sign_of(flow->step.end[FST_X]);
-            const fst_status status = fst_flow_step(flow, t_end, error);
+            fst_watch_reach(&watch, 1.0 - left / all);
+            const uint64_t calls = flow->rhs_calls;
+            fst_status status = fst_watch_count(&watch, evaluations, error);
+            if (status == FST_OK)
+                status = fst_flow_step(flow, t_end, error);
             if (status != FST_OK)
                 return status;
+            evaluations = (unsigned)(flow->rhs_calls - calls);
             flow->cursor = 0.0;
         }
         if (look_through(flow, end, events, stop))

@@ -53,13 +53,15 @@ double fst_bead_error(const fst_bead_step_double *s, double rtol, const double *
 /* What a bead's flow has besides: the angle of the drive at ramp_start; Phi at step.y and at step.end; and
  * where the caller of fst_flow_advance() is: how far into the last step (0 to 1), the time there (where that
  * was asked for), the sign of X there (0 before the first step), and the bounds (1 << FST_STOP_*) that were
- * reported and from which the bead has not come back; and the contact, under a law with modes. */
+ * reported and from which the bead has not come back; the caller's progress; and the contact, under a law with
+ * modes. */
 #define FLOW_MEMBERS                                                                                           \
     fst_groups groups;                                                                                         \
     fst_twofold phase_start;                                                                                   \
     fst_winding bead_angle_start, bead_angle;                                                                  \
     double cursor;                                                                                             \
     fst_twofold cursor_time;                                                                                   \
+    const fst_progress *progress;                                                                              \
     int section_side;                                                                                          \
     unsigned beyond;                                                                                           \
     fst_contact_state contact;

@@ -65,6 +65,7 @@ fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
     made->bead_angle.y = s->y[FST_Y];
     made->bead_angle_start = made->bead_angle;
     made->cursor = 1.0;
+    made->progress = options->progress;
     *flow = made;
     return FST_OK;
 }

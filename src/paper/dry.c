@@ -121,7 +121,7 @@ fst_status fst_paper_make_dry(fst_paper_state *paper, int only_scans, fst_error 
     fst_paper_state *column = &paper->dry->column;
     column->first_scan = paper->first_scan;
     const int map = only_scans ? 0 : FST_DRY_MUS * FST_DRY_DRIVES * FST_DRY_STARTS;
-    const fst_paper_pieces part = {"dry friction",     0.97,     0.99, fst_paper_run_count(column) + map,
+    const fst_paper_pieces part = {"dry friction",     0.97,     0.98, fst_paper_run_count(column) + map,
                                    FST_PAPER_STEP_DRY, dry_piece};
     fst_status status = fst_paper_do(paper, &part, error);
     column->done[FST_PAPER_STEP_RUNS] = status == FST_OK;
@@ -130,28 +130,27 @@ fst_status fst_paper_make_dry(fst_paper_state *paper, int only_scans, fst_error 
 
 /* ------------------------------------------------------------------ facts */
 
-enum { COROTATION, EJECTION, ONSET, FOUR, MANY, BELL, RATE };
-
 #define FACT(name, words, value, unit_, digits_, scale_, rule_)                                                \
     {                                                                                                          \
         .id = name, .section = "III (experiments)", .text = words, .said = NULL, .published = value,           \
         .scale = scale_, .unit = unit_, .digits = digits_, .rule = rule_                                       \
     }
 const fst_statement fst_dry_facts[FST_FACT_COUNT] = {
-    [COROTATION] =
+    [FST_FACT_COROTATION] =
         FACT("corotation", "A bead released at rest above a pole goes round with the magnet up to about", 7.0,
              "Hz", 2, 1.0, FST_RULE_NUMBER),
-    [EJECTION] = FACT("ejection", "Between 7 and 10 Hz most beads leave the plate (share of the runs)", NAN,
-                      "%", 0, 100.0, FST_RULE_MOSTLY),
-    [ONSET] =
+    [FST_FACT_EJECTION] = FACT("ejection", "Between 7 and 10 Hz most beads leave the plate (share of the runs)",
+                               NAN, "%", 0, 100.0, FST_RULE_MOSTLY),
+    [FST_FACT_ONSET] =
         FACT("onset", "Regular counter-rotation from about (lowest drive from which on all runs circle so)",
              10.0, "Hz", 1, 1.0, FST_RULE_NUMBER),
-    [FOUR] = FACT("four", "Festoons at 10.7 Hz", 4.0, "", 2, 1.0, FST_RULE_NUMBER),
-    [MANY] =
+    [FST_FACT_FOUR] = FACT("four", "Festoons at 10.7 Hz", 4.0, "", 2, 1.0, FST_RULE_NUMBER),
+    [FST_FACT_MANY] =
         FACT("many", "Festoons at 19.9 Hz (the paper's simulation has 15)", 15.0, "", 2, 1.0, FST_RULE_NUMBER),
-    [BELL] = FACT("bell", "The bead circles most slowly at about", 16.0, "Hz", 1, 1.0, FST_RULE_NUMBER),
-    [RATE] = FACT("rate", "Rate of friction (dry: ⟨f·V⟩/⟨V²⟩, median from 10 to 20 Hz)", 312.5, "1/s", 1, 1.0,
-                  FST_RULE_MAGNITUDE),
+    [FST_FACT_BELL] =
+        FACT("bell", "The bead circles most slowly at about", 16.0, "Hz", 1, 1.0, FST_RULE_NUMBER),
+    [FST_FACT_RATE] = FACT("rate", "Rate of friction (dry: ⟨f·V⟩/⟨V²⟩, median from 10 to 20 Hz)", 312.5, "1/s",
+                           1, 1.0, FST_RULE_MAGNITUDE),
 };
 
 void fst_dry_law_name(int law, char *text, size_t size)
@@ -183,6 +182,11 @@ static int by_drive(const void *one, const void *other)
     return (x > y) - (x < y);
 }
 
+static void sort_by_drive(law_runs *runs)
+{
+    qsort(runs->of, (size_t)runs->count, sizeof runs->of[0], by_drive);
+}
+
 static law_runs runs_of(const fst_paper_state *paper, int law)
 {
     static const fst_scan viscous[] = {FST_SCAN_SLOW, FST_SCAN_COMPARISON};
@@ -194,7 +198,7 @@ static law_runs runs_of(const fst_paper_state *paper, int law)
     for (int drive = 0; law >= FST_PAPER_DYNAMICS && drive < FST_DRY_DRIVES; ++drive)
         for (int start = 0; start < FST_DRY_STARTS; ++start)
             add_run(&runs, &paper->dry->map[law - FST_PAPER_DYNAMICS][drive][start]);
-    qsort(runs.of, (size_t)runs.count, sizeof runs.of[0], by_drive);
+    sort_by_drive(&runs);
     return runs;
 }
 
@@ -298,24 +302,38 @@ static double friction_rate(const law_runs *runs)
     return count > 0 ? 0.5 * (rates[(count - 1) / 2] + rates[count / 2]) : NAN;
 }
 
+static double fact_of(const law_runs *runs, int fact)
+{
+    switch (fact) {
+    case FST_FACT_COROTATION:
+        return corotation_end(runs);
+    case FST_FACT_EJECTION:
+        return ejected_share(runs);
+    case FST_FACT_ONSET:
+        return onset_of(runs);
+    case FST_FACT_FOUR:
+        return festoons_near(runs, 10.7);
+    case FST_FACT_MANY:
+        return festoons_near(runs, 19.9);
+    case FST_FACT_BELL:
+        return slowest(runs);
+    case FST_FACT_RATE:
+        return friction_rate(runs);
+    }
+    return NAN;
+}
+
 double fst_dry_fact(const fst_paper_state *paper, int fact, int law)
 {
     const law_runs runs = runs_of(paper, law);
-    switch (fact) {
-    case COROTATION:
-        return corotation_end(&runs);
-    case EJECTION:
-        return ejected_share(&runs);
-    case ONSET:
-        return onset_of(&runs);
-    case FOUR:
-        return festoons_near(&runs, 10.7);
-    case MANY:
-        return festoons_near(&runs, 19.9);
-    case BELL:
-        return slowest(&runs);
-    case RATE:
-        return friction_rate(&runs);
-    }
-    return NAN;
+    return fact_of(&runs, fact);
+}
+
+double fst_dry_fact_of(const fst_paper_run *runs, int count, int fact)
+{
+    law_runs sorted = {.count = 0};
+    for (int i = 0; i < count; ++i)
+        add_run(&sorted, &runs[i]);
+    sort_by_drive(&sorted);
+    return fact_of(&sorted, fact);
 }

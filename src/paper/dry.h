@@ -47,13 +47,24 @@ fst_status fst_paper_make_dry(fst_paper_state *paper, int only_scans, fst_error 
 
 /* What the paper's text says of the experiment, in the order of the table, judged by the same rules as its
  * statements (`measure`, `scan` and `step` are unused). */
-enum { FST_FACT_COUNT = 7 };
+typedef enum {
+    FST_FACT_COROTATION,
+    FST_FACT_EJECTION,
+    FST_FACT_ONSET,
+    FST_FACT_FOUR,
+    FST_FACT_MANY,
+    FST_FACT_BELL,
+    FST_FACT_RATE,
+    FST_FACT_COUNT
+} fst_dry_fact_id;
 extern const fst_statement fst_dry_facts[FST_FACT_COUNT];
 
 /* A law of the table: the two dynamics with viscous friction, then dry friction with each of fst_dry_mus. */
 void fst_dry_law_name(int law, char *text, size_t size);
 /* The fact under that law, NAN where its runs do not tell. */
 double fst_dry_fact(const fst_paper_state *paper, int fact, int law);
+/* The same of any runs, from the rolling start and from rest, at whatever drives. */
+double fst_dry_fact_of(const fst_paper_run *runs, int count, int fact);
 
 /* ------------------------------------------------------------------ what is written: dry_report.c */
 

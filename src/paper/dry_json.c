@@ -31,13 +31,18 @@ static json_t *fact_object(const fst_paper_state *paper, int fact)
     return object;
 }
 
-static json_t *run_object(const fst_paper_run *run, int start)
+json_t *fst_paper_dry_run_json(const fst_paper_run *run)
 {
     const fst_run_result *result = &run->result;
     json_t *object = json_object();
-    json_object_set_new(object, "mu", json_real(run->params.friction_mu));
+    json_object_set_new(object, "mu",
+                        run->params.friction_law == FST_FRICTION_COULOMB ? json_real(run->params.friction_mu)
+                                                                         : json_null());
     json_object_set_new(object, "frequency_hz", json_real(result->frequency_hz));
-    json_object_set_new(object, "start", json_string(start ? "rest" : "rolling"));
+    json_object_set_new(object, "start",
+                        json_string(run->params.start_spin == FST_SPIN_REST ? "rest" : "rolling"));
+    const char *symmetry = fst_symmetry_name(result->symmetry);
+    json_object_set_new(object, "symmetry", symmetry ? json_string(symmetry) : json_null());
     json_object_set_new(object, "outcome", json_string(fst_outcome_names[fst_outcome(result)]));
     json_object_set_new(object, "regime", json_string(fst_regime_name(result->regime)));
     json_object_set_new(object, "settled", json_boolean(fst_paper_is_settled(result)));
@@ -64,7 +69,7 @@ json_t *fst_paper_dry_json(const fst_paper_state *paper)
         for (int drive = 0; drive < FST_DRY_DRIVES; ++drive)
             for (int start = 0; start < FST_DRY_STARTS; ++start)
                 if (paper->dry->map[mu][drive][start].done)
-                    json_array_append_new(map, run_object(&paper->dry->map[mu][drive][start], start));
+                    json_array_append_new(map, fst_paper_dry_run_json(&paper->dry->map[mu][drive][start]));
     json_object_set_new(object, "map", map);
     return object;
 }

@@ -8,5 +8,7 @@
 
 /* null where nothing of it was computed */
 json_t *fst_paper_dry_json(const fst_paper_state *paper);
+/* A run of either chapter: drive, start, outcome, means. */
+json_t *fst_paper_dry_run_json(const fst_paper_run *run);
 
 #endif

@@ -202,6 +202,23 @@ static const fst_paper_figure figures[] = {
      .own = "friction",
      .scan = FST_SCAN_COMPARISON,
      .draw = fst_paper_draw_evolution},
+    {.name = "magnets-field",
+     .source = "section IV, carried on",
+     .title = "The field of real magnets of the bar's outline",
+     .caption =
+         "Strength of the field at the bead's centre over the magnet's long axis and across it. All magnets "
+         "have the remanence that gives the greatest field of the five lines at κ = 1.5.",
+     .scan = FST_SCAN_COMPARISON,
+     .step = FST_PAPER_STEP_MAGNETS,
+     .draw = fst_paper_draw_magnet_fields},
+    {.name = "magnets-speed",
+     .source = "Fig. 4, carried on",
+     .title = "How fast the bead circles on real magnets",
+     .caption = "Frequency of the bead about the axis (negative: against the magnet) on the same magnets, with "
+                "viscous and with dry friction, where it counter-rotates regularly from the rolling start.",
+     .scan = FST_SCAN_COMPARISON,
+     .step = FST_PAPER_STEP_MAGNETS,
+     .draw = fst_paper_draw_magnet_speeds},
 };
 
 enum { FIGURE_ROWS = sizeof figures / sizeof figures[0] };

@@ -49,6 +49,9 @@ FST_PAPER_DRAW(supercritical)
 FST_PAPER_DRAW(remanence)
 FST_PAPER_DRAW(sketch)
 FST_PAPER_DRAW(camera)
+/* ... and the chapter on real magnets (magnets_charts.c). */
+FST_PAPER_DRAW(magnet_fields)
+FST_PAPER_DRAW(magnet_speeds)
 #undef FST_PAPER_DRAW
 
 /* The supplement's two films, beside the figures (films.c); paper->films counts the films that are made, in

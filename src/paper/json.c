@@ -1,6 +1,7 @@
 /* json.c - paper.json: the comparison for programs. */
 #include "paper/dry.h"
 #include "paper/dry_json.h"
+#include "paper/magnets_json.h"
 #include "paper/figures.h"
 #include "paper/report.h"
 #include "paper/runs.h"
@@ -294,6 +295,7 @@ fst_status fst_paper_write_json(const fst_paper_state *paper, fst_error *error)
     json_object_set_new(document, "orbits", orbits_object(paper));
     json_object_set_new(document, "statements", statements_array(paper));
     json_object_set_new(document, "dry", fst_paper_dry_json(paper));
+    json_object_set_new(document, "magnets", fst_paper_magnets_json(paper));
     json_object_set_new(document, "figures", figures_array(paper));
     json_t *films = json_array();
     for (int i = 0; i < paper->films; ++i)

@@ -4,7 +4,8 @@
  *  2. orbits       exact.c        what branches tell without runs                 |
  *  3. thresholds   runs.c         by bisection, where the orbits do not tell      +--> fst_paper_state
  *  4. probes       probe_parts.c  period halving, ansatz, paramagnetic beads    --+        (state.h)
- *     dry friction dry.c          the scans once more, and a small map              --'
+ *     dry friction dry.c          the scans once more, and a small map                |
+ *     magnets      magnets.c      the experiment on real magnets                    --'
  *  5. statements   verdicts.c     each number against the paper's                          |
  *  6. figures      figures.c      drawn as soon as their step is done                      v
  *  7. report       json.c, report.c                                        paper.json, report.html
@@ -13,6 +14,7 @@
  */
 #include "paper/dry.h"
 #include "paper/figures.h"
+#include "paper/magnets.h"
 #include "paper/report.h"
 #include "paper/runs.h"
 #include "paper/statements.h"
@@ -73,6 +75,8 @@ static fst_status make_everything(fst_paper_state *paper, fst_error *error)
         status = fst_paper_make_probes(paper, NULL, error);
     if (status == FST_OK)
         status = fst_paper_make_dry(paper, 0, error);
+    if (status == FST_OK)
+        status = fst_paper_make_magnets(paper, error);
     if (status == FST_OK)
         status = fst_paper_draw_figures(paper, 0.99, 1.0, error);
     paper->complete = status == FST_OK;
@@ -170,7 +174,10 @@ fst_status fst_paper(const char *directory, const fst_paper_options *options, fs
     if (status == FST_OK)
         status = fst_paper_dry_begin(&paper, error);
     if (status == FST_OK)
+        status = fst_paper_magnets_begin(&paper, error);
+    if (status == FST_OK)
         status = options->only ? answer_one(&paper, error) : answer_all(&paper, began, error);
+    fst_paper_magnets_free(&paper);
     fst_paper_dry_free(&paper);
     fst_paper_free_runs(&paper);
     fst_c_locale_leave(locale);

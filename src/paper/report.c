@@ -1,5 +1,6 @@
 /* report.c - report.html: the comparison for people, in one file that needs no other. */
 #include "paper/dry.h"
+#include "paper/magnets.h"
 #include "paper/figures.h"
 #include "paper/report.h"
 #include "paper/runs.h"
@@ -306,6 +307,7 @@ static fst_status write_all(FILE *out, const fst_paper_state *paper, fst_error *
     fst_report_statements(out, paper);
     const fst_status status = write_figures(out, paper, error);
     fst_report_dry(out, paper);
+    fst_report_magnets(out, paper);
     write_regimes(out, paper);
     write_provenance(out, paper);
     fputs("</main></body></html>\n", out);

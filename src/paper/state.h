@@ -3,7 +3,8 @@
  *     runs.c ---------.
  *     exact.c --------+--> fst_paper_state --> measures --> statements --> verdicts --> report
  *     probe_parts.c --+                    `-> figures, films -----------------------'
- *     dry.c ----------'
+ *     dry.c ----------+
+ *     magnets.c ------'
  *
  * The files on the left fill the state in; everything on the right only reads it.
  */
@@ -29,6 +30,7 @@ typedef enum {
     FST_PAPER_STEP_BALANCES,
     FST_PAPER_STEP_REMANENCE,
     FST_PAPER_STEP_DRY,
+    FST_PAPER_STEP_MAGNETS,
     FST_PAPER_STEP_COUNT
 } fst_paper_step;
 
@@ -151,6 +153,7 @@ typedef struct fst_paper_state {
     int search_count;
     double mu;                 /* the coefficient of dry friction of all scans; 0: the paper's viscous law */
     struct fst_paper_dry *dry; /* what is computed of a bead that rubs dry (dry.h); NULL within that itself */
+    struct fst_paper_magnets *magnets;                            /* the runs on real magnets (magnets.h) */
     fst_balances balances[FST_PAPER_DYNAMICS][FST_BALANCE_CASES]; /* for the identities */
     fst_balances settled[FST_PAPER_DYNAMICS][FST_BALANCE_CASES];  /* over longer windows, for the means */
     fst_least_found remanence[FST_PAPER_DYNAMICS][FST_REMANENCE_DRIVES][FST_REMANENCE_STRENGTHS];

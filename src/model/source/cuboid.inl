@@ -22,16 +22,16 @@
  * q vanishes on the edge itself alone.  Where the foot of the place lies between the edge's ends (w w' < 0) it
  * is computed as c^2 (r r' - w w' + r^2 + w'^2)/(r r' - w w'), c being the distance from the edge's line.
  *
- * Beyond CUBOID_FAR half diagonals Phi is the block's multipole series (far_form()): of three cancellations,
+ * Beyond cuboid_far half diagonals Phi is the block's multipole series (far_form()): of three cancellations,
  * that of opposite corners, edges and faces, the first has been taken off above, and what the others leave is
  * still seen in the gradient.  Units: lengths in l, fields in B0.
  */
 enum {
-    FN(cuboid_far) = 16, /* half diagonals */
+    FN(cuboid_far) = 10, /* half diagonals */
 #ifdef REAL_BITS
-    FN(cuboid_order) = 12 /* of the last multipole: the next is below 2e-16 of the field */
+    FN(cuboid_order) = 14 /* of the last multipole: the next is below 1e-15 of the field */
 #else
-    FN(cuboid_order) = 16
+    FN(cuboid_order) = 18
 #endif
 };
 
@@ -44,7 +44,7 @@ typedef struct FN(cuboid_view) {
     REAL place[3], half[3];
     REAL u[3][2], u2[3][2];
     REAL r[8], inverse_r[8];
-    REAL q[3][4], inverse_q[3][4];
+    REAL q[3][4], inverse_q[3][4], inverse_rr[3][4], k[3][4]; /* of edges; inverse_rr: 1/(r r') */
 } FN(cuboid_view);
 
 #define CORNER_STEP(axis) (4 >> (axis))
@@ -59,14 +59,19 @@ static inline __attribute__((always_inline)) void FN(see_edges)(FN(cuboid_view) 
     const REAL product = at->u[axis][0] * at->u[axis][1], along2 = u2[0] + u2[1];
     const REAL_MASK between = REAL_LESS(product, R(0.0));
     const REAL apart = REAL_ABS(product);
+    const REAL minus_l = R(-2.0) * at->half[axis];
     for (int edge = 0; edge < 4; ++edge) {
+        const int from = EDGE_CORNER(axis, edge), to = EDGE_END(axis, edge);
         const REAL across2 = a2[edge >> 1] + b2[edge & 1];
-        const REAL sum = REAL_MULADD(at->r[EDGE_CORNER(axis, edge)], at->r[EDGE_END(axis, edge)], apart);
+        const REAL sum = REAL_MULADD(at->r[from], at->r[to], apart);
         const REAL over = REAL_SELECT(between, across2 * (sum + (across2 + along2)), across2 + sum);
         const REAL under = REAL_SELECT(between, sum, R(1.0));
         const REAL inverse = REAL_RECIPROCAL(over * under);
         at->q[axis][edge] = (over * over) * inverse;
         at->inverse_q[axis][edge] = (under * under) * inverse;
+        at->inverse_rr[axis][edge] = at->inverse_r[from] * at->inverse_r[to];
+        at->k[axis][edge] =
+            (minus_l * (at->r[from] + at->r[to])) * (at->inverse_q[axis][edge] * at->inverse_rr[axis][edge]);
     }
 }
 
@@ -167,18 +172,14 @@ static inline __attribute__((always_inline)) FN(edge_sums)
 {
     const REAL *a = at->u[AXIS_AFTER(axis)], *b = at->u[AXIS_AFTER(axis + 1)];
     const REAL *a2 = at->u2[AXIS_AFTER(axis)], *b2 = at->u2[AXIS_AFTER(axis + 1)];
-    const REAL minus_l = R(-2.0) * at->half[axis], l2 = minus_l * minus_l;
-    REAL k[4], change[4]; /* K, and 2 dK/d(c^2) */
-    for (int edge = 0; edge < 4; ++edge) {
-        const int from = EDGE_CORNER(axis, edge), to = EDGE_END(axis, edge);
-        const REAL inverse = at->inverse_r[from] * at->inverse_r[to], sum = at->r[from] + at->r[to];
-        k[edge] = (minus_l * sum) * (at->inverse_q[axis][edge] * inverse);
-        if (with_fourth) {
-            const REAL squares = REAL_MULADD(at->r[from], at->r[from], at->r[to] * at->r[to]);
-            const REAL slope =
-                REAL_MULADD(squares, inverse, REAL_MULADD(l2, at->inverse_q[axis][edge], R(1.0)));
-            change[edge] = -(k[edge] * inverse) * slope;
-        }
+    const REAL l2 = R(4.0) * (at->half[axis] * at->half[axis]);
+    const REAL *k = at->k[axis];
+    REAL change[4]; /* 2 dK/d(c^2) */
+    for (int edge = 0; with_fourth && edge < 4; ++edge) {
+        const REAL from = at->r[EDGE_CORNER(axis, edge)], to = at->r[EDGE_END(axis, edge)];
+        const REAL inverse = at->inverse_rr[axis][edge], squares = REAL_MULADD(from, from, to * to);
+        const REAL slope = REAL_MULADD(squares, inverse, REAL_MULADD(l2, at->inverse_q[axis][edge], R(1.0)));
+        change[edge] = -(k[edge] * inverse) * slope;
     }
     FN(edge_sums) sums;
     sums.aab = FN(weigh_first)(a, k);

@@ -101,37 +101,50 @@ typedef struct FN(rim) {
     REAL first;     /* X_1,1/2 over rho */
     REAL cube;      /* X_1,3/2 over rho */
     REAL cube_zero; /* (X_0 - X_1),3/2 */
+    REAL nu_first;  /* nu X_1,1/2 */
     FN(elliptic) means;
 } FN(rim);
 
-static inline FN(rim) FN(see_rim)(const FN(cylinder_place) * at, REAL zeta)
+/* zeta: heights over the rims. */
+static inline __attribute__((always_inline)) void FN(see_rims)(const FN(cylinder_place) * at,
+                                                               const REAL zeta[2], FN(rim) rims[2])
 {
-    FN(rim) rim;
-    const REAL zeta2 = zeta * zeta, greatest2 = REAL_MULADD(at->width, at->width, zeta2);
-    const REAL least2 = REAL_MULADD(at->past, at->past, zeta2);
-    rim.zeta = zeta;
-    rim.size = REAL_ABS(zeta);
-    rim.sign = REAL_SELECT(REAL_LESS(zeta, R(0.0)), R(-1.0), R(1.0));
-    rim.greatest = ELLIPTIC_ROOT(greatest2);
-    const REAL least = ELLIPTIC_ROOT(least2), product = rim.greatest * least;
-    const REAL a = R(0.5) * (rim.greatest + least), per_a = REAL_RECIPROCAL(a), a2 = a * a;
-    const REAL c = at->area * per_a, c2 = c * c;
-    rim.a = a;
-    rim.a2 = a2;
-    rim.c = c;
-    rim.c2 = c2;
-    rim.per_a2 = per_a * per_a;
-    rim.per_greatest2 = REAL_RECIPROCAL(greatest2);
-    rim.per_product2 = REAL_RECIPROCAL(product * product);
-    rim.means = FN(elliptic_mean)(a, product, c);
-    rim.circle = R(2.0) * REAL_OF(CYLINDER_PI) * REAL_RECIPROCAL(rim.means.mean);
-    rim.sigma = c2 * rim.means.squares;
-    const REAL share = R(0.5) * rim.circle * per_a, turn = share * at->radius * per_a; /* times rho: c/(2 a) */
-    rim.per_a = per_a;
-    rim.first = turn * (R(1.0) + rim.sigma);
-    rim.cube = turn * (R(3.0) * a2 - c2 - (a2 + c2) * rim.sigma) * rim.per_product2;
-    rim.cube_zero = share * (R(2.0) * a + c * (R(1.0) + rim.sigma)) * rim.per_greatest2;
-    return rim;
+    REAL a[2], c[2], product[2];
+    FN(elliptic) means[2];
+    for (int k = 0; k < 2; ++k) {
+        FN(rim) *rim = &rims[k];
+        const REAL zeta2 = zeta[k] * zeta[k], greatest2 = REAL_MULADD(at->width, at->width, zeta2);
+        const REAL least2 = REAL_MULADD(at->past, at->past, zeta2), least = REAL_SQRT(least2);
+        rim->zeta = zeta[k];
+        rim->size = REAL_ABS(zeta[k]);
+        rim->sign = REAL_SELECT(REAL_LESS(zeta[k], R(0.0)), R(-1.0), R(1.0));
+        rim->greatest = REAL_SQRT(greatest2);
+        product[k] = rim->greatest * least;
+        a[k] = R(0.5) * (rim->greatest + least);
+        const REAL product2 = greatest2 * least2, per_all = REAL_RECIPROCAL(a[k] * product2);
+        rim->per_product2 = per_all * a[k];
+        rim->per_greatest2 = rim->per_product2 * least2;
+        rim->per_a = per_all * product2;
+        rim->per_a2 = rim->per_a * rim->per_a;
+        c[k] = at->area * rim->per_a;
+        rim->a = a[k];
+        rim->a2 = a[k] * a[k];
+        rim->c = c[k];
+        rim->c2 = c[k] * c[k];
+    }
+    FN(elliptic_means)(a, product, c, means);
+    for (int k = 0; k < 2; ++k) {
+        FN(rim) *rim = &rims[k];
+        rim->means = means[k];
+        rim->circle = R(2.0) * REAL_OF(CYLINDER_PI) * means[k].per_mean;
+        rim->sigma = rim->c2 * means[k].squares;
+        const REAL share = R(0.5) * rim->circle * rim->per_a, one = R(1.0);
+        const REAL turn = share * at->radius * rim->per_a; /* times rho: c/(2 a) */
+        rim->first = turn * (one + rim->sigma);
+        rim->cube = turn * (R(3.0) * rim->a2 - rim->c2 - (rim->a2 + rim->c2) * rim->sigma) * rim->per_product2;
+        rim->cube_zero = share * (R(2.0) * rim->a + rim->c * (one + rim->sigma)) * rim->per_greatest2;
+        rim->nu_first = rim->first * REAL_SELECT(at->within, at->rho2 * at->per_radius, at->radius);
+    }
 }
 
 /* The two series of H_2, without their factors (2 pi/a) y^2 and (2 pi/a) x^2. */
@@ -159,92 +172,117 @@ static inline void FN(rim_series)(REAL x, REAL y, REAL *of_y, REAL *of_x)
     }
 }
 
-/* zeta H_2 by the third kind.  nu_first: nu X_1,1/2. */
-static inline REAL FN(rim_third)(const FN(cylinder_place) * at, const FN(rim) * rim, REAL nu_first)
+/* zeta H_2 by the third kind. */
+static inline __attribute__((always_inline)) void FN(rims_by_third)(const FN(cylinder_place) * at,
+                                                                    const FN(rim) rims[2], REAL rest[2])
 {
-    const REAL past = REAL_ABS(at->past), gap = past * at->width, p = rim->greatest * (past * at->per_width);
-    const REAL_MASK over = REAL_LESS(p, rim->size);
-    const REAL sum = FN(elliptic_third)(&rim->means, REAL_MAX(p, rim->size));
-    const REAL inverse = REAL_RECIPROCAL(REAL_SELECT(over, rim->zeta, gap));
+    const REAL past = REAL_ABS(at->past), gap = past * at->width, share = past * at->per_width;
     const REAL least2 = REAL_SELECT(at->within, at->rho2, at->radius2);
-    const REAL aside = rim->zeta * (rim->circle * REAL_MULADD(at->area, sum, least2) * inverse - nu_first);
-    const REAL above = REAL_OF(CYLINDER_PI) * rim->sign - rim->zeta * (R(0.5) * rim->circle + nu_first) -
-                       R(0.25) * rim->circle * gap * (R(1.0) + sum) * inverse;
-    return REAL_SELECT(over, above, aside);
-}
-
-/* zz and ++ of a rim; returns sgn zeta where 2 pi (R/rho)^2 sgn zeta is left out of ++, else 0. */
-static inline REAL FN(rim_axial)(const FN(cylinder_place) * at, const FN(rim) * rim, FN(axial) * v)
-{
-    const REAL limit = REAL_OF(CYLINDER_SERIES), none = R(0.0);
-    const REAL x = at->radius2 * rim->per_a2, y = at->rho2 * rim->per_a2;
-    const REAL_MASK within = at->within, near = REAL_LESS(y, limit);
-    const REAL lesser = REAL_SELECT(within, y, x); /* H_2 has a series where it is small */
-    const REAL_MASK known = REAL_LESS(lesser, limit), unknown = REAL_LESS_EQUAL(limit, lesser);
-    const REAL nu_first = rim->first * REAL_SELECT(within, at->rho2 * at->per_radius, at->radius);
-    REAL rest = none, inner = none; /* zeta H_2; ++ by a series */
-    if (REAL_ANY(known) || REAL_ANY(near)) {
-        const REAL factor = R(2.0) * REAL_OF(CYLINDER_PI) * rim->zeta * rim->per_a;
-        REAL of_x, of_y;
-        FN(rim_series)(x, y, &of_y, &of_x);
-        rest = factor * REAL_SELECT(within, y * y * of_y, x * x * of_x);
-        inner = -(factor * of_y * (x * rim->per_a2));
+    const FN(elliptic) means[2] = {rims[0].means, rims[1].means};
+    REAL p[2], sum[2];
+    for (int k = 0; k < 2; ++k)
+        p[k] = REAL_MAX(rims[k].greatest * share, rims[k].size);
+    FN(elliptic_thirds)(means, p, sum);
+    for (int k = 0; k < 2; ++k) {
+        const FN(rim) *rim = &rims[k];
+        const REAL_MASK over = REAL_LESS(rim->greatest * share, rim->size);
+        const REAL inverse = REAL_RECIPROCAL(REAL_SELECT(over, rim->zeta, gap));
+        const REAL aside =
+            rim->zeta * (rim->circle * REAL_MULADD(at->area, sum[k], least2) * inverse - rim->nu_first);
+        const REAL above = REAL_OF(CYLINDER_PI) * rim->sign -
+                           rim->zeta * (R(0.5) * rim->circle + rim->nu_first) -
+                           R(0.25) * rim->circle * gap * (R(1.0) + sum[k]) * inverse;
+        rest[k] = REAL_SELECT(over, above, aside);
     }
-    if (REAL_ANY(unknown))
-        rest = REAL_SELECT(known, rest, FN(rim_third)(at, rim, nu_first));
-    const REAL first = REAL_MULADD(rim->zeta, nu_first, rest); /* zeta H_1 */
-    /* zeta X_0 - 2 pi sgn zeta = X_0 sgn zeta (|zeta| - M) */
-    const REAL short_of =
-        (rim->c2 - at->rho2 - at->radius2) * REAL_RECIPROCAL(rim->size + rim->a) + rim->means.below;
-    v->zz = REAL_SELECT(within, REAL_MULADD(rim->sign * rim->circle, short_of, first), -first);
-    const REAL ratio = at->radius2 * at->per_rho2;
-    const REAL inside = -(rest * ratio);
-    const REAL outside = REAL_MULADD(rim->zeta, nu_first, ratio * REAL_MULADD(rim->zeta, rim->circle, first));
-    v->pp_2 = REAL_SELECT(near, inner, REAL_SELECT(within, inside, outside) * at->per_rho2);
-    return REAL_SELECT(near, REAL_SELECT(within, none, rim->sign), none);
 }
 
-/* What a rim adds; returns what rim_axial() does. */
-static inline __attribute__((always_inline)) REAL FN(rim_derivatives)(const FN(cylinder_place) * at, REAL zeta,
-                                                                      int with_fourth, FN(axial) * v)
+/* By the series; and ++ for places near the axis. */
+static inline void FN(rim_by_series)(const FN(rim) * rim, REAL x, REAL y, REAL_MASK within, REAL *rest,
+                                     REAL *pp_2)
 {
-    const FN(rim) rim = FN(see_rim)(at, zeta);
+    const REAL factor = R(2.0) * REAL_OF(CYLINDER_PI) * rim->zeta * rim->per_a;
+    REAL of_x, of_y;
+    FN(rim_series)(x, y, &of_y, &of_x);
+    *rest = factor * REAL_SELECT(within, y * y * of_y, x * x * of_x);
+    *pp_2 = -(factor * of_y * (x * rim->per_a2));
+}
+
+/* zz and ++ of both rims.  left_out: sgn zeta where 2 pi (R/rho)^2 sgn zeta is left out of ++, else 0. */
+static inline __attribute__((always_inline)) void
+FN(rims_axial)(const FN(cylinder_place) * at, const FN(rim) rims[2], FN(axial) v[2], REAL left_out[2])
+{
+    const REAL limit = REAL_OF(CYLINDER_SERIES), none = R(0.0), ratio = at->radius2 * at->per_rho2;
+    const REAL_MASK within = at->within;
+    REAL lesser[2], third[2] = {none, none};
+    for (int k = 0; k < 2; ++k) /* H_2 has a series where this is small */
+        lesser[k] = REAL_SELECT(within, at->rho2, at->radius2) * rims[k].per_a2;
+    if (REAL_ANY(REAL_LESS_EQUAL(limit, REAL_MAX(lesser[0], lesser[1]))))
+        FN(rims_by_third)(at, rims, third);
+    for (int k = 0; k < 2; ++k) {
+        const FN(rim) *rim = &rims[k];
+        const REAL x = at->radius2 * rim->per_a2, y = at->rho2 * rim->per_a2;
+        const REAL_MASK near = REAL_LESS(y, limit), known = REAL_LESS(lesser[k], limit);
+        REAL rest = third[k], inner = none;
+        if (REAL_ANY(known) || REAL_ANY(near)) {
+            REAL by_series;
+            FN(rim_by_series)(rim, x, y, within, &by_series, &inner);
+            rest = REAL_SELECT(known, by_series, rest);
+        }
+        const REAL first = REAL_MULADD(rim->zeta, rim->nu_first, rest); /* zeta H_1 */
+        /* zeta X_0 - 2 pi sgn zeta = X_0 sgn zeta (|zeta| - M) */
+        const REAL short_of =
+            (rim->c2 - at->rho2 - at->radius2) * REAL_RECIPROCAL(rim->size + rim->a) + rim->means.below;
+        v[k].zz = REAL_SELECT(within, REAL_MULADD(rim->sign * rim->circle, short_of, first), -first);
+        const REAL inside = -(rest * ratio), all = REAL_MULADD(rim->zeta, rim->circle, first);
+        const REAL outside = REAL_MULADD(rim->zeta, rim->nu_first, ratio * all);
+        v[k].pp_2 = REAL_SELECT(near, inner, REAL_SELECT(within, inside, outside) * at->per_rho2);
+        left_out[k] = REAL_SELECT(near, REAL_SELECT(within, none, rim->sign), none);
+    }
+}
+
+/* All but zz and ++. */
+static inline __attribute__((always_inline)) void
+FN(rim_derivatives)(const FN(cylinder_place) * at, const FN(rim) * rim, int with_fourth, FN(axial) * v)
+{
     const REAL radius = at->radius, past = at->past;
-    const REAL a = rim.a, a2 = rim.a2, c = rim.c, c2 = rim.c2, sigma = rim.sigma;
-    const REAL left_out = FN(rim_axial)(at, &rim, v);
-    v->zp_1 = -(radius * rim.first);
+    const REAL zeta = rim->zeta, a = rim->a, a2 = rim->a2, c = rim->c, c2 = rim->c2, sigma = rim->sigma;
+    v->zp_1 = -(radius * rim->first);
     /* X_1 and X_0 - X_1, X_1 - X_2 of the power 3/2 */
-    const REAL cube = at->rho * rim.cube, past_cube = past * cube;
+    const REAL cube = at->rho * rim->cube, past_cube = past * cube;
     const REAL cube_two =
-        R(0.5) * rim.circle * (rim.per_a2 * rim.per_greatest2) *
+        R(0.5) * rim->circle * (rim->per_a2 * rim->per_greatest2) *
         (c * (R(3.0) * a + R(2.0) * c) + sigma * (R(2.0) * a2 + R(3.0) * a * c + R(2.0) * c2));
-    v->zzz = radius * REAL_MULSUB(radius, rim.cube_zero, past_cube);
-    v->zzp_1 = radius * zeta * rim.cube;
+    v->zzz = radius * REAL_MULSUB(radius, rim->cube_zero, past_cube);
+    v->zzp_1 = radius * zeta * rim->cube;
     v->zpp = radius * REAL_MULADD(radius, cube_two, past_cube);
     if (!with_fourth)
-        return left_out;
+        return;
     /* The same of the power 5/2: with A = a^2 + c^2, B = 2 rho R, Y_1 = (B X_0 + A X_1/3)/(a_0 b_0)^2, Y_0 -
      * Y_1 = (X_0 - X_1/3)/a_0^2, Y_1 - Y_2 = 4 X_1/(3 B) - (Y_0 - Y_1). */
-    const REAL third = R(1.0) / R(3.0), zero = rim.circle * REAL_NEGMULADD(c2, sigma, a2) * rim.per_product2;
-    const REAL fifth = REAL_MULADD(R(2.0) * radius, zero, third * (a2 + c2) * rim.cube) * rim.per_product2;
-    const REAL fifth_zero = REAL_NEGMULADD(third, cube, zero) * rim.per_greatest2;
-    const REAL fifth_two = R(2.0) * third * rim.cube * at->per_radius - fifth_zero;
+    const REAL third = R(1.0) / R(3.0), zero = rim->circle * REAL_NEGMULADD(c2, sigma, a2) * rim->per_product2;
+    const REAL fifth = REAL_MULADD(R(2.0) * radius, zero, third * (a2 + c2) * rim->cube) * rim->per_product2;
+    const REAL fifth_zero = REAL_NEGMULADD(third, cube, zero) * rim->per_greatest2;
+    const REAL fifth_two = R(2.0) * third * rim->cube * at->per_radius - fifth_zero;
     const REAL past_fifth = past * at->rho * fifth, factor = R(-3.0) * radius * zeta;
     v->zzzz = factor * REAL_MULSUB(radius, fifth_zero, past_fifth);
-    v->zzzp_1 = radius * REAL_NEGMULADD(R(3.0) * zeta * zeta, fifth, rim.cube);
+    v->zzzp_1 = radius * REAL_NEGMULADD(R(3.0) * zeta * zeta, fifth, rim->cube);
     v->zzpp = factor * REAL_MULADD(radius, fifth_two, past_fifth);
-    return left_out;
 }
 
 static inline __attribute__((always_inline)) void FN(by_rims)(const FN(cylinder_place) * at, int with_fourth,
                                                               FN(axial) * v)
 {
-    FN(axial) upper;
-    const REAL below = FN(rim_derivatives)(at, at->z + at->half, with_fourth, v);
-    const REAL above = FN(rim_derivatives)(at, at->z - at->half, with_fourth, &upper);
+    const REAL zeta[2] = {at->z + at->half, at->z - at->half};
+    FN(rim) rims[2];
+    FN(axial) of[2];
+    REAL out[2];
+    FN(see_rims)(at, zeta, rims);
+    FN(rims_axial)(at, rims, of, out);
+    for (int k = 0; k < 2; ++k)
+        FN(rim_derivatives)(at, &rims[k], with_fourth, &of[k]);
     for (int n = 0; n < (with_fourth ? FN(axial_all) : FN(axial_of_field)); ++n)
-        v->all[n] = v->all[n] - upper.all[n];
-    const REAL left_out = below - above;
+        v->all[n] = of[0].all[n] - of[1].all[n];
+    const REAL left_out = out[0] - out[1];
     const REAL whole = R(2.0) * REAL_OF(CYLINDER_PI) * left_out * (at->radius2 * at->per_rho2) * at->per_rho2;
     v->pp_2 = REAL_SELECT(REAL_LESS(R(0.5), left_out), v->pp_2 + whole, v->pp_2);
 }
@@ -420,7 +458,7 @@ static inline __attribute__((always_inline)) FN(directed)
     const FN(cylinder_place) at = FN(see_cylinder)(part, d);
     FN(axial) v;
     FN(axial_derivatives)(&at, with_fourth, &v);
-    const REAL per_rho = REAL_RECIPROCAL(REAL_MAX(at.rho, REAL_OF(1e-150)));
+    const REAL per_rho = at.rho * at.per_rho2;
     const FN(turned) place = {d[0], d[1]}, e = {d[0] * per_rho, d[1] * per_rho};
     const FN(turned) e2 = FN(turn_on)(e, e), place3 = FN(turn_on)(place, e2);
     const REAL ppp_1 = -REAL_MULADD(R(4.0), v.pp_2, v.zzp_1);

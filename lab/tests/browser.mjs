@@ -1,0 +1,397 @@
+/* browser.mjs - the page in a real browser without a head, opened from its file as a double click does.  Started by
+ * tests/test_lab_long.py, which sets FESTOON, SOURCE_DIR, BUILD_DIR and CHROMIUM.  With PICTURES=FOLDER every state is
+ * left there as a picture, to be looked at. */
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import puppeteer from "puppeteer-core";
+import { goldenHashes } from "./golden.mjs";
+
+const { FESTOON, SOURCE_DIR, BUILD_DIR, CHROMIUM, PICTURES } = process.env;
+const PAGE = `file://${join(BUILD_DIR, "festoon-lab.html")}`, AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const SIZES = { wide: { width: 1000, height: 800 }, narrow: { width: 390, height: 844, isMobile: true, hasTouch: true } };
+const scratch = mkdtempSync(join(tmpdir(), "festoon-lab-"));
+const browser = await puppeteer.launch({
+    executablePath: CHROMIUM, headless: true, userDataDir: join(scratch, "profile"), protocolTimeout: 600000,
+    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+});
+const festoon = (...words) => execFileSync(FESTOON, words, { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
+
+/* A page that is ready, with all that it asked for and complained of. */
+async function open(hash = "", { size = SIZES.wide, flat = false, reduced = false } = {}) {
+    const page = await browser.newPage();
+    page.asked = [];
+    page.complaints = [];
+    await page.setViewport(size);
+    page.on("request", (request) => page.asked.push(request.url()));
+    page.on("pageerror", (error) => page.complaints.push(error.message));
+    page.on("console", (message) => ["error", "warn"].includes(message.type()) && !/GL Driver|GPU stall|WebGL/.test(message.text()) && page.complaints.push(message.text()));
+    if (reduced)
+        await page.emulateMediaFeatures([{ name: "prefers-reduced-motion", value: "reduce" }]);
+    if (flat)
+        await page.evaluateOnNewDocument(() => {
+            const usual = HTMLCanvasElement.prototype.getContext;
+            HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+                return /webgl/.test(kind) ? null : usual.call(this, kind, ...rest);
+            };
+        });
+    await page.goto(PAGE + hash);
+    await page.evaluate(() => window.festoonLab.ready.then(() => true));
+    return page;
+}
+
+async function close(page) {
+    const foreign = page.asked.filter((url) => !url.startsWith(PAGE) && !/^(blob:|data:)/.test(url));
+    await page.close();
+    assert.deepEqual(foreign, [], "nothing is asked of any network");
+    assert.deepEqual(page.complaints, []);
+}
+
+async function picture(page, name) {
+    if (PICTURES)
+        await page.screenshot({ path: join(PICTURES, `${name}.png`) });
+}
+
+/* Wait until the page's run is described. */
+const described = (page) => page.waitForFunction(() => !/computing|^$/.test(document.getElementById("regime").textContent), { timeout: 0 });
+const click = (page, selector) => page.$eval(selector, (element) => element.click());
+
+/* How many different colours the view shows, in a coarse picture of it. */
+const coloursOfView = (page) => page.evaluate(() => {
+    const { lab } = window.festoonLab, small = document.createElement("canvas");
+    small.width = small.height = 64;
+    lab.draw();
+    const pen = small.getContext("2d");
+    pen.drawImage(lab.view.canvas, 0, 0, 64, 64);
+    const data = pen.getImageData(0, 0, 64, 64).data, seen = new Set();
+    for (let i = 0; i < data.length; i += 4)
+        seen.add((data[i] >> 4) * 256 + (data[i + 1] >> 4) * 16 + (data[i + 2] >> 4));
+    return seen.size;
+});
+
+async function checkAxe(page, name) {
+    await page.evaluate(AXE);
+    const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+    assert.deepEqual(violations.map((v) => `${name}: ${v.id}: ${v.nodes.map((node) => node.html.slice(0, 100)).join(" ")}`), []);
+}
+
+const noSidewaysScroll = async (page) => assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= window.innerWidth), "no sideways scrolling");
+
+const tests = {
+    async "golden hash, runs and a sweep in workers have the program's bits"() {
+        const page = await open();
+        const source = readFileSync(join(SOURCE_DIR, "tests", "test_golden.c"), "utf8");
+        const [trajectories, jacobians] = /TRAJECTORIES = UINT64_C\(0x(\w+)\), JACOBIANS = UINT64_C\(0x(\w+)\)/.exec(source).slice(1);
+        const hashes = await page.evaluate(`(${goldenHashes.toString()})(window.festoonLab.core)`);
+        assert.deepEqual(hashes, { trajectories, jacobians });
+        for (const scene of [{ "drive.frequency": "10.7 Hz", "run.periods": 100 }, { "friction.law": "coulomb", "run.periods": 60 }]) {
+            const result = await page.evaluate((s) => window.festoonLab.run(s).then((r) => JSON.stringify(r)), scene);
+            const expected = JSON.parse(festoon("run", "--json", ...Object.entries(scene).flatMap(([k, v]) => ["--set", `${k}=${v}`])));
+            assert.equal(result, JSON.stringify(expected));
+        }
+        const file = join(scratch, "sweep.db");
+        festoon("sweep", "--portable", "--set", "run.periods=60", "--over", "drive.frequency=8:20:9", "-o", file);
+        const parsed = JSON.parse(festoon("export", file, "--json")), rows = parsed.points || parsed.rows || parsed;
+        const swept = await page.evaluate(() => window.festoonLab.sweep({ "run.periods": 60 }, "drive.frequency=8:20:9"));
+        const names = await page.evaluate(() => window.festoonLab.core.results.map((row) => row.name));
+        assert.equal(swept.length, rows.length);
+        rows.forEach((row, i) => names.forEach((name) => assert.equal(swept[i][name], row[name], `${name} at point ${i}`)));
+        await close(page);
+    },
+    async "a run can be stopped, and a bad scene is refused in the library's words"() {
+        const page = await open();
+        const stopped = await page.evaluate(() => {
+            const running = window.festoonLab.run({ "run.periods": 1e7 }).then(() => "done", (error) => error.message);
+            window.festoonLab.stop();
+            return running;
+        });
+        assert.equal(stopped, "stopped");
+        assert.match(await page.evaluate(() => window.festoonLab.run({ "drive.frequency": "fast" }).then(() => "", (error) => error.message)), /number/);
+        await close(page);
+    },
+    async "click through: experiments, cameras, plots, at both sizes"() {
+        for (const [name, size] of Object.entries(SIZES)) {
+            const page = await open("", { size });
+            await described(page);
+            const presets = await page.$$eval("#presets button", (buttons) => buttons.map((button) => button.dataset.preset));
+            assert.equal(presets.length, 8);
+            for (const preset of presets) {
+                await click(page, `[data-preset=${preset}]`);
+                await described(page);
+                assert.ok(await coloursOfView(page) > 12, `${preset}: the view is not blank`);
+                await picture(page, `${name}-preset-${preset}`);
+            }
+            await click(page, "[data-preset=four]");
+            for (const camera of ["above", "free", "magnet", "bead"]) {
+                await click(page, `[data-camera=${camera}]`);
+                assert.equal(await page.$eval(`[data-camera=${camera}]`, (button) => button.getAttribute("aria-pressed")), "true");
+                assert.ok(await coloursOfView(page) > 12);
+                await picture(page, `${name}-camera-${camera}`);
+            }
+            await click(page, "#tab-path");
+            await picture(page, `${name}-plot-path`);
+            await click(page, "#tab-sweep");
+            await page.$eval("#sweep-points", (field) => (field.value = "9"));
+            await click(page, "#sweep-go");
+            await page.waitForFunction(() => /^9 of 9/.test(document.getElementById("sweep-done").textContent), { timeout: 0 });
+            await picture(page, `${name}-plot-sweep`);
+            for (const summary of await page.$$("#all-controls summary"))
+                await summary.evaluate((element) => element.click());
+            await noSidewaysScroll(page);
+            await close(page);
+        }
+    },
+    async "the lesson: six steps, each predicted, observed and explained, and accessible"() {
+        for (const [name, size] of Object.entries(SIZES)) {
+            const page = await open("", { size });
+            await click(page, "#lesson-open");
+            for (let step = 1; step <= 6; ++step) {
+                assert.match(await page.$eval("#lesson h2", (heading) => heading.textContent), new RegExp(`^Lesson ${step}:`));
+                assert.equal(await page.evaluate(() => window.festoonLab.lab.playing), false, "nothing moves before the answer");
+                assert.equal(await page.$("#lesson .explain"), null);
+                assert.equal(await page.$eval("#regime", (text) => getComputedStyle(text).visibility), "hidden", "nothing tells the answer");
+                await picture(page, `${name}-lesson-${step}-question`);
+                await click(page, "#lesson .answers button:last-child");
+                assert.equal(await page.evaluate(() => window.festoonLab.lab.playing), true);
+                await click(page, "#lesson .strong");
+                assert.ok((await page.$eval("#lesson .explain", (text) => text.textContent)).length > 100);
+                await described(page);
+                await picture(page, `${name}-lesson-${step}`);
+                await checkAxe(page, `lesson ${step}`);
+                await noSidewaysScroll(page);
+                if (step === 5)
+                    await page.waitForFunction(() => /^33 of 33/.test(document.getElementById("sweep-done").textContent), { timeout: 0 });
+                if (step < 6)
+                    await click(page, "#lesson nav button:last-child");
+            }
+            await close(page);
+        }
+    },
+    async "the ramp of the second step ends in counter-rotation"() {
+        const page = await open("#v=1&drive.frequency=8.3+Hz&ui.ramp=9.6&ui.settle=100&ui.slow=1");
+        const before = await page.evaluate(() => {
+            const { lab } = window.festoonLab;
+            lab.play(false);
+            const { COLUMN } = { COLUMN: { alpha: 7 } }, start = lab.row[COLUMN.alpha];
+            lab.advance(1);
+            return lab.row[COLUMN.alpha] - start;
+        });
+        assert.ok(before > 30, "at first it goes with the magnet");
+        const after = await page.evaluate(() => {
+            const { lab } = window.festoonLab;
+            for (let i = 0; i < 8; ++i)
+                lab.advance(1);
+            const start = lab.row[7];
+            lab.advance(1);
+            return { turned: lab.row[7] - start, frequency: lab.frequency(), ramping: Boolean(lab.ramping) };
+        });
+        assert.ok(after.turned < -15, "in the end it goes against it");
+        assert.ok(Math.abs(after.frequency - 9.6) < 1e-6 && !after.ramping);
+        await close(page);
+    },
+    async "axe has no complaint, in light and dark"() {
+        for (const scheme of ["light", "dark"])
+            for (const [name, size] of Object.entries(SIZES)) {
+                const page = await open("", { size });
+                await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
+                await described(page);
+                await page.$$eval("#all-controls summary", (all) => all.forEach((summary) => summary.click()));
+                await page.$$eval(".more", (all) => all.slice(0, 4).forEach((button) => button.click()));
+                await checkAxe(page, `${name} ${scheme}`);
+                await picture(page, `${name}-${scheme}`);
+                await close(page);
+            }
+    },
+    async "a change of a control reaches library, address and numbers; nonsense stays outside with a sentence"() {
+        const page = await open();
+        const type = (id, text) => page.$eval(id, (field, value) => {
+            field.value = value;
+            field.dispatchEvent(new Event("change", { bubbles: true }));
+        }, text);
+        await type("#p-drive-frequency", "900 rpm");
+        assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 15);
+        assert.match(await page.evaluate(() => location.hash), /drive\.frequency=900\+rpm/);
+        await page.waitForFunction(() => /12\.\d festoons/.test(document.getElementById("regime").textContent), { timeout: 0 });
+        await type("#p-drive-frequency", "-3 <b>Hz</b>");
+        assert.match(await page.$eval("#p-drive-frequency-error", (text) => text.textContent), /drive\.frequency: .*/);
+        assert.equal(await page.$("#p-drive-frequency-error b"), null);
+        assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 15);
+        await page.select("#p-friction-law", "coulomb");
+        assert.match(await page.evaluate(() => location.hash), /friction\.law=coulomb/);
+        await page.$eval("#slow", (slider) => {
+            slider.value = slider.max;
+            slider.dispatchEvent(new Event("input", { bubbles: true }));
+        });
+        assert.match(await page.evaluate(() => location.hash), /ui\.slow=200/);
+        await close(page);
+    },
+    async "an address brings the same state back; unknown keys are named as text"() {
+        const first = await open("#v=1&drive.frequency=14.5+Hz&magnet.depth=15+mm&friction.law=coulomb&ui.camera=magnet&ui.slow=100&ui.arrows=moment,load&ui.colour=slip");
+        const hash = await first.evaluate(() => location.hash), scene = await first.evaluate(() => window.festoonLab.core.scene());
+        const second = await open(hash);
+        assert.deepEqual(await second.evaluate(() => window.festoonLab.core.scene()), scene);
+        assert.equal(await second.evaluate(() => location.hash), hash);
+        assert.deepEqual(await second.evaluate(() => [window.festoonLab.lab.camera.mode, window.festoonLab.lab.settings.slow, window.festoonLab.lab.settings.colour]), ["magnet", 100, "slip"]);
+        await close(first);
+        await close(second);
+        const hostile = await open("#v=1&%3Cimg%20src%3Dx%20onerror%3Dalert(1)%3E=1&drive.frequency=%3Cscript%3E&drive.frequncy=3");
+        const notice = await hostile.$eval("#notice", (text) => [text.textContent, text.children.length]);
+        assert.match(notice[0], /drive\.frequncy/);
+        assert.equal(notice[1], 0);
+        await close(hostile);
+    },
+    async "dropped files: a scene, a track, and hostile ones as text alone"() {
+        const page = await open();
+        const drop = (name, text) => page.evaluate(async (n, t) => {
+            await window.festoonLab.lab.files.open(new File([t], n));
+            return [document.getElementById("notice").textContent, document.getElementById("notice").children.length];
+        }, name, text);
+        await drop("bead.yaml", festoon("init", "-", "--set", "drive.frequency=16Hz"));
+        assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 16);
+        const track = `frame,t [s],x [mm],y [mm]\n${Array.from({ length: 90 }, (_, i) => `${i},${i / 30},${18 * Math.cos(i / 9)},${18 * Math.sin(i / 9)}`).join("\n")}\n`;
+        assert.match((await drop("track.csv", track))[0], /90 places/);
+        await picture(page, "wide-track");
+        const bad = "<img src=x onerror=\"document.title='hit'\">";
+        for (const [name, text] of [[`${bad}.yaml`, `drive:\n  ${bad}: 3\n`], ["x.yaml", `drive:\n  frequency: ${bad}\n`], [`${bad}.csv`, `x [${bad}],y\n1,2\n`]]) {
+            const [notice, children] = await drop(name, text);
+            assert.ok(notice.length > 10 && children === 0);
+        }
+        assert.notEqual(await page.title(), "hit");
+        assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 16);
+        await close(page);
+    },
+    async "keys: play, step, cameras, lesson, and the view by arrows"() {
+        const page = await open();
+        await page.evaluate(() => document.activeElement.blur());
+        const state = () => page.evaluate(() => ({ playing: window.festoonLab.lab.playing, camera: window.festoonLab.lab.camera.mode, turns: window.festoonLab.lab.row[1], lesson: window.festoonLab.lab.lesson.at, azimuth: window.festoonLab.lab.camera.place.azimuth }));
+        const before = await state();
+        await page.keyboard.press("Space");
+        assert.equal((await state()).playing, !before.playing);
+        const paused = await state();
+        await page.keyboard.press(".");
+        assert.ok((await state()).turns > paused.turns);
+        await page.keyboard.press("3");
+        assert.equal((await state()).camera, "magnet");
+        await page.keyboard.press("2");
+        await page.focus("#view");
+        const azimuth = (await state()).azimuth;
+        await page.keyboard.press("ArrowLeft");
+        assert.notEqual((await state()).azimuth, azimuth);
+        await page.keyboard.press("r");
+        assert.equal((await state()).turns, 0);
+        await page.keyboard.press("5");
+        assert.equal((await state()).lesson, 0);
+        const reached = new Set();
+        for (let i = 0; i < 60; ++i) {
+            await page.keyboard.press("Tab");
+            reached.add(await page.evaluate(() => document.activeElement.id));
+        }
+        for (const id of ["play", "step", "restart", "slow", "view", "p-drive-frequency"])
+            assert.ok(reached.has(id), `${id} is reached by Tab`);
+        await close(page);
+    },
+    async "touch: a finger turns the view, two come closer"() {
+        const page = await open("", { size: SIZES.narrow });
+        const place = () => page.evaluate(() => ({ ...window.festoonLab.lab.camera.place }));
+        const before = await place();
+        const point = (type, id, x, y) => page.$eval("#view", (view, t, i, a, b) => view.dispatchEvent(new PointerEvent(t, { pointerId: i, clientX: a, clientY: b, bubbles: true, pointerType: "touch" })), type, id, x, y);
+        await page.$eval("#view", (view) => (view.setPointerCapture = () => {}));
+        await point("pointerdown", 1, 100, 200);
+        await point("pointermove", 1, 160, 210);
+        const turned = await place();
+        assert.ok(turned.azimuth !== before.azimuth && turned.elevation !== before.elevation);
+        await point("pointerdown", 2, 100, 250);
+        await point("pointermove", 2, 100, 260);
+        await point("pointermove", 2, 40, 330);
+        assert.ok((await place()).zoom > before.zoom);
+        await close(page);
+    },
+    async "without WebGL the view is flat and everything else works; reduced motion begins paused"() {
+        const page = await open("", { flat: true });
+        await described(page);
+        assert.match(await page.$eval("#notice", (text) => text.textContent), /WebGL/);
+        assert.ok(await coloursOfView(page) > 8);
+        for (const camera of ["above", "magnet", "bead"]) {
+            await click(page, `[data-camera=${camera}]`);
+            await picture(page, `wide-flat-${camera}`);
+        }
+        await checkAxe(page, "flat");
+        await close(page);
+        const still = await open("", { reduced: true });
+        assert.equal(await still.evaluate(() => window.festoonLab.lab.playing), false);
+        await close(still);
+    },
+    async "what festoon lab hands to a desktop leads a browser to the page with its scene"() {
+        const tools = join(scratch, "bin"), asked = join(scratch, "asked");
+        mkdirSync(tools);
+        writeFileSync(join(tools, "xdg-open"), '#!/bin/sh\nprintf %s "$1" > "$ASKED.part"\nmv "$ASKED.part" "$ASKED"\n', { mode: 0o755 });
+        execFileSync(FESTOON, ["lab", "--set", "drive.frequency=12.5", "--set", "friction.law=coulomb"], {
+            stdio: "ignore", env: { ...process.env, DISPLAY: ":9", PATH: `${tools}:${process.env.PATH}`, ASKED: asked, XDG_RUNTIME_DIR: scratch },
+        });
+        while (!existsSync(asked))
+            await new Promise((resolve) => setTimeout(resolve, 5));
+        const page = await browser.newPage();
+        await page.goto(`file://${readFileSync(asked, "utf8")}`);
+        await page.waitForFunction(() => window.festoonLab?.version !== undefined, { timeout: 0 });
+        assert.deepEqual(await page.evaluate(() => [window.festoonLab.core.value("drive.frequency"), window.festoonLab.core.get("friction.law")]), [12.5, "coulomb"]);
+        await page.close();
+    },
+    async "within another page, as in a notebook, it works without an address of its own"() {
+        const page = await browser.newPage(), complaints = [];
+        page.on("pageerror", (error) => complaints.push(error.message));
+        await page.goto("about:blank");
+        await page.evaluate((text) => {
+            const frame = document.createElement("iframe");
+            frame.width = frame.height = "700";
+            frame.srcdoc = text;
+            document.body.append(frame);
+        }, readFileSync(join(BUILD_DIR, "festoon-lab.html"), "utf8").replace("<head>", '<head><script>window.location.hash = "#v=1&drive.frequency=13.5";</script>'));
+        await page.waitForFunction(() => window.frames[0].festoonLab?.version !== undefined, { timeout: 0 });
+        assert.equal(await page.evaluate(() => window.frames[0].festoonLab.core.value("drive.frequency")), 13.5);
+        assert.equal(await page.evaluate(() => window.frames[0].festoonLab.run({ "run.periods": 20 }).then((result) => result.periods)), 20);
+        await page.close();
+        assert.deepEqual(complaints, []);
+    },
+    async "what is saved: the motion, the scene"() {
+        const page = await open("#v=1&drive.frequency=12+Hz&ui.settle=20");
+        const { table, scene } = await page.evaluate(() => {
+            const { lab } = window.festoonLab, saved = [];
+            URL.createObjectURL = (blob) => {
+                saved.push(blob);
+                return "data:,";
+            };
+            HTMLAnchorElement.prototype.click = () => {};
+            document.getElementById("save-csv").click();
+            document.getElementById("save-scene").click();
+            return Promise.all(saved.map((blob) => blob.text())).then(([a, b]) => ({ table: a, scene: b, lab: Boolean(lab) }));
+        });
+        const lines = table.trim().split("\n");
+        assert.match(lines[0], /^t \[s\],turns,x \[mm\]/);
+        assert.ok(lines.length > 200);
+        assert.match(scene, /drive:\n {2}frequency: 12 Hz/);
+        await close(page);
+    },
+};
+
+let failed = 0;
+const wanted = process.argv[2];
+try {
+    for (const [name, test] of Object.entries(tests)) {
+        if (wanted && !name.includes(wanted))
+            continue;
+        try {
+            await test();
+            console.log(`ok: ${name}`);
+        } catch (error) {
+            failed += 1;
+            console.log(`FAILED: ${name}\n${error.stack}`);
+        }
+    }
+} finally {
+    await browser.close();
+    rmSync(scratch, { recursive: true, force: true });
+}
+process.exit(failed ? 1 : 0);
