@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PACKAGES = tools/install-packages.sh
 C_FILES = $(shell find src include tests bench docs examples tools lab -name node_modules -prune -o \( -name '*.[ch]' -o -name '*.inl' -o -name '*.cpp' \) -print)
 
-.PHONY: build demo lab test test-long reliability mutants bench install deb docs format check-format clean help
+.PHONY: build demo lab test test-long reliability mutants bench install deb docs python-docs format check-format clean help
 
 build: ## build build/festoon (optimised)
 	@$(PACKAGES) build
@@ -81,6 +81,12 @@ docs: ## the API reference, in build/docs/html
 	@cmake --preset release --log-level=WARNING
 	@cmake --build build -j $(JOBS) --target docs
 	@echo "Look at build/docs/html/index.html."
+
+python-docs: ## guide, gallery and reference of the Python module, in build/docs/python
+	@$(PACKAGES) python-docs
+	@cmake --preset release --log-level=WARNING
+	@cmake --build build -j $(JOBS) --target python-docs
+	@echo "Look at build/docs/python/index.html."
 
 format: ## lay the C sources out by .clang-format
 	@$(PACKAGES) format

@@ -61,7 +61,9 @@ def docstring(text, indent):
 
 def keyword_lines(tables):
     names = list(SHORT) + [key.replace(".", "__") for key, *_ in tables.parameters()]
-    return "".join(f"            {name}: Value = None,\n" for name in names)
+    lines = [f"            {name}: Value = None,\n" for name in names]
+    lines.append("            magnet__parts: Optional[Iterable[Mapping[str, Any]]] = None,\n")
+    return "".join(lines)
 
 
 def write_parameters(tables, out):
@@ -112,7 +114,7 @@ def main():
     tables = Tables(extension)
     with open(output, "w", encoding="utf-8") as out:
         out.write('"""Parameters, results and columns; written by describe.py from the library\'s tables."""\n\n')
-        out.write("from typing import TYPE_CHECKING, Any, Optional\n\n")
+        out.write("from typing import TYPE_CHECKING, Any, Iterable, Mapping, Optional\n\n")
         out.write("if TYPE_CHECKING:\n    from typing import Self\n\n    from ._quantities import Value\n\n")
         for name, value in (
             ("SHORT", SHORT),

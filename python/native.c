@@ -114,8 +114,6 @@ pyf_batch *pyf_batch_new(const fst_grid *grid, fst_arithmetic arithmetic, int la
         free(batch);
         return NULL;
     }
-    for (int64_t i = 0; i < batch->points; ++i)
-        batch->rows[i].status = -1;
     return batch;
 }
 
@@ -150,6 +148,7 @@ static void keep(pyf_batch *batch, int64_t point, fst_status status, const fst_r
     if (result)
         row->result = *result;
     row->status = (int)status;
+    row->done = 1;
     if (status != FST_OK && error)
         (void)pyf_row_fail(row, error->where, error->sentence);
     (void)atomic_fetch_add(&batch->done, 1);

@@ -26,10 +26,11 @@ fst_status pyf_take_sample(void *samples, const fst_sample *sample, fst_error *e
 fst_status pyf_take_ramp_point(void *samples, const fst_ramp_point *point, fst_error *error);
 void pyf_free(void *memory);
 
-/* A row of a batch.  `status` is -1 as long as the run is not done. */
+/* A row of a batch; all zeros as long as the run is not done, so that memory is not touched before it is needed.
+ */
 typedef struct pyf_row {
     fst_run_result result;
-    int status;
+    int done, status; /* an fst_status */
     fst_error *error; /* of a run that failed, otherwise NULL */
 } pyf_row;
 

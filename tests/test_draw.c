@@ -20,7 +20,6 @@
 #include "draw/figure_setup.h"
 #include "draw/gnuplot.h"
 #include "draw/legend.h"
-#include "draw/smooth.h"
 #include "draw/view.h"
 
 #include <festoon/festoon_tools.h>

@@ -33,6 +33,11 @@ static fst_params job_params(int i)
         p.start_r = p.model_eps = 0.2; /* a start in free rolling does not exist here */
     if (i == 17)
         p.start_spin = FST_SPIN_REST;
+    if (i == 6 || i == 15) {
+        p.run_until = FST_UNTIL_SETTLED;
+        p.run_periods = 60;
+        p.run_rtol = 1e-7;
+    }
     return p;
 }
 

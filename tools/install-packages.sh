@@ -1,7 +1,7 @@
 #!/bin/sh
 # Install the Debian packages that a make target needs and the machine lacks.
 #
-#   tools/install-packages.sh SET            SET: build demo lab test test-long bench docs format deb python ci
+#   tools/install-packages.sh SET            SET: build demo lab test test-long bench docs format deb python python-docs ci
 #   tools/install-packages.sh --list SET     print their names, a line each, and install nothing
 #
 # With nothing missing it costs a look into dpkg's database.  Otherwise it says what is missing and installs it,
@@ -25,8 +25,11 @@ for program in node npm; do
         esac
     fi
 done
+# The pages of the Python module.
+python_docs_packages="$python_test_packages python3-sphinx python3-sphinx-gallery furo python3-numpydoc python3-myst-parser"
 # A Slurm of its own for the sweep under Slurm: the daemons run as root without systemd, in a container too.
-long_packages="$test_packages python3-venv python3-pip mypy chromium slurmctld slurmd slurm-client munge"
+long_packages="$test_packages $python_docs_packages python3-nbclient python3-nbformat python3-ipykernel
+    python3-venv python3-pip mypy chromium slurmctld slurmd slurm-client munge"
 bench_packages="$build_packages g++ gnuplot-nox libgsl-dev libboost-dev python3-scipy auto-07p libsiconos-numerics-dev
     libsundials-dev"
 docs_packages="$build_packages doxygen"
@@ -50,9 +53,10 @@ docs) wanted=$docs_packages ;;
 format) wanted=$format_packages ;;
 deb) wanted=$deb_packages ;;
 python) wanted="$build_packages $python_packages" ;;
+python-docs) wanted="$build_packages $python_docs_packages" ;;
 ci) wanted=$ci_packages ;;
 *)
-    echo "usage: $0 [--list] build|demo|lab|test|test-long|bench|docs|format|deb|python|ci" >&2
+    echo "usage: $0 [--list] build|demo|lab|test|test-long|bench|docs|format|deb|python|python-docs|ci" >&2
     exit 2
     ;;
 esac

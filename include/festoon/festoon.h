@@ -100,6 +100,7 @@ typedef enum { FST_CONTACTS(FST_CONTACT_ENUM) FST_FRICTION_LAWS } fst_friction_l
 typedef enum { FST_DYNAMICS_RIGID, FST_DYNAMICS_FARAGO2020 } fst_dynamics;
 typedef enum { FST_PATCH_POINT, FST_PATCH_HERTZ, FST_PATCH_PADE } fst_contact_patch;
 typedef enum { FST_SPIN_ROLLING, FST_SPIN_REST } fst_start_spin;
+typedef enum { FST_UNTIL_PERIODS, FST_UNTIL_SETTLED } fst_run_until;
 typedef enum { FST_METHOD_EVENTS, FST_METHOD_SPLITTING } fst_method;
 
 /* The kinds of unit that a parameter may carry (params.def). */
@@ -155,6 +156,16 @@ typedef struct fst_params {
     int model_kappa_given; /* beside a real magnet, where model.kappa counts only if it was given: whether it
                               was given its default too; set by fst_params_set() */
 } fst_params;
+
+/* The height of a part's highest point in the magnet's frame, m.  A part of which it exceeds magnet.depth would
+ * reach into the plate. */
+FST_API double fst_part_top(const fst_magnet_part *part);
+
+/* How far a place in the magnet's frame is from a part, m; 0 inside it and on its surface. */
+FST_API double fst_part_distance(const fst_magnet_part *part, const double place[3]);
+
+/* The first part that a ball of this radius about the place touches; -1 if none. */
+FST_API int fst_part_touched(const fst_params *params, const double place[3], double radius);
 
 /* The paper's bead at 10.7 Hz with the dynamics `rigid`. */
 FST_API fst_params fst_default_params(void);
@@ -217,6 +228,22 @@ FST_API fst_status fst_params_check_effects(const fst_params *params, fst_error 
 /* FST_BAD_INPUT: a part of the magnet cannot be as it is; a number is out of its range, a turn has no axis, or
  * the part touches or passes the plate.  The sentence names the part, from magnet.parts[0] on. */
 FST_API fst_status fst_params_check_part(const fst_params *params, int part, fst_error *error);
+
+/* A part of a magnet as pictures show it, in m along the magnet's axes: its outline seen from above (a convex
+ * polygon, anticlockwise; none of a dipole), between which heights it lies, and how it is magnetised (T; a
+ * dipole: A m^2). */
+enum { FST_OUTLINE_MOST = 48 };
+typedef struct fst_part_shape {
+    int count; /* of corners */
+    double corners[FST_OUTLINE_MOST][2];
+    double low, high;
+    double magnetisation[3];
+} fst_part_shape;
+FST_API fst_part_shape fst_part_seen(const fst_magnet_part *part);
+
+/* The part of the magnet in or on which a place lies (m, in the magnet's frame), where its field is not
+ * computed; -1: none. */
+FST_API int fst_part_at(const fst_params *params, const double place[3]);
 
 /* Whether the bead's mass and radius contradict any material: the density is outside 1000 to 23000 kg/m^3, or
  * the radius was changed while mass and magnetic strength (kappa) are those of the default bead.  Returns 0 if
@@ -287,6 +314,12 @@ FST_API void fst_model_free(fst_model *model);
 
 FST_API fst_groups fst_model_groups(const fst_model *model);
 
+/* A model of which only the field is asked, with a bead's force and load in it, at the height `height` (l) over
+ * the magnet's reference plane instead of that of a bead on the plate.  It may lie below the plate, beside
+ * parts of the magnet; inside of one, which fst_part_at() finds, the field means nothing. */
+FST_API fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model,
+                                       fst_error *error);
+
 #define FST_STATE_SIZE 10
 enum { FST_X, FST_Y, FST_VX, FST_VY, FST_NX, FST_NY, FST_NZ, FST_WX, FST_WY, FST_WZ };
 
@@ -298,6 +331,10 @@ FST_API fst_status fst_start_state(const fst_params *params, const fst_model *mo
 /* The magnet's field at the height of the bead's centre, in the magnet's frame: b[3], grad[i][j] = dB_i/dx_j
  * (symmetric, traceless), scaled.  Paper, section IV: lines of dipoles, each two point charges, Eq. (11). */
 FST_API void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
+
+/* The magnetic force per mass (l gamma^2) on a bead there whose moment lies along the field, and the load on a
+ * plate below it, in the same unit. */
+FST_API void fst_field_pull(const fst_model *model, double x, double y, double force[3], double *load);
 
 /* d(state)/dt in the turning frame, at the drive omega of the model. */
 FST_API void fst_rhs(const fst_model *model, const double state[FST_STATE_SIZE],

@@ -88,8 +88,9 @@ FST_API double fst_unit_shown(const char *unit, fst_shown_units units, const fst
                               const char **name);
 
 /* The field at (x, y), as JSON like the above: `x`, `y`, `b` (3), `grad` (3 x 3), in the magnet's frame,
- * scaled; with FST_SHOWN_LAB or FST_SHOWN_SI also `b_tesla` and `grad_tesla_per_m`, null where B0 does not
- * follow from the parameters. */
+ * scaled; `height`, and the `force` and `load` of fst_field_pull(); with FST_SHOWN_LAB or FST_SHOWN_SI also
+ * `b_tesla` and `grad_tesla_per_m`, null where B0 does not follow from the parameters, `force_newtons` and
+ * `load_newtons`. */
 FST_API char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units units);
 
 /* ------------------------------------------------------------------ trajectories */
@@ -184,7 +185,25 @@ FST_API fst_status fst_figure_trajectory(const fst_table *table, const char *out
 FST_API fst_status fst_figure_branch(const fst_branch *branch, const char *observable, fst_shown_units units,
                                      const double *dots, size_t dot_count, const char *out, fst_error *error);
 
-/* The map of the magnet's field on the plane of the bead's centre (the paper's Fig. 5). */
+/* What a map of the field shows: |B|, a component of B, the horizontal magnetic force on a bead whose moment
+ * lies along the field, or the load of such a bead on the plate. */
+typedef enum {
+    FST_FIELD_STRENGTH,
+    FST_FIELD_X,
+    FST_FIELD_Y,
+    FST_FIELD_Z,
+    FST_FIELD_FORCE,
+    FST_FIELD_LOAD
+} fst_field_quantity;
+typedef struct fst_field_options {
+    fst_field_quantity quantity;
+    double height; /* over the magnet's reference plane, in l; NAN: that of a bead's centre */
+    fst_shown_units units;
+} fst_field_options;
+FST_API fst_status fst_figure_field_map(const fst_params *params, const fst_field_options *options,
+                                        const char *out, fst_error *error);
+
+/* The map of |B| on the plane of the bead's centre (the paper's Fig. 5). */
 FST_API fst_status fst_figure_field(const fst_params *params, fst_shown_units units, const char *out,
                                     fst_error *error);
 
@@ -230,6 +249,13 @@ FST_API const char *fst_colour_code(fst_colour colour);
  * lines on them. The definition is a list of places and colours, "0 '#fbfdff', 0.35 '#d3e3f2', ...". */
 typedef enum { FST_PALETTE_DIVERGING, FST_PALETTE_LINE, FST_PALETTE_MAP } fst_palette;
 FST_API const char *fst_palette_definition(fst_palette palette);
+
+/* A smooth curve through points that are few: `parts` points for each piece between neighbours, and the last
+ * point, are put into `to_x` and `to_y`, which need room for parts (count - 1) + 1; returns how many there are.
+ * The curve passes every point, and is drawn for axes on which lengths `wide` and `tall` look alike.  All
+ * numbers must be finite. */
+FST_API size_t fst_smooth(const double *x, const double *y, size_t count, int parts, double wide, double tall,
+                          double *to_x, double *to_y);
 
 /* How all figures name and colour a regime and a type of special points: "families cross", "#009e73". */
 typedef struct fst_look {

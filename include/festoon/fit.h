@@ -52,6 +52,12 @@ FST_API void fst_points_free(fst_points *points);
  * column. */
 FST_API fst_status fst_points_read(const char *path, fst_points *points, fst_error *error);
 
+/* A measured track as a row of such a table.  Numbers without an error stay out; `drive` is for a track that
+ * does not tell the drive itself (Hz; NAN: unknown).  FST_BAD_INPUT: the track is in pixels, or nothing tells
+ * the drive. */
+FST_API fst_status fst_point_of(const fst_measurement *measured, double drive, fst_point *row,
+                                fst_error *error);
+
 /* Write such a table, in mm and Hz, whole or not at all; fst_points_read() gets the same numbers from it. */
 FST_API fst_status fst_points_write(const char *path, const fst_points *points, fst_error *error);
 

@@ -7,6 +7,7 @@
 ('counter-rotating', 0.767, 17.63)
 """
 
+from . import figures
 from ._errors import (
     BadInput,
     FestoonError,
@@ -21,10 +22,10 @@ from ._errors import (
 from ._native import lib as _lib
 from ._native import text_of as _text_of
 from .bead import Bead, Groups, MaterialWarning
-from .files import read
+from .files import export, paper, read, schema
 from .films import track
 from .flows import Flow
-from .measuring import Fit, Measurement, Track, fit, measure, read_track
+from .measuring import Fit, Measurement, Track, fit, measure, read_track, save_points
 from .orbits import Branch, Locked, LockedStates, Lyapunov, Orbit
 from .runs import Run
 from .sweeps import Sweep, sweep
@@ -61,10 +62,15 @@ __all__ = [
     "Trajectory",
     "Unavailable",
     "components",
+    "export",
+    "figures",
     "fit",
     "measure",
+    "paper",
     "read",
     "read_track",
+    "save_points",
+    "schema",
     "sweep",
     "track",
 ]

@@ -9,6 +9,8 @@ import numpy as np
 from ._errors import FestoonError
 from ._tables import PARAMETERS, RESULTS
 
+#: Groups that are no pure numbers: the units behind the scaled ones.
+GROUP_UNITS = {"length_unit": " m", "time_unit": " s", "mass": " kg", "field_unit": " T"}
 STYLE = "style='border-collapse: collapse; font-size: 90%'"
 
 
@@ -40,7 +42,7 @@ def path_svg(x: Any, y: Any, size: int = 220, edge: Optional[float] = None) -> s
 def _short_path(bead: Any) -> str:
     """The path over a few turns after a short time, or the sentence of what hinders it."""
     try:
-        short = bead.replace(run__discard=0.0, run__periods=110.0, run__samples=24, run__rtol=1e-7)
+        short = bead.replace(run__discard=0.0, run__periods=80.0, run__samples=32, run__rtol=1e-7)
         import warnings
 
         with warnings.catch_warnings():
@@ -51,7 +53,7 @@ def _short_path(bead: Any) -> str:
     path = run.trajectory
     if not len(path):
         return f"<p>{html.escape(run.regime)}</p>"
-    return path_svg(path.x, path.y) + "<br/><small>path of drive periods 60 to 110, from above</small>"
+    return path_svg(path.x, path.y) + "<br/><small>path of drive periods 60 to 80, from above</small>"
 
 
 def bead_card(bead: Any) -> str:
@@ -64,8 +66,11 @@ def bead_card(bead: Any) -> str:
             continue
         shown = number(value) + ("" if kind == "str" or unit == "1" else f" {unit}")
         rows.append(_row([key, shown, "given" if key in given else ""], doc))
+    for i, part in enumerate(bead.magnet__parts):
+        words = ", ".join(f"{name} {value}" for name, value in part.items() if name != "kind")
+        rows.append(_row([f"magnet.parts[{i}]", part["kind"], words]))
     groups = [
-        _row([name.rstrip("_"), number(value)])
+        _row([name.rstrip("_"), number(value) + GROUP_UNITS.get(name, "")])
         for name, value in bead.groups
         if not (isinstance(value, float) and math.isnan(value))
     ]

@@ -65,6 +65,29 @@ def _pieces(b: Any, points: Any, y: Any, special: Any, unit: str) -> Tuple[List[
     return made
 
 
+#: The most pieces of a smooth curve between two points, and about as many points as all curves need.
+_PIECES, _ENOUGH = 8, 1600
+
+
+def _smooth(curve: Any, wide: float, tall: float, parts: int) -> Any:
+    """The house's cubics through the points of a piece; a point that is given twice is kept once.
+
+    What grows by orders of magnitude is smoothed by its logarithm: cubics would swing."""
+    y = curve[:, 1]
+    if y.min() > 0 and y.max() > 100 * y.min():
+        by_logarithm = _smooth(np.stack([curve[:, 0], np.log(y)], axis=1), wide, float(np.ptp(np.log(y))), parts)
+        return np.stack([by_logarithm[:, 0], np.exp(by_logarithm[:, 1])], axis=1)
+    fresh = np.abs(np.diff(curve, axis=0)) > 1e-9 * np.array([wide, tall])
+    curve = curve[np.append(True, fresh.any(axis=1))]
+    room = parts * (len(curve) - 1) + 1
+    x, y = (np.ascontiguousarray(curve[:, i]) for i in range(2))
+    to_x, to_y = np.empty(room), np.empty(room)
+    given = [ffi.from_buffer("double[]", array) for array in (x, y)]
+    made = [ffi.from_buffer("double[]", array, require_writable=True) for array in (to_x, to_y)]
+    count = lib.fst_smooth(*given, len(curve), parts, wide, tall, *made)
+    return np.stack([to_x[:count], to_y[:count]], axis=1)
+
+
 def branch(b: Any, y: str = "mean_r", *, units: str = "given", ax: Any = None) -> Any:
     """Draw a branch: stable parts solid, unstable ones dashed, special points with signs of their own.
 
@@ -94,12 +117,18 @@ def branch(b: Any, y: str = "mean_r", *, units: str = "given", ax: Any = None) -
         hidden = {end.branch for end in b.ends if end.image is not None and end.image < end.branch}
     ax = _style.axes(ax, 6.0, 4.6)
     words = {False: "stable", True: "unstable"}
+    wide, tall = (float(np.nanmax(v) - np.nanmin(v)) for v in (b.points["value"], _of_points(b.points, offset, unit)))
+    parts = max(1, min(_PIECES, _ENOUGH // len(b.points) + 1))
     for number, points in enumerate(b):
         if number in hidden or not len(points):
             continue
         for unstable, pieces in enumerate(_pieces(b, points, _of_points(points, offset, unit), special, unit)):
             for piece in pieces:
                 curve = np.array(piece)
+                curve = curve[np.isfinite(curve).all(axis=1)]
+                if not len(curve):
+                    continue
+                curve = _smooth(curve, wide, tall, parts)
                 ax.plot(
                     x_shown.factor * curve[:, 0], y_shown.factor * curve[:, 1],
                     color=_style.colour("grey" if unstable else "blue"), linestyle="--" if unstable else "-",
@@ -133,12 +162,13 @@ def _special_value(special: Any, offset: int, unit: str) -> float:
 
 
 #: matplotlib's markers of the special points, in the order of fst_special_type.
-_SIGNS = ("s", "v", "D", "o", "^", "x", "+", "*")
+_SIGNS = ("s", "^", "D", "o", "v", "x", "+", "*")
 
 
 def _special_signs(ax: Any, b: Any, values: Sequence[float], x_factor: float, y_factor: float) -> None:
     for i, name in enumerate(SPECIALS):
         places = [(s.value, value) for s, value in zip(b.specials, values) if s.type == name]
+        places = [place for place in places if np.isfinite(place).all()]
         if places:
             words, colour = _style.look("special", i)
             x, y = np.array(places).T

@@ -229,7 +229,7 @@ def orbit(o: Any, colour: str = "n_z", *, frame: str = "magnet", **options: Any)
 def field(
     bead: Any, *, units: str = "given", half_width: float = 1.9, half_height: float = 1.5, ax: Any = None
 ) -> Any:
-    """Draw the map of |B| on the plane of the bead's centre, with arrows of the part in the plane.
+    """Draw the map of ``|B|`` on the plane of the bead's centre, with arrows of the part in the plane.
 
     Parameters
     ----------

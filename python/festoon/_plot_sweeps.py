@@ -7,8 +7,8 @@ import numpy as np
 from . import _style
 from ._errors import BadInput
 from ._native import lib
-from ._tables import PARAMETERS, RESULTS
-from .bead import Bead
+from ._tables import RESULTS
+from .bead import Bead, row_of
 from .orbits import _choose
 from .runs import REGIMES
 
@@ -29,8 +29,9 @@ class _Side:
             raise BadInput("units", f"the units of {axis.key} do not follow from the scene: leave units=\"given\"")
         values = np.moveaxis(sweep.parameter(axis.keyword), along, 0).reshape(sweep.shape[along], -1)[:, 0]
         self.names: Optional[List[str]] = None
-        if PARAMETERS[axis.key][0] == "str":
-            self.names = PARAMETERS[axis.key][1].split(", ")
+        kind, names, _ = row_of(axis.key)
+        if kind == "str":
+            self.names = names.split(", ")
             values = np.array([self.names.index(name) for name in values])
         self.values = values.astype(float) * (1.0 if self.names else shown.factor)
         self.label, self.words = shown.label, shown.words
@@ -160,8 +161,11 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, ax: Any)
     title = f"{words} over the {sides[0].words}"
     title = title[0].upper() + title[1:]
     _style.dress(ax, title, _about_sweep(s), sides[0].label, label)
-    if y == "regime":
-        ax.set_yticks(range(len(REGIMES)), REGIMES)
+    if y == "regime":  # a row for each of those that there are
+        there = np.unique(values[np.isfinite(values)])
+        rows = np.searchsorted(there, values).astype(float)
+        values = np.where(np.isfinite(values), rows, np.nan)
+        ax.set_yticks(range(len(there)), [REGIMES[int(i)] for i in there])
     if len(sides) == 1:
         ax.plot(across, values[:, 0], color="#b0b0b0", linewidth=0 if y == "regime" else 1.2, zorder=2)
         _regime_marks(ax, across, values[:, 0], _regime_index(s)[order])
@@ -172,7 +176,8 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, ax: Any)
             label=sides[1].text(i),
         )
     sides[0].dress(ax.xaxis, ax.set_xscale)
-    _style.key_below(ax, title=sides[1].label if len(sides) == 2 else None)
+    if y != "regime" or len(sides) == 2:
+        _style.key_below(ax, title=sides[1].label if len(sides) == 2 else None)
     return ax
 
 

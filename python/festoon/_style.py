@@ -10,7 +10,7 @@ from ._quantities import units_of
 from ._tables import COLUMNS
 
 #: Letters of a title in an inch of the figure.
-TITLE = 8.5
+TITLE = 9
 GRID = "#e4e4e4"
 SOFT = "#555555"
 

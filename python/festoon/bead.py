@@ -3,7 +3,7 @@
 import math
 import os
 import warnings
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -13,7 +13,24 @@ from ._progress import Progress
 from ._quantities import Value, value_text
 from ._tables import PARAMETERS, SHORT, Parameters
 
+if TYPE_CHECKING:
+    from .flows import Flow
+    from .lab import Lab
+    from .orbits import Branch, LockedStates, Lyapunov, Orbit
+    from .runs import Run
+    from .sweeps import Sweep
+
 Path = Union[str, "os.PathLike[str]"]
+
+
+def row_of(key: str) -> Tuple[str, str, str]:
+    """Kind (float, int or str), unit (or names of a choice) and doc of a key, of a magnet's part too."""
+    if key in PARAMETERS:
+        return PARAMETERS[key]
+    row = lib.fst_param_at(lib.fst_param_find(key.encode()))
+    if row.kind == lib.FST_KIND_CHOICE:
+        return "str", text_of(row.names).replace("|", ", "), text_of(row.doc)
+    return "int" if row.kind == lib.FST_KIND_INT else "float", text_of(lib.fst_unit_name(row.unit)), text_of(row.doc)
 
 
 class MaterialWarning(UserWarning):
@@ -77,29 +94,72 @@ class Bead(Parameters):
     (10.7, 1.8)
     """
 
-    def __init__(self, scene: Any = None, **keywords: Any) -> None:
-        self._params = ffi.new("fst_params *", lib.fst_default_params())
-        if isinstance(scene, Bead):
-            self._params[0] = scene._params[0]
-        elif isinstance(scene, str) and "\n" in scene:
-            data = scene.encode()
-            call(lib.fst_scene_parse, data, len(data), b"scene", self._params)
-        elif scene is not None:
-            call(lib.fst_scene_read, path_bytes(scene), self._params)
-        self._set(keywords)
+    _params: Any
+    _model: Any
+
+    # Type checkers take the signatures with all keywords from Parameters.
+    if not TYPE_CHECKING:
+
+        def __init__(self, scene: Any = None, **keywords: Any) -> None:
+            self._params = ffi.new("fst_params *", lib.fst_default_params())
+            if isinstance(scene, Bead):
+                self._params[0] = scene._params[0]
+            elif isinstance(scene, str) and "\n" in scene:
+                data = scene.encode()
+                call(lib.fst_scene_parse, data, len(data), b"scene", self._params)
+            elif scene is not None:
+                call(lib.fst_scene_read, path_bytes(scene), self._params)
+            self._set(keywords)
 
     def _set(self, keywords: Mapping[str, Any]) -> None:
         given = {key_of(keyword): value for keyword, value in keywords.items() if value is not None}
         if len(given) < sum(value is not None for value in keywords.values()):
             raise BadInput("Bead", "a parameter is given twice, by its short keyword and by its long one")
+        if "magnet.parts" in given:
+            given.setdefault("magnet.shape", "parts")
         for key, value in given.items():
             other = lib.fst_param_other_form(key.encode())
             if other and text_of(other) in given:
                 raise BadInput("Bead", f"{key} and {text_of(other)} are two forms of one quantity: give one")
-            call(lib.fst_params_set, self._params, key.encode(), value_text(value).encode())
+            if key == "magnet.parts":
+                self._set_parts(value)
+            else:
+                call(lib.fst_params_set, self._params, key.encode(), value_text(value).encode())
         model = ffi.new("fst_model **")
         call(lib.fst_model_new, self._params, model)
         self._model = ffi.gc(model[0], lib.fst_model_free)
+
+    def _set_parts(self, parts: Iterable[Mapping[str, Any]]) -> None:
+        """The parts of a real magnet, each a dictionary as in a scene: kind, centre, size, remanence, ..."""
+        self._params.magnet_part_count = 0
+        for i, part in enumerate(parts):
+            if "kind" not in part:
+                raise BadInput(f"magnet.parts[{i}]", "a part needs its kind: cuboid, cylinder, sphere or dipole")
+            for name in sorted(part, key=lambda name: name != "kind"):
+                value, key = part[name], f"magnet.parts[{i}].{name}"
+                if name == "kind":
+                    call(lib.fst_params_set, self._params, key.encode(), str(value).encode())
+                    continue
+                single = isinstance(value, str) or np.ndim(value) == 0
+                for k, number in enumerate([value] if single else value):
+                    call(lib.fst_params_set, self._params, f"{key}[{k}]".encode(), value_text(number).encode())
+
+    @property
+    def magnet__parts(self) -> List[Dict[str, Any]]:
+        """The parts of a real magnet, in SI units; numbers that a part does not need are left out."""
+        parts: List[Dict[str, Any]] = []
+        for i in range(lib.fst_param_count(), lib.fst_params_row_count(self._params)):
+            row, text = lib.fst_param_at(i), ffi.new("char[]", 64)
+            number, name = lib.fst_param_part(i), text_of(row.key).split("].", 1)[1]
+            lib.fst_params_get(self._params, i, text, 64)
+            if name == "kind":
+                parts.append({"kind": text_of(text)})
+            elif text[0] != b"\0":
+                parts[number].setdefault(name.split("[")[0], []).append(float(text_of(text)))
+        for part in parts:
+            if not any(part.get("rotation", ())):
+                part.pop("rotation", None)
+        return parts
 
     @classmethod
     def _of(cls, params: Any) -> "Bead":
@@ -122,16 +182,18 @@ class Bead(Parameters):
         """The bead as YAML text; Bead(text) is the same bead, bit by bit."""
         return take_text(lib.fst_scene_text(self._params, comments))
 
-    def replace(self, **keywords: Any) -> "Bead":
-        """The same bead with other values.
+    if not TYPE_CHECKING:
 
-        >>> Bead().replace(kappa=1.2).kappa
-        1.2
-        """
-        made = type(self).__new__(type(self))
-        made._params = ffi.new("fst_params *", self._params[0])
-        made._set(keywords)
-        return made
+        def replace(self, **keywords: Any) -> "Bead":
+            """The same bead with other values.
+
+            >>> Bead().replace(kappa=1.2).kappa
+            1.2
+            """
+            made = type(self).__new__(type(self))
+            made._params = ffi.new("fst_params *", self._params[0])
+            made._set(keywords)
+            return made
 
     # ------------------------------------------------------------------ what it is
 
@@ -214,6 +276,8 @@ class Bead(Parameters):
         for key, text in self._given().items():
             kind = PARAMETERS[key][0] if key in PARAMETERS else "str"
             words.append(f"{keyword_of(key)}={text!r}" if kind == "str" else f"{keyword_of(key)}={text}")
+        if self._params.magnet_part_count:
+            words.append(f"magnet__parts={self.magnet__parts!r}")
         return f"Bead({', '.join(words)})"
 
     def _repr_html_(self) -> str:
@@ -251,7 +315,7 @@ class Bead(Parameters):
         ramp_wait: Optional[float] = None,
         ramp_disturbance: Optional[float] = None,
         progress: Progress = None,
-    ) -> "Any":
+    ) -> "Run":
         """Simulate the bead and describe its motion: a :class:`Run`.
 
         Parameters
@@ -290,25 +354,25 @@ class Bead(Parameters):
             progress=progress,
         )
 
-    def sweep(self, **keywords: Any) -> Any:
+    def sweep(self, **keywords: Any) -> "Sweep":
         """Runs over a grid of parameters: :func:`festoon.sweep` with this bead."""
         from .sweeps import sweep
 
         return sweep(self, **keywords)
 
-    def orbit(self, *, festoons: Optional[float] = None, progress: Progress = None) -> Any:
+    def orbit(self, *, festoons: Optional[float] = None, progress: Progress = None) -> "Orbit":
         """The stable periodic orbit to which the start leads, or the one with so many festoons: an `Orbit`."""
         from . import orbits
 
         return orbits.orbit(self._asked(), festoons, progress)
 
-    def locked(self, *, progress: Progress = None) -> Any:
+    def locked(self, *, progress: Progress = None) -> "LockedStates":
         """Every locked state at this drive: a `LockedStates`."""
         from . import orbits
 
         return orbits.locked(self._asked(), progress)
 
-    def branch(self, *, kind: str = "counter", progress: Progress = None, **keywords: Any) -> Any:
+    def branch(self, *, kind: str = "counter", progress: Progress = None, **keywords: Any) -> "Branch":
         """Follow a family of solutions over a parameter, `omega=(0.15, 0.6)`: a `Branch`.
 
         Parameters
@@ -324,7 +388,7 @@ class Bead(Parameters):
 
         return orbits.branch(self._asked(), kind, progress, keywords)
 
-    def lyapunov(self, *, progress: Progress = None) -> Any:
+    def lyapunov(self, *, progress: Progress = None) -> "Lyapunov":
         """The spectrum of Lyapunov exponents: a `Lyapunov`."""
         from . import orbits
 
@@ -344,7 +408,7 @@ class Bead(Parameters):
 
         return fields.field(self, x, y, height, units)
 
-    def flow(self, state: Any = None, **options: Any) -> Any:
+    def flow(self, state: Any = None, **options: Any) -> "Flow":
         """A trajectory that is advanced step by step: a `Flow`."""
         from .flows import Flow
 
@@ -371,7 +435,7 @@ class Bead(Parameters):
 
         figures.field(self, path, units)
 
-    def lab(self, height: int = 720) -> Any:
+    def lab(self, height: int = 720) -> "Lab":
         """The browser page with this bead, shown in a notebook."""
         from .lab import Lab
 
@@ -382,7 +446,7 @@ def _sign(cls: Any) -> None:
     """Editors and help() show the keywords."""
     import inspect
 
-    names = [*SHORT, *(key.replace(".", "__") for key in PARAMETERS)]
+    names = [*SHORT, *(key.replace(".", "__") for key in PARAMETERS), "magnet__parts"]
     keywords = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None) for name in names]
     first = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)]
     scene = inspect.Parameter("scene", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None)

@@ -202,6 +202,25 @@ def _seconds(value: Union[float, str]) -> float:
     raise BadInput("exposure", f'"{value}" is no time: a number of seconds, or one with s, ms or us')
 
 
+def save_points(
+    path: Path, measurements: Iterable[Measurement], drives: Optional[Iterable[Union[float, str]]] = None
+) -> None:
+    """Write measured tracks as a table of points, which :func:`fit` reads: a row each.
+
+    `drives` are for tracks that do not tell the drive themselves.
+    """
+    measured = list(measurements)
+    given: List[Any] = [math.nan] * len(measured) if drives is None else list(drives)
+    if len(given) != len(measured):
+        raise BadInput("drives", f"there are {len(given)} drives for {len(measured)} tracks")
+    points = ffi.new("fst_points *")
+    rows = ffi.new("fst_point[]", max(1, len(measured)))
+    for i, (one, drive) in enumerate(zip(measured, given)):
+        call(lib.fst_point_of, one._found, quantity(drive, lib.FST_UNIT_FREQUENCY), ffi.addressof(rows, i))
+    points.rows, points.count = rows, len(measured)
+    call(lib.fst_points_write, path_bytes(path), points)
+
+
 # ---------------------------------------------------------------------------------------- fits
 
 

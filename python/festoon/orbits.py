@@ -63,6 +63,9 @@ class Orbit(Run):
         self._orbit = orbit
         self.others = []
 
+    def __reduce__(self) -> Any:
+        return _orbit_again, (self.bead, bytes(ffi.buffer(self._orbit)), self.others)
+
     @property
     def symmetry(self) -> Optional[str]:
         """S1, S2 or None."""
@@ -120,6 +123,17 @@ class Orbit(Run):
     def __repr__(self) -> str:
         stable = "stable" if self.stable else "unstable"
         return f"Orbit: {stable}, {self.symmetry}, period {self.period:.9g}, <r> {self.mean_r:.9g}"
+
+
+def _orbit_again(bead: Bead, data: bytes, others: List[Orbit]) -> Orbit:
+    """An orbit from another process, which must have the same build."""
+    found = ffi.new("fst_orbit *")
+    if len(data) != ffi.sizeof("fst_orbit"):
+        raise BadInput("Orbit", "it was pickled by another version of festoon")
+    ffi.memmove(found, data, len(data))
+    made = Orbit(bead, found)
+    made.others = others
+    return made
 
 
 def _orbit_array(orbits: List[Any]) -> Tuple[Any, Any]:

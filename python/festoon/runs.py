@@ -69,6 +69,9 @@ class Run(RunNumbers):
     def _number(self, name: str) -> float:
         return float(getattr(self._result, name))
 
+    def __reduce__(self) -> Any:
+        return _again, (self.bead, bytes(ffi.buffer(self._result)), self.trajectory, self.ramp, self.complete)
+
     @property
     def regime(self) -> str:
         """counter-rotating, corotating, locked, librating, chaotic, ejected, lifted or undecided."""
@@ -141,6 +144,15 @@ class Run(RunNumbers):
         from . import _cards
 
         return _cards.run_card(self)
+
+
+def _again(bead: Bead, data: bytes, trajectory: Any, ramp: Any, complete: bool) -> Run:
+    """A run from another process, which must have the same build."""
+    result = ffi.new("fst_run_result *")
+    if len(data) != ffi.sizeof("fst_run_result"):
+        raise BadInput("Run", "it was pickled by another version of festoon")
+    ffi.memmove(result, data, len(data))
+    return Run(bead, result, trajectory, ramp, complete)
 
 
 def _ramp_ends(bead: Bead, ramp: Any, options: Any) -> None:

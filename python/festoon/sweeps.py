@@ -26,8 +26,8 @@ from ._native import (
 )
 from ._progress import Progress, bar_for
 from ._quantities import Scales, value_text
-from ._tables import PARAMETERS, RESULTS, SweepNumbers
-from .bead import Bead, key_of, keyword_of
+from ._tables import RESULTS, SweepNumbers
+from .bead import Bead, key_of, keyword_of, row_of
 from .runs import REGIMES, SYMMETRIES, Run
 
 Path = Union[str, "os.PathLike[str]"]
@@ -46,7 +46,7 @@ class Axis:
         self.stride = int(lib.fst_grid_axis_stride(grid, number))
         count = int(lib.fst_grid_axis_points(grid, number))
         values = np.array([lib.fst_grid_value(grid, number, i * self.stride) for i in range(count)])
-        kind, names, _ = PARAMETERS[self.key]
+        kind, names, _ = row_of(self.key)
         if kind == "str":
             self.values = np.array(names.split(", "))[values.astype(int)]
         else:
@@ -153,8 +153,10 @@ class Sweep(SweepNumbers):
 
     def _run(self, point: int) -> Run:
         row = self._rows[point]
+        if not row["done"]:
+            raise Interrupted()
         if row["status"] != lib.FST_OK:
-            raise self._error(point) or Interrupted()
+            raise self._error(point) or AssertionError("a failed run has an error")
         result = ffi.new("fst_run_result *")
         ffi.memmove(result, np.ascontiguousarray(row["result"]).tobytes(), ffi.sizeof("fst_run_result"))
         return Run(self._bead(point), result)
@@ -168,7 +170,7 @@ class Sweep(SweepNumbers):
         return column[self._points]
 
     def _status(self) -> Any:
-        return self._rows["status"][self._points]
+        return np.where(self._rows["done"], self._rows["status"], NOT_RUN)[self._points]
 
     @property
     def regime(self) -> Any:
@@ -267,7 +269,7 @@ class Sweep(SweepNumbers):
 
         coords: Dict[str, Any] = {}
         for axis in self.axes:
-            kind, unit, doc = PARAMETERS[axis.key]
+            kind, unit, doc = row_of(axis.key)
             attrs = {"long_name": axis.key, "description": doc, **({} if kind == "str" else {"units": unit})}
             if axis.keyword in self.dims:
                 along = self.dims.index(axis.keyword)
@@ -323,7 +325,7 @@ def _sweep_of(batch: Any, grid: Any) -> Sweep:
     owner = (batch, grid)
     count = int(lib.fst_grid_points(grid))
     rows = owned_array(lib.pyf_batch_rows(batch), count, dtype_of("pyf_row"), owner)
-    lacking = rows["status"] != lib.FST_OK
+    lacking = (rows["done"] == 0) | (rows["status"] != lib.FST_OK)
     if lacking.any():
         for name in RESULTS:
             rows["result"][name][lacking] = np.nan
@@ -467,6 +469,7 @@ def sweep(
 
 def _fill(row: Any, given: Mapping[str, Any], texts: Mapping[str, int]) -> None:
     """A row from what the database says of a point."""
+    row.done = 1
     row.status = texts.get(given["status"], lib.FST_NO_CONVERGENCE)
     result = row.result
     for name in RESULTS:

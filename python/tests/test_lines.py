@@ -84,6 +84,10 @@ def test_every_parameter_is_a_keyword():
     assert columns == list(fs._tables.COLUMNS)
 
 
+def test_schema(program):
+    assert fs.schema() == ask(program, "schema", "--json")
+
+
 def test_card():
     bead = fs.Bead(friction__law="coulomb")
     page = bead._repr_html_()
@@ -105,6 +109,8 @@ def test_run_in_units(bead):
     assert run.si.mean_r == run.mean_r * 0.023 and run.lab.mean_r == pytest.approx(23 * run.mean_r)
     assert (run.si.unit("mean_r"), run.lab.unit("mean_r")) == ("m", "mm")
     assert run.si.mean_alpha_dot == pytest.approx(run.mean_alpha_dot * bead.gamma)
+    again = pickle.loads(pickle.dumps(run))
+    assert again.to_dict() == run.to_dict() and again.reason == run.reason
     assert math.isnan(run.sticking) and run.never_slips is None and run.trajectory is None and run.complete
 
 
@@ -220,6 +226,10 @@ def test_sweep_in_a_file_goes_on(tmp_path):
     assert np.array_equal(first.mean_r, again.mean_r) and len(before) > 0
     with pytest.raises(fs.BadInput):
         fs.sweep(bead, frequency=[9, 11], file=file)
+    fs.export(file, tmp_path / "rows.json")
+    assert [row["mean_r"] for row in json.loads((tmp_path / "rows.json").read_text())] == first.mean_r.tolist()
+    fs.export(file, tmp_path / "rows.csv", ["mean_r"], units="lab")
+    assert (tmp_path / "rows.csv").read_text().startswith("drive.frequency [Hz],mean_r [mm]")
     carried = fs.sweep(bead, frequency=[9, 10], carry="up")
     assert carried.mean_r[0] == first.mean_r[0] and carried.mean_r[1] != first.mean_r[1]
 
@@ -249,6 +259,7 @@ def test_orbit():
     assert orbit.multipliers.shape == (8,) and np.all(abs(orbit.multipliers) < 1)
     leading = np.max(abs(orbit.multipliers))
     assert orbit.relaxation_time == pytest.approx(-orbit.period / math.log(leading))
+    assert pickle.loads(pickle.dumps(orbit)).to_dict() == orbit.to_dict()
     assert orbit.mean_r == pytest.approx(fs.Bead().run().mean_r, rel=1e-9)
 
 
@@ -327,6 +338,7 @@ def test_measure(program, bead, tmp_path):
     track = tmp_path / "track.csv"
     rows = np.column_stack([lab.t, lab.x + noise[0], lab.y + noise[1]])
     np.savetxt(track, rows, delimiter=",", header="t [s],x [mm],y [mm]", comments="")
+    (tmp_path / "px.csv").write_text(track.read_text().replace("[mm]", "[px]"))
     measured = fs.measure(track, drive="10.7 Hz")
     assert measured.length_unit == "mm" and measured.motion == "turning" and len(measured.track) == len(rows)
     assert abs(measured.mean_r - run.lab.mean_r) < 5 * measured.mean_r_error
@@ -335,6 +347,12 @@ def test_measure(program, bead, tmp_path):
     assert np.array_equal(fs.read_track(track).x, rows[:, 1])
     with pytest.raises(fs.BadInput):
         fs.measure(track, drive="10.7 mm")
+    fs.save_points(tmp_path / "points.csv", [measured, measured])
+    subprocess.run([program, "measure", track, track, "--drive", "10.7Hz", "-o", tmp_path / "theirs.csv"],
+                   check=True, capture_output=True)
+    assert (tmp_path / "points.csv").read_bytes() == (tmp_path / "theirs.csv").read_bytes()
+    with pytest.raises(fs.BadInput, match="scale"):
+        fs.save_points(tmp_path / "points.csv", [fs.measure(track.with_name("px.csv"))])
 
 
 def test_fit(program, tmp_path):
@@ -381,3 +399,41 @@ def test_the_page_or_a_sentence(tmp_path, monkeypatch):
     assert shown.url.startswith("file://") and shown.url.endswith(shown.fragment)
     page = shown._repr_html_()
     assert page.startswith("<iframe srcdoc=") and "v=1&amp;friction.law" in page
+
+
+# ---------------------------------------------------------------------------------------- real magnets
+
+BALL = {"kind": "sphere", "centre": [0, 0, "-5 mm"], "size": "20 mm", "remanence": [1.2, 0, 0]}
+
+
+def test_parts_of_a_magnet(tmp_path):
+    bead = fs.Bead(magnet__parts=[BALL, {**BALL, "kind": "sphere", "rotation": [30, 0, 0, 1]}], magnet__depth="40 mm")
+    assert bead.magnet__shape == "parts" and len(bead.magnet__parts) == 2
+    assert bead.magnet__parts[0] == {
+        "kind": "sphere", "centre": [0, 0, -0.005], "size": [0.02], "remanence": [1.2, 0, 0]
+    }
+    assert bead.magnet__parts[1]["rotation"] == [30, 0, 0, 1]
+    bead.save(tmp_path / "magnet.yaml")
+    assert fs.Bead.load(tmp_path / "magnet.yaml") == bead == eval(repr(bead), {"Bead": fs.Bead})
+    assert bead.replace(kappa=1.2).magnet__parts == bead.magnet__parts
+    assert "magnet.parts[1]" in bead._repr_html_()
+    one = bead.replace(magnet__parts=[BALL])
+    assert len(one.magnet__parts) == 1 and one != bead
+    with pytest.raises(fs.BadInput, match="kind"):
+        fs.Bead(magnet__parts=[{"size": 1}])
+    with pytest.raises(fs.BadInput, match="remanence"):
+        fs.Bead(magnet__parts=[{**BALL, "remanenz": [1, 0, 0]}])
+
+
+def test_a_sphere_s_field_is_a_dipole_s():
+    """Outside, a magnetised ball is a dipole of moment V J/mu_0 at its centre: B on its axis is 2 J R^3/(3 d^3)."""
+    bead = fs.Bead(magnet__parts=[{**BALL, "centre": [0, 0, 0], "remanence": [0, 0, 1.2]}], magnet__depth="40 mm")
+    b, _ = bead.field(0, 0, height="45 mm", units="si")
+    assert b == pytest.approx([0, 0, 2 * 1.2 * 0.01**3 / (3 * 0.045**3)], rel=1e-12)
+
+
+def test_sweep_over_a_part():
+    bead = fs.Bead(magnet__parts=[BALL], magnet__depth="40 mm", run__periods=2)
+    s = fs.sweep(bead, **{"magnet.parts[0].centre[2]": ["-6 mm", -0.005]})
+    assert s.shape == (2,) and s.bead(0).magnet__parts[0]["centre"][2] == -0.006
+    assert s.parameter("magnet.parts[0].centre[2]").tolist() == [-0.006, -0.005]

@@ -108,7 +108,8 @@ def test_sweep_of_one_parameter(line):
     ax = line.plot("mean_r", units="scaled")
     assert np.allclose(curve(ax), [line.omega, line.mean_r], rtol=1e-12) and "ℓ" in ax.get_ylabel()
     ax = line.plot("regime")
-    assert [label.get_text() for label in ax.get_yticklabels()][3] == "counter-rotating"
+    assert [label.get_text() for label in ax.get_yticklabels()] == ["librating", "counter-rotating"]
+    assert curve(ax)[1].tolist() == [0, 1, 1, 1]
 
 
 def test_sweep_of_two_parameters():

@@ -18,6 +18,7 @@
  * down to 1e-14.  + - * / and square roots alone: the same bits everywhere.
  */
 #define ELLIPTIC_STEPS 6
+#define ELLIPTIC_ROOT(x) REAL_ROOT(x, REAL_RECIPROCAL_SQRT(x))
 
 typedef struct FN(elliptic) {
     REAL mean;                        /* M */
@@ -30,36 +31,38 @@ typedef struct FN(elliptic) {
 static inline FN(elliptic) FN(elliptic_mean)(REAL a, REAL product, REAL c)
 {
     FN(elliptic) e;
-    REAL b = REAL_SQRT(product), weight = R(2.0);
+    REAL b = ELLIPTIC_ROOT(product), weight = R(2.0);
     e.product[0] = product;
     e.product[1] = a * b;
     a = R(0.5) * (a + b);
-    const REAL second = a, c2 = c * c / (R(4.0) * a);
+    const REAL quarter = R(0.25) * REAL_RECIPROCAL(a), c2 = c * c * quarter; /* quarter: 1/(4 a_2) */
     REAL share = R(1.0), shares = share, squares = share; /* c_n/c_2, their sum, that of 2^(n-2) (c_n/c_2)^2 */
     for (int n = 2; n <= ELLIPTIC_STEPS; ++n) {
-        b = REAL_SQRT(e.product[n - 1]);
+        b = ELLIPTIC_ROOT(e.product[n - 1]);
         e.product[n] = a * b;
         a = R(0.5) * (a + b);
-        share = share * share * c2 / (R(4.0) * a);
+        share = share * share * c2 * (R(0.25) * REAL_RECIPROCAL(a));
         shares = shares + share;
         squares = REAL_MULADD(weight * share, share, squares);
         weight = weight + weight;
     }
-    e.mean = R(0.5) * (a + REAL_SQRT(e.product[ELLIPTIC_STEPS]));
+    e.mean = R(0.5) * (a + ELLIPTIC_ROOT(e.product[ELLIPTIC_STEPS]));
     e.below = c2 * shares;
-    e.squares = squares / (R(8.0) * second * second);
+    e.squares = R(2.0) * squares * quarter * quarter;
     return e;
 }
 
-/* The sum of Q_n, n >= 1, from p_0. */
+/* The sum of Q_n, n >= 1, from p_0, which must not be much less than b_0 nor much greater than a_0: p_n then
+ * comes to M as fast as a_n does. */
 static inline REAL FN(elliptic_third)(const FN(elliptic) * e, REAL p)
 {
     REAL q = R(1.0), sum = R(0.0);
     for (int n = 0; n <= ELLIPTIC_STEPS; ++n) {
-        const REAL other = e->product[n] / p, twice = p + other;
-        q = R(0.5) * q * (p - other) / twice;
+        const REAL p2 = p * p, twice = p2 + e->product[n]; /* 2 p p_next */
+        const REAL share = R(0.5) * REAL_RECIPROCAL(p * twice);
+        q = q * ((p2 - e->product[n]) * (p * share));
         sum = sum + q;
-        p = R(0.5) * twice;
+        p = twice * twice * share;
     }
     return sum;
 }

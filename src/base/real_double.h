@@ -9,6 +9,8 @@
 #define FST_BASE_REAL_DOUBLE_H
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "base/real_scalar.h"
 #include "base/sums.h"
@@ -39,6 +41,24 @@ static inline fst_two_doubles fst_sqrt_two_doubles(fst_two_doubles x)
     }
 #define ENDS_SQRT(x) fst_sqrt_two_doubles(x)
 #define END(sums, member, end) (sums)[0].member[end]
+
+static inline uint64_t fst_bits_of_double(double x)
+{
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static inline double fst_double_of_bits(uint64_t bits)
+{
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+#define REAL_BITS uint64_t /* a double as the computer stores it: sign, exponent, fraction */
+#define REAL_AS_BITS(x) fst_bits_of_double(x)
+#define REAL_OF_BITS(bits) fst_double_of_bits(bits)
 
 #define REAL double
 #define R(literal) literal

@@ -15,6 +15,9 @@
 #define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))
 #define RHS_KIND static inline
 #define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
+#define REAL_ROOT(x, inverse) REAL_SQRT(x) /* lanes may make it of its inverse */
+#define REAL_RECIPROCAL(x) (R(1.0) / (x))
+#define REAL_QUOTIENT(a, b) ((a) / (b))
 #define REAL_OF(x) ((REAL)(x)) /* from a number of another type */
 #define REAL_MULADD(a, b, c) ((a) * (b) + (c))
 #define REAL_MULSUB(a, b, c) ((a) * (b) - (c))

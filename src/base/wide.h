@@ -39,10 +39,17 @@
 #undef REAL_NEGMULADD
 #undef REAL_ROUGH_RECIPROCAL
 #undef REAL_OVER_SQRT
+#undef REAL_ROOT
+#undef REAL_RECIPROCAL
+#undef REAL_QUOTIENT
 #undef RHS_KIND
+#undef REAL_BITS
+#undef REAL_AS_BITS
+#undef REAL_OF_BITS
 
 typedef double fst_wide __attribute__((vector_size(8 * FST_LANES), may_alias));
 typedef long long fst_wide_bits __attribute__((vector_size(8 * FST_LANES), may_alias));
+typedef unsigned long long fst_wide_unsigned __attribute__((vector_size(8 * FST_LANES), may_alias));
 
 static inline fst_wide fst_wide_of(double x)
 {
@@ -187,6 +194,29 @@ static inline fst_wide fst_wide_inverse(fst_wide x, fst_wide y)
 #endif
 }
 
+/* 1/x */
+static inline fst_wide fst_wide_reciprocal(fst_wide x)
+{
+#if FST_LANES == 8
+    const fst_wide y = (fst_wide)_mm512_rcp14_pd(WIDE_NATIVE(x)); /* to 2^-14 */
+    const fst_wide e = WIDE_NEGMULADD(x, y, fst_wide_of(1.0)), rest = WIDE_MULADD(e, e, e);
+    return WIDE_MULADD(y, WIDE_MULADD(e, rest, e), y); /* y/(1 - e) */
+#else
+    return 1.0 / x; /* there is no estimate that all processors share */
+#endif
+}
+
+/* a/b */
+static inline fst_wide fst_wide_quotient(fst_wide a, fst_wide b)
+{
+#if FST_LANES == 8
+    const fst_wide inverse = fst_wide_reciprocal(b), quotient = a * inverse;
+    return WIDE_MULADD(WIDE_NEGMULADD(quotient, b, a), inverse, quotient);
+#else
+    return a / b;
+#endif
+}
+
 /* 1/x to about 1e-8, which is enough to scale errors. */
 static inline fst_wide fst_wide_rough_reciprocal(fst_wide x)
 {
@@ -223,6 +253,9 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_RECIPROCAL_SQRT(x) fst_wide_reciprocal_sqrt(x)
 #define REAL_FAST_RECIPROCAL_SQRT(x)                                                                           \
     fst_wide_reciprocal_sqrt(x) /* this form computes it without a root and a quotient */
+#define REAL_ROOT(x, inverse) ((x) * (inverse))
+#define REAL_RECIPROCAL(x) fst_wide_reciprocal(x)
+#define REAL_QUOTIENT(a, b) fst_wide_quotient(a, b)
 #define REAL_ESTIMATE_RECIPROCAL_SQRT(x) fst_wide_estimate_reciprocal_sqrt(x)
 #define REAL_INVERSE_FIFTH(x, estimate) fst_wide_inverse_fifth(x, estimate)
 #define REAL_INVERSE(x, estimate) fst_wide_inverse(x, estimate)
@@ -231,6 +264,9 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_INVERSE_EIGHTH_ROOT(x) fst_wide_inverse_eighth_root(x)
 #else
 #define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
+#define REAL_ROOT(x, inverse) REAL_SQRT(x)
+#define REAL_RECIPROCAL(x) (R(1.0) / (x))
+#define REAL_QUOTIENT(a, b) ((a) / (b))
 #define REAL_MULADD(a, b, c) ((a) * (b) + (c))
 #define REAL_MULSUB(a, b, c) ((a) * (b) - (c))
 #define REAL_NEGMULADD(a, b, c) ((c) - (a) * (b))
@@ -259,6 +295,10 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
     }
 #define ENDS_SQRT(x) WIDE_SQRT(x)
 #define END(sums, member, end) (sums)[end].member
+
+#define REAL_BITS fst_wide_unsigned
+#define REAL_AS_BITS(x) ((fst_wide_unsigned)(x))
+#define REAL_OF_BITS(bits) ((fst_wide)(bits))
 
 #define REAL fst_wide
 #define R(literal) fst_wide_of(literal)

@@ -36,6 +36,10 @@ static fst_status read_range(const char *name, const char *text, char key[64], d
     (void)snprintf(low, sizeof low, "%.*s", (int)(colon - equals - 1), equals + 1);
     (void)snprintf(high, sizeof high, "%s", colon + 1);
     const int row = fst_param_find(key);
+    if (row < 0 && strncmp(key, "magnet.parts", strlen("magnet.parts")) == 0) {
+        fst_params scratch = fst_default_params(); /* its sentence knows the keys of parts */
+        return fst_params_set(&scratch, key, low, error);
+    }
     if (row < 0 || fst_param_at(row)->kind != FST_KIND_REAL) {
         char names[2048] = "", nearest[64];
         for (int i = 0; i < fst_param_count(); ++i) {

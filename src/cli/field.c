@@ -9,8 +9,12 @@ static const option options[] = {
     {"at", '\0', "X,Y",
      "the field and its gradient where the bead's centre is: in l, or with units as in 10mm,5mm"},
     {"height", '\0', "H",
-     "at this height over the magnet's mid-plane, not the bead's centre's: 18.7mm, or in l"},
+     "at this height over the magnet's mid-plane (real magnets: reference plane), not the bead's centre's: "
+     "18.7mm, "
+     "or in l"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
+    {"map", '\0', "strength|x|y|z|force|load",
+     "what the map shows: |B| (the default), a component of B, or the force or the load of a bead"},
     UNITS_OPTION,
     {NULL, '\0', NULL, NULL},
 };
@@ -19,6 +23,21 @@ static const option options[] = {
 static double above_rounding(double value, double greatest)
 {
     return fabs(value) <= 1e-15 * greatest ? 0.0 : value;
+}
+
+/* What the magnet does there to a bead that lies still, its moment along the field. */
+static void print_pull(FILE *out, const fst_model *model, const double at[2], fst_shown_units units,
+                       const fst_scales *scales)
+{
+    double force[3], load;
+    const char *name;
+    const double unit = fst_unit_shown("l gamma^2", units, scales, &name);
+    fst_field_pull(model, at[0], at[1], force, &load);
+    const double most = fmax(fabs(force[0]), fmax(fabs(force[1]), fabs(force[2])));
+    (void)fprintf(out,
+                  "on a bead with its moment along B: force %.9g %.9g %.9g %s, load on the plate %.9g %s\n",
+                  unit * above_rounding(force[0], most), unit * above_rounding(force[1], most),
+                  unit * above_rounding(force[2], most), name, unit * load, name);
 }
 
 static void print_text(FILE *out, const fst_model *model, const double at[2], const char *height,
@@ -42,7 +61,8 @@ static void print_text(FILE *out, const fst_model *model, const double at[2], co
     (void)fprintf(out, "at X = %g, Y = %g l (%g mm, %g mm), magnet's frame, at the height ", at[0], at[1],
                   mm * at[0], mm * at[1]);
     if (height)
-        (void)fprintf(out, "of %g mm over the magnet's mid-plane\n", mm * groups.h);
+        (void)fprintf(out, "of %g mm over the magnet's %s\n", mm * groups.h,
+                      groups.shape == FST_MAGNET_LINES ? "mid-plane" : "reference plane");
     else
         (void)fprintf(out, "of a bead's centre on the plate\n");
     (void)fprintf(out, "   %13s (%s)   dB/dX, dB/dY, dB/dZ (%s/%s)\n", "B", tesla, tesla, metre);
@@ -52,6 +72,7 @@ static void print_text(FILE *out, const fst_model *model, const double at[2], co
                       slope * above_rounding(grad[i][1], steepest),
                       slope * above_rounding(grad[i][2], steepest));
     (void)fprintf(out, "|B| = %.9g %s\n", field * sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]), tesla);
+    print_pull(out, model, at, units, &scales);
     if (!isnan(groups.field_unit))
         (void)fprintf(out, "B0 = %.6g mT\n", 1e3 * groups.field_unit);
     else if (units == FST_SHOWN_LAB || units == FST_SHOWN_SI)
@@ -88,43 +109,81 @@ static fst_status read_place(const char *text, double length_unit, double at[2],
                         text);
 }
 
-/* The scene's lines of dipoles know the height only as model.h, which places no bead here. */
-static fst_status set_height(const char *height, fst_params *params, fst_error *error)
+/* --height in l; NAN where it is not given.  Real magnets may be asked below their reference plane too. */
+static fst_status read_height(const char *height, const fst_params *params, double *h, fst_error *error)
 {
-    double h = 0.0;
+    *h = NAN;
     if (!height)
         return FST_OK;
-    if (read_length(height, params->magnet_half_length, &h) != FST_OK || !(h > 0) || !isfinite(h))
+    const int real = fst_magnet_in_tesla(params);
+    if (read_length(height, params->magnet_half_length, h) != FST_OK || !(*h > 0 || real) || !isfinite(*h))
         return fail(
             error, FST_BAD_INPUT, "--height",
-            "\"%.60s\" must be a height over the magnet's mid-plane: a positive number in l or a length "
-            "with its unit, as in 18.7mm",
-            height);
-    params->model_h = h;
+            "\"%.60s\" must be a height over the magnet's %s: a %snumber in l or a length with its unit, as in "
+            "18.7mm",
+            height, real ? "reference plane" : "mid-plane", real ? "" : "positive ");
     return FST_OK;
 }
 
-static fst_status print_point(const arguments *given, const fst_params *scene, fst_shown_units units, FILE *out,
-                              fst_error *error)
+/* There is no field to tell in or on a part of the magnet. */
+static fst_status check_outside(const fst_params *params, const double at[2], double height, fst_error *error)
 {
-    fst_params params = *scene;
+    const double l = params->magnet_half_length, place[3] = {l * at[0], l * at[1], l * height};
+    const int part = params->magnet_shape == FST_MAGNET_PARTS ? fst_part_at(params, place) : -1;
+    if (part < 0)
+        return FST_OK;
+    char key[48], kind[32];
+    (void)snprintf(key, sizeof key, "magnet.parts[%d].kind", part);
+    (void)fst_params_get(params, fst_param_find(key), kind, sizeof kind);
+    return fail(
+        error, FST_BAD_INPUT, "--at",
+        "the place %g mm, %g mm at the height %g mm lies in or on magnet.parts[%d], a %s: the field is known "
+        "outside of the magnet",
+        1e3 * place[0], 1e3 * place[1], 1e3 * place[2], part, kind);
+}
+
+static fst_status print_point(const arguments *given, const fst_params *params, double h, fst_shown_units units,
+                              FILE *out, fst_error *error)
+{
     double at[2] = {0.0, 0.0};
     fst_model *model = NULL;
     const char *height = option_value(given, "height");
-    fst_status status = set_height(height, &params, error);
-    if (status == FST_OK)
-        status = fst_model_new(&params, &model, error);
+    fst_status status =
+        isnan(h) ? fst_model_new(params, &model, error) : fst_field_model_new(params, h, &model, error);
     if (status == FST_OK)
         status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
     static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
+    if (status == FST_OK)
+        status = check_outside(params, at, fst_model_groups(model).h, error);
     if (status == FST_OK && option_value(given, "json"))
         status = print_and_free(fst_field_json(model, at[0], at[1], units), out, error);
     else if (status == FST_OK)
         print_text(out, model, at, height, units);
     fst_model_free(model);
     return status;
+}
+
+static fst_status read_map(const char *text, fst_field_quantity *quantity, fst_error *error)
+{
+    static const char names[] = "strength|x|y|z|force|load";
+    char nearest[16];
+    *quantity = FST_FIELD_STRENGTH;
+    if (!text)
+        return FST_OK;
+    const char *name = names;
+    for (int i = FST_FIELD_STRENGTH; i <= FST_FIELD_LOAD; ++i) {
+        const size_t length = strcspn(name, "|");
+        if (strlen(text) == length && strncmp(text, name, length) == 0) {
+            *quantity = (fst_field_quantity)i;
+            return FST_OK;
+        }
+        name += length + 1;
+    }
+    fst_nearest_name(text, names, nearest, sizeof nearest);
+    return fail(error, FST_BAD_INPUT, "--map", "unknown map \"%.40s\"; the nearest is %s (%s)", text, nearest,
+                names);
 }
 
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
@@ -135,18 +194,24 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         return fail(error, FST_BAD_INPUT, "", "say where with --at X,Y, or draw a map with -o FIG.svg");
     if (option_value(given, "json") && !at)
         return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
-    if (option_value(given, "height") && !at)
-        return fail(error, FST_BAD_INPUT, "--height", "it concerns a point: give --at X,Y");
+    if (option_value(given, "map") && !figure)
+        return fail(error, FST_BAD_INPUT, "--map", "it concerns a map: give -o FIG.svg");
     fst_shown_units units;
+    fst_field_options map = {FST_FIELD_STRENGTH, NAN, FST_SHOWN_SCALED};
     fst_status status = read_units(given, &units, error);
     if (status == FST_OK)
+        status = read_map(option_value(given, "map"), &map.quantity, error);
+    if (status == FST_OK)
         status = read_scene(given, operand(given), &params, error);
+    if (status == FST_OK)
+        status = read_height(option_value(given, "height"), &params, &map.height, error);
     if (units == FST_SHOWN_AS_GIVEN)
         units = FST_SHOWN_SCALED;
     if (status == FST_OK && at)
-        status = print_point(given, &params, units, out, error);
+        status = print_point(given, &params, map.height, units, out, error);
+    map.units = units;
     if (status == FST_OK && figure)
-        status = fst_figure_field(&params, units, figure, error);
+        status = fst_figure_field_map(&params, &map, figure, error);
     if (status == FST_OK && figure)
         tell_written(figure, "");
     return status;
@@ -154,13 +219,16 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 
 const command field_command = {
     .name = "field",
-    .synopsis = "[SCENE.yaml] [--set KEY=VALUE]... --at X,Y [--height H] [--json] | -o FIG.(svg|pdf|png)",
+    .synopsis =
+        "[SCENE.yaml] [--set KEY=VALUE]... [--height H] --at X,Y [--json] | [--map ...] -o FIG.(svg|pdf|png)",
     .summary = "The magnet's field and its gradient at a point, or drawn as a map",
     .details =
         "Positions without a unit are in l (half length of the magnet's lines); they are in the "
         "magnet's frame, at the height of the\n"
         "bead's centre; fields in B0. With --units lab or si they are in mT or tesla, where magnet.b0 or "
         "bead.moment tells B0;\n"
+        "real magnets (magnet.shape: parts) always do. Force and load are those of a bead at rest, its moment "
+        "along B;\n"
         "--json then has b_tesla and grad_tesla_per_m beside the scaled ones.\n",
     .options = options,
     .most_operands = 1,

@@ -81,7 +81,8 @@ static const struct {
     {"fst_param_at()", "festoon schema"},        {"fst_lyapunov_find()", "festoon lyapunov"},
     {"fst_locked_find()", "festoon locked"},     {"fst_sweep_export()", "festoon export"},
     {"fst_sweep()", "festoon sweep -o FILE.db"}, {"fst_branch_write()", "festoon branch -o FILE.json"},
-    {"fst_run_json()", "festoon run --json"},
+    {"fst_run_json()", "festoon run --json"},    {"fst_track_options.scale", "--scale"},
+    {"fst_measure_options.drive", "--drive"},
 };
 
 void name_commands(const char *sentence, char *text, size_t size)

@@ -3,9 +3,11 @@
 
 void print_groups(FILE *out, const fst_groups *groups)
 {
-    (void)fprintf(out, "  eps = %.6g  h = %.6g  lambda = %.6g (%d line%s)  kappa = %.6g  omega = %.6g\n",
-                  groups->eps, groups->h, groups->lambda, groups->lines, groups->lines == 1 ? "" : "s",
-                  groups->kappa, groups->omega);
+    (void)fprintf(out, "  eps = %.6g  h = %.6g  ", groups->eps, groups->h);
+    if (groups->shape != FST_MAGNET_PARTS) /* which have no lines */
+        (void)fprintf(out, "lambda = %.6g (%d line%s)  ", groups->lambda, groups->lines,
+                      groups->lines == 1 ? "" : "s");
+    (void)fprintf(out, "kappa = %.6g  omega = %.6g\n", groups->kappa, groups->omega);
     if (groups->a != 0.0 || groups->b != 0.0)
         (void)fprintf(out, "  a = %.6g  b = %.6g\n", groups->a, groups->b);
     (void)fprintf(out, "  units: l = %.6g mm  1/gamma = %.6g ms  mass %.6g g", 1e3 * groups->length_unit,

@@ -127,33 +127,21 @@ static fst_status read_drives(job *j, fst_error *error)
     return FST_OK;
 }
 
-/* A measurement as a row of a table of points, in SI.  Numbers without an error stay out. */
+/* A measurement as a row of the table of points. */
 static fst_status take_point(job *j, int index, const fst_measurement *m, fst_error *error)
 {
     const char *path = j->given->operands[index];
-    double length;
-    char one[16], text[SHOWN_SIZE];
-    (void)snprintf(one, sizeof one, "1 %s", m->length_unit);
-    if (fst_parse_value(one, FST_UNIT_LENGTH, &length, NULL) != FST_OK)
-        return fail(error, FST_BAD_INPUT, path, "a table of points needs lengths, not pixels: give --scale");
-    /* The drive of the track goes with the bead's rate by the same clock. */
-    const int told = isfinite(m->drive_from_track_hz);
-    if (!told && j->drive_count == 0)
-        return fail(error, FST_BAD_INPUT, path, "the track does not tell the drive: give it with --drive");
+    char text[SHOWN_SIZE];
     fst_point *row = &j->rows[index];
-    const double values[FST_MEASURED_COUNT][2] = {{length * m->mean_r, length * m->mean_r_error},
-                                                  {length * m->std_r, length * m->std_r_error},
-                                                  {m->bead_frequency_hz, m->bead_frequency_hz_error}};
-    *row = (fst_point){.frequency = told ? m->drive_from_track_hz : fabs(j->what.drive),
-                       .frequency_error = told ? m->drive_from_track_hz_error : NAN};
-    for (int q = 0; q < FST_MEASURED_COUNT; ++q) {
-        const int whole = isfinite(values[q][0]) && values[q][1] > 0;
-        row->value[q] = whole ? values[q][0] : NAN;
-        row->error[q] = whole ? values[q][1] : NAN;
-        if (!whole)
+    const fst_status status = fst_point_of(m, j->drive_count > 0 ? j->what.drive : NAN, row, error);
+    if (status != FST_OK) {
+        (void)snprintf(error->where, sizeof error->where, "%.255s", path);
+        return status;
+    }
+    for (int q = 0; q < FST_MEASURED_COUNT; ++q)
+        if (isnan(row->value[q]))
             (void)fprintf(stderr, "%s: %s is left out of the table, because it has no error\n",
                           shown(path, text), fst_measured_name((fst_measured)q));
-    }
     return FST_OK;
 }
 

@@ -33,11 +33,27 @@ static void print_table(FILE *out)
     }
 }
 
+/* The numbers of a part, which are the same of each: those of part 0. */
+static void print_part(FILE *out)
+{
+    (void)fprintf(out,
+                  "\nOf each part of a magnet of shape parts, N from 0 to %d; scenes list them (festoon init "
+                  "shows how):\n",
+                  FST_PARTS_MAX - 1);
+    for (int i = fst_param_count(); fst_param_part(i) == 0; ++i) {
+        const fst_param_info *info = fst_param_at(i);
+        (void)fprintf(out, "magnet.parts[N]%s\n", strchr(info->key, ']') + 1);
+        print_limits(out, info);
+        (void)fprintf(out, "      %s\n", info->doc);
+    }
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     if (option_value(given, "json"))
         return print_and_free(fst_schema_json(), out, error);
     print_table(out);
+    print_part(out);
     return FST_OK;
 }
 

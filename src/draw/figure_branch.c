@@ -8,7 +8,6 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "draw/chart.h"
-#include "draw/smooth.h"
 
 enum {
     CIRCLE = 181,

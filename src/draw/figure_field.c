@@ -1,9 +1,12 @@
-/* figure_field.c - the magnet's field on the plane of the bead's centre (the paper's Fig. 5). */
+/* figure_field.c - the magnet's field on a plane, as a rule that of the bead's centre (the paper's Fig. 5). */
 #include "base/error.h"
+#include "draw/field_map.h"
 #include "draw/legend.h"
+#include "draw/poles.h"
 
 #include <festoon/festoon_tools.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,142 +14,86 @@ enum {
     LEFT = 56, /* pixels about the map */
     RIGHT = 20,
     AXIS = 54,
-    SCALE = 64,    /* for the scale of colours */
-    COLUMNS = 181, /* of the map */
-    ROWS = 145,
+    SCALE = 64,      /* for the scale of colours */
     ARROW_STEP = 12, /* map points from one arrow to the next */
-    MAXIMA = 8,      /* the most maxima that are marked */
     LEVELS = 8,      /* about as many lines of equal field */
     LABEL_GAP = 14   /* pixels between two of their labels */
 };
 
-typedef struct field_map {
-    const fst_model *model;
-    fst_groups groups;
-    int bar;                        /* whether the source is the bar of lines, which is marked */
-    double half_width, half_height; /* of the map, in l */
-    double maxima[MAXIMA][2];
-    int maximum_count;
-    double length, field;                 /* how many of the figure's units make l and B0 */
-    const char *length_unit, *field_unit; /* their names */
-    double strongest;                     /* of the parts in the plane, where arrows are; in B0 */
-    int top, frame, height;               /* where the map begins, how high it is, and the figure; pixels */
-} field_map;
+/* What each quantity is called: on the scale of colours, and in the title. */
+static const struct {
+    const char *label, *title;
+} words[] = {
+    [FST_FIELD_STRENGTH] = {"|B|", "The magnet's field"},
+    [FST_FIELD_X] = {"B_X", "The field's component along X"},
+    [FST_FIELD_Y] = {"B_Y", "The field's component along Y"},
+    [FST_FIELD_Z] = {"B_Z", "The field's component upwards"},
+    [FST_FIELD_FORCE] = {"horizontal force", "The magnet's horizontal pull on a bead"},
+    [FST_FIELD_LOAD] = {"load", "A bead's load on the plate"},
+};
 
-static double strength(const fst_model *model, double x, double y)
-{
-    double b[3], gradient[3][3];
-    fst_field(model, x, y, b, gradient);
-    return sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
-}
-
-static double column_x(const field_map *map, int column)
-{
-    return map->half_width * (2.0 * column / (COLUMNS - 1) - 1.0);
-}
-
-static double row_y(const field_map *map, int row)
-{
-    return map->half_height * (2.0 * row / (ROWS - 1) - 1.0);
-}
-
-/* ------------------------------------------------------------------ maxima */
-
-/* Climb from a map point to the maximum: step along both axes, and halve the step where none leads up. */
-static void climb(const fst_model *model, double step, double place[2])
-{
-    double here = strength(model, place[0], place[1]);
-    while (step > 1e-9) {
-        static const double ways[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
-        int moved = 0;
-        for (int i = 0; i < 4 && !moved; ++i) {
-            double x = place[0] + step * ways[i][0], y = place[1] + step * ways[i][1];
-            double there = strength(model, x, y);
-            if (there > here) {
-                here = there;
-                place[0] = x;
-                place[1] = y;
-                moved = 1;
-            }
-        }
-        if (!moved)
-            step *= 0.5;
-    }
-}
-
-/* Every map point that is not lower than its eight neighbours leads to a maximum. */
-static void find_maxima(field_map *map)
-{
-    for (int row = 1; row < ROWS - 1; ++row) {
-        for (int column = 1; column < COLUMNS - 1; ++column) {
-            double here = strength(map->model, column_x(map, column), row_y(map, row));
-            int highest = 1;
-            for (int i = 0; i < 9 && highest; ++i)
-                highest = here >=
-                          strength(map->model, column_x(map, column + i % 3 - 1), row_y(map, row + i / 3 - 1));
-            if (!highest || map->maximum_count == MAXIMA)
-                continue;
-            double place[2] = {column_x(map, column), row_y(map, row)};
-            climb(map->model, column_x(map, 1) - column_x(map, 0), place);
-            int known = 0;
-            for (int m = 0; m < map->maximum_count; ++m)
-                known = known || hypot(place[0] - map->maxima[m][0], place[1] - map->maxima[m][1]) < 1e-4;
-            if (known)
-                continue;
-            map->maxima[map->maximum_count][0] = place[0];
-            map->maxima[map->maximum_count][1] = place[1];
-            ++map->maximum_count;
-        }
-    }
-}
+typedef struct field_figure {
+    fst_field_map map;
+    fst_magnet_body bodies[FST_PARTS_MAX];
+    int body_count;
+    int poles;              /* which poles are drawn: bits of fst_figure_write_poles() */
+    double strongest;       /* of what the arrows show, scaled */
+    int top, frame, height; /* where the map begins, how high it is, and the figure; pixels */
+} field_figure;
 
 /* ------------------------------------------------------------------ data */
 
-static void write_map(fst_figure_file *figure, const field_map *map)
+static void write_map(fst_figure_file *figure, const fst_field_map *map)
 {
-    fst_figure_block(figure, "map", "X Y |B|");
-    for (int row = 0; row < ROWS; ++row) {
-        for (int column = 0; column < COLUMNS; ++column) {
-            double x = column_x(map, column), y = row_y(map, row);
-            (void)fprintf(figure->data, "%.5g %.5g %.5g\n", map->length * x, map->length * y,
-                          map->field * strength(map->model, x, y));
+    fst_figure_block(figure, "map", "X Y and what is shown");
+    for (int row = 0; row < FST_MAP_ROWS; ++row) {
+        for (int column = 0; column < FST_MAP_COLUMNS; ++column) {
+            const double x = fst_field_map_x(map, column), y = fst_field_map_y(map, row);
+            const double value = fst_field_map_value(map, x, y);
+            (void)fprintf(figure->data, "%.5g %.5g ", map->length * x, map->length * y);
+            if (isnan(value)) /* in a part of the magnet */
+                (void)fputs("NaN\n", figure->data);
+            else
+                (void)fprintf(figure->data, "%.5g\n", value);
         }
         (void)fputc('\n', figure->data);
     }
 }
 
 /* The length of the longest arrow, in l. */
-static double longest_arrow(const field_map *map)
+static double longest_arrow(const fst_field_map *map)
 {
-    return 1.1 * ARROW_STEP * 2.0 * map->half_width / (COLUMNS - 1);
+    return 1.1 * ARROW_STEP * 2.0 * map->half_width / (FST_MAP_COLUMNS - 1);
 }
 
-/* Arrows of the field in the plane.  Their length goes with the square root of the strength, so that weak
- * fields show too. */
-static void write_arrows(fst_figure_file *figure, field_map *map)
+/* Arrows of the field, or of the force, in the plane.  Their length goes with the square root of the strength,
+ * so that weak fields show too. */
+static void write_arrows(fst_figure_file *figure, field_figure *f)
 {
-    map->strongest = 0.0;
-    for (int row = ARROW_STEP / 2; row < ROWS; row += ARROW_STEP)
-        for (int column = ARROW_STEP / 2; column < COLUMNS; column += ARROW_STEP) {
-            double b[3], gradient[3][3];
-            fst_field(map->model, column_x(map, column), row_y(map, row), b, gradient);
-            map->strongest = fmax(map->strongest, hypot(b[0], b[1]));
+    const fst_field_map *map = &f->map;
+    double v[2];
+    f->strongest = 0.0;
+    for (int row = ARROW_STEP / 2; row < FST_MAP_ROWS; row += ARROW_STEP)
+        for (int column = ARROW_STEP / 2; column < FST_MAP_COLUMNS; column += ARROW_STEP) {
+            fst_field_map_arrow(map, fst_field_map_x(map, column), fst_field_map_y(map, row), v);
+            f->strongest = fmax(f->strongest, hypot(v[0], v[1]));
         }
-    fst_figure_block(figure, "arrows", "X Y dX dY: the part of the field in the plane");
-    for (int row = ARROW_STEP / 2; row < ROWS; row += ARROW_STEP)
-        for (int column = ARROW_STEP / 2; column < COLUMNS; column += ARROW_STEP) {
-            double b[3], gradient[3][3], x = column_x(map, column), y = row_y(map, row);
-            fst_field(map->model, x, y, b, gradient);
-            double plane = hypot(b[0], b[1]);
-            double scale = plane > 0.0 ? longest_arrow(map) * sqrt(plane / map->strongest) / plane : 0.0;
-            (void)fprintf(figure->data, "%.5g %.5g %.4g %.4g\n", map->length * (x - 0.5 * scale * b[0]),
-                          map->length * (y - 0.5 * scale * b[1]), map->length * scale * b[0],
-                          map->length * scale * b[1]);
+    fst_figure_block(figure, "arrows", "X Y dX dY: the part in the plane");
+    for (int row = ARROW_STEP / 2; row < FST_MAP_ROWS; row += ARROW_STEP)
+        for (int column = ARROW_STEP / 2; column < FST_MAP_COLUMNS; column += ARROW_STEP) {
+            const double x = fst_field_map_x(map, column), y = fst_field_map_y(map, row);
+            fst_field_map_arrow(map, x, y, v);
+            const double plane = hypot(v[0], v[1]);
+            const double scale = plane > 0.0 ? longest_arrow(map) * sqrt(plane / f->strongest) / plane : 0.0;
+            (void)fprintf(figure->data, "%.5g %.5g %.4g %.4g\n", map->length * (x - 0.5 * scale * v[0]),
+                          map->length * (y - 0.5 * scale * v[1]), map->length * scale * v[0],
+                          map->length * scale * v[1]);
         }
 }
 
-static void write_marks(fst_figure_file *figure, const field_map *map)
+static void write_marks(fst_figure_file *figure, field_figure *f)
 {
+    const fst_field_map *map = &f->map;
     if (map->bar)
         fst_figure_block(figure, "lines", "X Y: the magnet's lines");
     for (int line = 0; map->bar && line < map->groups.lines; ++line) {
@@ -154,7 +101,9 @@ static void write_marks(fst_figure_file *figure, const field_map *map)
         (void)fprintf(figure->data, "%.6g %.6g\n%.6g %.6g\n\n", -map->length, map->length * y, map->length,
                       map->length * y);
     }
-    fst_figure_block(figure, "maxima", "X Y: maxima of |B|");
+    f->poles = fst_figure_write_poles(figure, f->bodies, f->body_count, 0.0);
+    if (map->maximum_count)
+        fst_figure_block(figure, "maxima", "X Y: maxima of |B|");
     for (int m = 0; m < map->maximum_count; ++m)
         (void)fprintf(figure->data, "%.8g %.8g\n", map->length * map->maxima[m][0],
                       map->length * map->maxima[m][1]);
@@ -164,20 +113,24 @@ static void write_marks(fst_figure_file *figure, const field_map *map)
 
 /* Label lines of equal field where they pass the column of the map beside a maximum, on which the field falls:
  * between two columns of arrows, and no closer to the label before than letters are high. */
-static void write_levels(fst_figure_file *figure, const field_map *map, double greatest)
+static void write_levels(fst_figure_file *figure, const fst_field_map *map)
 {
     enum { STEPS = 2000 };
     const double peak = map->maximum_count ? fabs(map->maxima[0][0]) : 0.0;
-    const double place = (peak / map->half_width + 1.0) / 2.0 * (COLUMNS - 1) / ARROW_STEP;
-    const double x = column_x(map, ARROW_STEP * (int)(place + 0.5));
-    const double step = fst_round_step(greatest / LEVELS);
+    const double place = (peak / map->half_width + 1.0) / 2.0 * (FST_MAP_COLUMNS - 1) / ARROW_STEP;
+    const double x = fst_field_map_x(map, ARROW_STEP * (int)(place + 0.5));
+    const double from = map->quantity == FST_FIELD_STRENGTH ? 0.0 : map->least;
+    const double step = fst_round_step((map->greatest - from) / LEVELS);
     const double pixel = 2.0 * map->half_width / (FST_FIGURE_WIDTH - LEFT - RIGHT);
-    double before = map->field * strength(map->model, x, 0.0), labelled = -INFINITY;
-    (void)fprintf(figure->script, "set cntrparam levels incremental %.9g,%.9g,%.9g\n", step, step, greatest);
+    double before = fst_field_map_value(map, x, 0.0), labelled = -INFINITY;
+    (void)fprintf(figure->script, "set cntrparam levels incremental %.9g,%.9g,%.9g\n",
+                  step * (floor(from / step) + 1.0), step, map->greatest);
     for (int i = 1; i <= STEPS; ++i) {
         const double y = 0.95 * map->half_height * i / STEPS;
-        const double here = map->field * strength(map->model, x, y), level = step * floor(before / step);
-        if (here < level && before >= level && level > 0.0 && y - labelled > LABEL_GAP * pixel) {
+        const double here = fst_field_map_value(map, x, y);
+        const double level = step * fmax(floor(before / step), floor(here / step));
+        const int passes = floor(before / step) != floor(here / step) && isfinite(before) && isfinite(here);
+        if (passes && (level > 0.0 || from < 0.0) && y - labelled > LABEL_GAP * pixel) {
             (void)fprintf(
                 figure->script,
                 "set label '%.4g' at %.6g,%.6g center front boxed font ',11' textcolor rgb '#0b2a4a'\n", level,
@@ -190,7 +143,7 @@ static void write_levels(fst_figure_file *figure, const field_map *map, double g
 
 /* ------------------------------------------------------------------ script */
 
-static void write_distance(fst_figure_file *figure, const field_map *map)
+static void write_distance(fst_figure_file *figure, const fst_field_map *map)
 {
     if (map->maximum_count != 2)
         return;
@@ -204,120 +157,143 @@ static void write_distance(fst_figure_file *figure, const field_map *map)
         u * m[0][1], u * m[1][0], u * m[1][1]);
 }
 
-static void write_script(fst_figure_file *figure, const field_map *map, double greatest)
+static void write_axes(fst_figure_file *figure, const field_figure *f)
+{
+    const fst_field_map *map = &f->map;
+    const int scale = f->top + f->frame + AXIS;
+    const double frame[4] = {LEFT, FST_FIGURE_WIDTH - RIGHT, f->top, f->top + f->frame};
+    char label[96];
+    fst_figure_place(figure, f->height, frame);
+    (void)snprintf(label, sizeof label, "X (%s)%s", map->length_unit,
+                   map->bar ? ", along the magnet's lines" : "");
+    fst_figure_axis_label(figure, f->height, FST_SIDE_BELOW, label, FST_COLOUR_BLACK, frame);
+    (void)snprintf(label, sizeof label, "Y (%s)", map->length_unit);
+    fst_figure_axis_label(figure, f->height, FST_SIDE_LEFT, label, FST_COLOUR_BLACK, frame);
+    (void)snprintf(label, sizeof label, "%s (%s)", words[map->quantity].label, map->unit);
+    fst_figure_colour_scale(figure, f->height, label, (const double[4]){frame[0], frame[1], scale, scale + 12});
+    (void)fprintf(figure->script, "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nunset key\n",
+                  -map->length * map->half_width, map->length * map->half_width,
+                  -map->length * map->half_height, map->length * map->half_height);
+}
+
+/* A component has both signs, and grey is its zero; the load may be of any sign. */
+static void write_colours(fst_figure_file *figure, const fst_field_map *map)
+{
+    const int component = map->quantity >= FST_FIELD_X && map->quantity <= FST_FIELD_Z;
+    const double most = fmax(fabs(map->least), fabs(map->greatest));
+    if (component)
+        (void)fprintf(figure->script, "set cbrange [%.9g:%.9g]\n", -most, most);
+    else
+        (void)fputs(map->quantity == FST_FIELD_LOAD ? "set cbrange [*:*]\n" : "set cbrange [0:*]\n",
+                    figure->script);
+    fst_figure_palette(figure, component ? FST_PALETTE_DIVERGING : FST_PALETTE_MAP);
+}
+
+static void write_script(fst_figure_file *figure, const field_figure *f)
 {
     FILE *script = figure->script;
-    const int scale = map->top + map->frame + AXIS;
     fst_figure_panels(figure);
     (void)fputs("set style textbox opaque margins 0.4,0.3 fillcolor rgb 'white' noborder\n", script);
-    write_levels(figure, map, greatest);
+    write_levels(figure, &f->map);
     (void)fputs("set contour base\nunset surface\nset table $contours\n"
                 "splot data index 'map' using 1:2:3\n"
                 "unset table\nunset contour\nset surface\n",
                 script);
-    const double frame[4] = {LEFT, FST_FIGURE_WIDTH - RIGHT, map->top, map->top + map->frame};
-    char label[96];
-    fst_figure_place(figure, map->height, frame);
-    (void)snprintf(label, sizeof label, "X (%s)%s", map->length_unit,
-                   map->bar ? ", along the magnet's lines" : "");
-    fst_figure_axis_label(figure, map->height, FST_SIDE_BELOW, label, FST_COLOUR_BLACK, frame);
-    (void)snprintf(label, sizeof label, "Y (%s)", map->length_unit);
-    fst_figure_axis_label(figure, map->height, FST_SIDE_LEFT, label, FST_COLOUR_BLACK, frame);
-    (void)snprintf(label, sizeof label, "|B| (%s)", map->field_unit);
-    fst_figure_colour_scale(figure, map->height, label,
-                            (const double[4]){frame[0], frame[1], scale, scale + 12});
-    (void)fprintf(script, "set xrange [%.6g:%.6g]\nset yrange [%.6g:%.6g]\nset cbrange [0:*]\nunset key\n",
-                  -map->length * map->half_width, map->length * map->half_width,
-                  -map->length * map->half_height, map->length * map->half_height);
-    fst_figure_palette(figure, FST_PALETTE_MAP);
-    write_distance(figure, map);
+    write_axes(figure, f);
+    write_colours(figure, &f->map);
+    write_distance(figure, &f->map);
     (void)fputs("plot data index 'map' using 1:2:3 with image notitle, \\\n"
                 "     $contours using 1:2 with lines lc rgb '#6f8fae' lw 0.8 notitle, \\\n",
                 script);
-    if (map->bar)
+    if (f->map.bar)
         (void)fputs("     data index 'lines' using 1:2 with lines lc rgb '#50d55e00' lw 3 notitle, \\\n",
                     script);
+    fst_figure_plot_poles(script, f->poles);
     (void)fputs("     data index 'arrows' using 1:2:3:4 with vectors head filled size screen 0.011,20 lc rgb "
-                "'#333333' lw 1 notitle, \\\n"
-                "     data index 'maxima' using 1:2 with points pt 2 ps 1.2 lw 3 lc rgb '#000000' notitle\n",
+                "'#333333' lw 1 notitle",
                 script);
+    if (f->map.maximum_count)
+        (void)fputs(
+            ", \\\n     data index 'maxima' using 1:2 with points pt 2 ps 1.2 lw 3 lc rgb '#000000' notitle",
+            script);
+    (void)fputc('\n', script);
 }
 
-static fst_legend make_legend(const field_map *map)
+static fst_legend make_legend(const field_figure *f)
 {
-    fst_legend legend = {.title = "The magnet's field at the height of the bead's centre"};
-    char words[128], unit[32];
+    const fst_field_map *map = &f->map;
+    fst_legend legend = {.count = 0};
+    char text[128], unit[32];
+    if (map->other_height)
+        (void)snprintf(legend.title, sizeof legend.title, "%s at the height %.4g mm",
+                       words[map->quantity].title, 1e3 * map->groups.h * map->groups.length_unit);
+    else
+        (void)snprintf(legend.title, sizeof legend.title, "%s%s", words[map->quantity].title,
+                       fst_field_map_of_bead(map) ? "" : " at the height of the bead's centre");
     fst_unit_symbols("l", unit, sizeof unit);
-    (void)snprintf(legend.about, sizeof legend.about, "%s: %s = %.4g mm",
+    (void)snprintf(legend.about, sizeof legend.about, "%s: %s = %.4g mm%s",
                    map->bar ? "half length of the magnet's lines" : "unit of length", unit,
-                   1e3 * map->groups.length_unit);
-    fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#6f8fae' lw 0.8", "lines of equal |B|");
+                   1e3 * map->groups.length_unit,
+                   fst_field_map_of_bead(map) ? "; the bead's moment along the field" : "");
+    (void)snprintf(text, sizeof text, "lines of equal %s", words[map->quantity].label);
+    fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#6f8fae' lw 0.8", text);
     if (map->maximum_count > 0)
         fst_legend_add(&legend, FST_SAMPLE_POINT, "pt 2 ps 1.2 lw 3 lc rgb '#000000'", "maxima of |B|");
     if (map->bar)
         fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#50d55e00' lw 3",
                        "the magnet's lines, below the plate");
-    const double shown = map->field * map->strongest;
-    (void)snprintf(words, sizeof words, "in-plane part of B: this length is %.2g %s, others as its square root",
-                   shown, map->field_unit);
-    fst_legend_add(&legend, FST_SAMPLE_ARROW, "lc rgb '#333333' lw 1", words);
+    fst_legend_add_poles(&legend, f->bodies, f->body_count, "below the plate");
+    const double longest = map->value * f->strongest;
+    (void)snprintf(text, sizeof text, "%s: this length is %.*g %s, others as its square root",
+                   fst_field_map_of_bead(map) ? "horizontal force" : "in-plane part of B",
+                   longest < 100.0 ? 2 : 3, longest, map->unit);
+    fst_legend_add(&legend, FST_SAMPLE_ARROW, "lc rgb '#333333' lw 1", text);
     legend.entries[legend.count - 1].length =
         longest_arrow(map) / (2.0 * map->half_width) * (FST_FIGURE_WIDTH - LEFT - RIGHT);
     return legend;
 }
 
-static void choose_units(field_map *map, const fst_params *params, fst_shown_units units)
-{
-    const fst_scales scales = fst_scales_of(params);
-    map->length = fst_unit_shown("l", units, &scales, &map->length_unit);
-    map->field = fst_unit_shown("B0", units, &scales, &map->field_unit);
-    if (strcmp(map->length_unit, "l") == 0)
-        map->length_unit = "ℓ";
-    if (strcmp(map->field_unit, "B0") == 0)
-        map->field_unit = "B_0";
-}
-
-static fst_status draw(field_map *map, const char *out, fst_error *error)
+static fst_status draw(field_figure *f, const char *out, fst_error *error)
 {
     fst_figure_file figure;
-    double greatest = 0.0;
-    find_maxima(map);
-    for (int row = 0; row < ROWS; ++row)
-        for (int column = 0; column < COLUMNS; ++column)
-            greatest =
-                fmax(greatest, map->field * strength(map->model, column_x(map, column), row_y(map, row)));
-    map->strongest = 1.0;
-    fst_legend legend = make_legend(map);
-    map->top = fst_legend_head(&legend) + 6;
-    map->frame = (int)((FST_FIGURE_WIDTH - LEFT - RIGHT) * map->half_height / map->half_width);
-    map->height = map->top + map->frame + AXIS + SCALE + fst_legend_foot(&legend);
-    const fst_status status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, map->height, error);
+    f->strongest = 1.0;
+    fst_legend legend = make_legend(f);
+    f->top = fst_legend_head(&legend) + 6;
+    f->frame = (int)((FST_FIGURE_WIDTH - LEFT - RIGHT) * f->map.half_height / f->map.half_width);
+    f->height = f->top + f->frame + AXIS + SCALE + fst_legend_foot(&legend);
+    const fst_status status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, f->height, error);
     if (status != FST_OK)
         return status;
-    write_map(&figure, map);
-    write_arrows(&figure, map);
-    write_marks(&figure, map);
-    write_script(&figure, map, greatest);
-    legend = make_legend(map); /* the strongest arrow is known now */
-    fst_legend_write(&figure, &legend, map->height);
+    write_map(&figure, &f->map);
+    write_arrows(&figure, f);
+    write_marks(&figure, f);
+    write_script(&figure, f);
+    legend = make_legend(f); /* the strongest arrow is known now */
+    fst_legend_write(&figure, &legend, f->height);
     return fst_figure_finish(&figure, error);
+}
+
+fst_status fst_figure_field_map(const fst_params *params, const fst_field_options *options, const char *out,
+                                fst_error *error)
+{
+    field_figure *f = calloc(1, sizeof *f);
+    if (!f)
+        return fst_fail(error, FST_NO_MEMORY, out, "out of memory");
+    fst_status status = fst_field_map_make(&f->map, params, options, error);
+    if (status == FST_OK) {
+        fst_field_map_survey(&f->map);
+        if (!f->map.bar)
+            f->body_count =
+                fst_magnet_bodies(params, f->map.length / params->magnet_half_length, 1.0, f->bodies);
+        status = draw(f, out, error);
+    }
+    fst_field_map_free(&f->map);
+    free(f);
+    return status;
 }
 
 fst_status fst_figure_field(const fst_params *params, fst_shown_units units, const char *out, fst_error *error)
 {
-    fst_model *model = NULL;
-    fst_status status = fst_model_new(params, &model, error);
-    if (status != FST_OK)
-        return status;
-    field_map map = {
-        .model = model, .groups = fst_model_groups(model), .bar = params->magnet_shape == FST_MAGNET_LINES};
-    choose_units(&map, params, units);
-    /* The map shows the poles and the corners of the bar of lines, with room about them, whatever its shape; of
-     * another source it shows a square of that width. */
-    double half_lines = 0.5 * (map.groups.lines - 1) * map.groups.lambda;
-    map.half_width = 1.0 + 0.9 * map.groups.h + 0.3;
-    map.half_height = map.bar ? half_lines + 0.9 * map.groups.h : map.half_width;
-    status = draw(&map, out, error);
-    fst_model_free(model);
-    return status;
+    const fst_field_options options = {FST_FIELD_STRENGTH, NAN, units};
+    return fst_figure_field_map(params, &options, out, error);
 }

@@ -2,6 +2,7 @@
 #include "draw/figure_trajectory.h"
 
 #include "base/error.h"
+#include "draw/poles.h"
 #include "draw/style.h"
 #include "draw/view.h"
 
@@ -64,7 +65,7 @@ static fst_status check_zoom(const fst_view *view, const path_columns *columns, 
 }
 
 /* The square of the plate that is shown, in the figure's unit: the zoom, or everything about the axis. */
-static fst_status choose_box(const fst_view *view, const path_columns *columns,
+static fst_status choose_box(const fst_view *view, const path_columns *columns, double magnet_reach,
                              const fst_figure_options *options, double box[4], fst_error *error)
 {
     const double *zoom = options->zoom;
@@ -81,32 +82,47 @@ static fst_status choose_box(const fst_view *view, const path_columns *columns,
     reach = fmax(reach, fmax(-least, greatest));
     fst_view_range(view, columns->y, &least, &greatest);
     reach = fmax(reach, fmax(-least, greatest));
-    /* Leave room for the magnet's outline too. */
-    reach = fmax(1.12 * reach, 1.12) * view->length;
+    /* Leave room for the magnet's outline too.  Beside a magnet in tesla l means nothing. */
+    const int real = fst_magnet_in_tesla(&view->table->params) && magnet_reach > 0.0;
+    reach = fmax(1.12 * reach, real ? 0.0 : 1.12) * view->length;
+    reach = fmax(reach, 1.05 * magnet_reach);
     box[0] = box[2] = -reach;
     box[1] = box[3] = reach;
     return FST_OK;
 }
 
-/* Of a magnet that is another source than the bar of lines the figure does not know the outline. */
-static int has_outline(const fst_view *view)
+/* The magnet where it is when the path begins: of lines of dipoles their faint outline, else the poles. */
+typedef struct path_magnet {
+    fst_magnet_body bodies[FST_PARTS_MAX];
+    int count, bar, poles;
+    double reach; /* how far from the axis it reaches, in the figure's unit */
+} path_magnet;
+
+static void find_magnet(const fst_view *view, path_magnet *magnet)
 {
-    return view->table->params.magnet_shape == FST_MAGNET_LINES;
+    const fst_params *p = &view->table->params;
+    magnet->count = fst_magnet_bodies(p, view->length / p->magnet_half_length, 1.0, magnet->bodies);
+    magnet->bar = p->magnet_shape == FST_MAGNET_LINES;
+    for (int i = 0; i < magnet->count && !magnet->bar; ++i)
+        for (int k = 0; k < magnet->bodies[i].seen.count; ++k)
+            magnet->reach = fmax(magnet->reach, hypot(magnet->bodies[i].seen.corners[k][0],
+                                                      magnet->bodies[i].seen.corners[k][1]));
 }
 
-/* Draw the bar of lines where it is when the path begins: a faint rectangle. */
-static void draw_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns)
+static void write_magnet(fst_figure_file *figure, const fst_view *view, const path_columns *columns,
+                         path_magnet *magnet)
 {
-    double turned = columns->alpha[view->first] - columns->bead_angle[view->first];
-    double length = view->length, width = view->length * view->table->params.magnet_width /
-                                          view->table->params.magnet_half_length / 2.0;
-    double cosine = cos(turned), sine = sin(turned);
-    static const double corners[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    fst_figure_block(figure, "magnet", "x y: the outline of the magnet's lines when the path begins");
-    for (int i = 0; i <= 4; ++i) {
-        double along = corners[i % 4][0] * length, across = corners[i % 4][1] * width;
-        (void)fprintf(figure->data, "%.6g %.6g\n", along * cosine - across * sine,
-                      along * sine + across * cosine);
+    const double turned = columns->alpha[view->first] - columns->bead_angle[view->first];
+    const double cosine = cos(turned), sine = sin(turned);
+    const fst_part_shape *seen = &magnet->bodies[0].seen;
+    if (!magnet->bar)
+        magnet->poles = fst_figure_write_poles(figure, magnet->bodies, magnet->count, turned);
+    else
+        fst_figure_block(figure, "magnet", "x y: the outline of the magnet's lines when the path begins");
+    for (int i = 0; magnet->bar && i <= seen->count; ++i) {
+        const double *corner = seen->corners[i % seen->count];
+        (void)fprintf(figure->data, "%.6g %.6g\n", corner[0] * cosine - corner[1] * sine,
+                      corner[0] * sine + corner[1] * cosine);
     }
 }
 
@@ -252,10 +268,12 @@ static void write_arrows(fst_figure_file *figure, const fst_view *view, const pa
 /* ------------------------------------------------------------------ the figure */
 
 static fst_legend make_legend(const fst_view *view, const fst_figure_options *options,
-                              const path_columns *columns, const double box[4])
+                              const path_columns *columns, const double box[4], const path_magnet *magnet)
 {
     fst_legend legend = fst_view_legend(view, "Path of the bead over the plate, from above");
-    if (has_outline(view))
+    if (!magnet->bar)
+        fst_legend_add_poles(&legend, magnet->bodies, magnet->count, "when the path begins");
+    else
         fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#b4b4b4' lw 1",
                        "outline of the magnet's lines at the beginning; it turns anticlockwise");
     if (is_within(box, view->length * columns->x[view->first], view->length * columns->y[view->first]))
@@ -269,10 +287,11 @@ static fst_legend make_legend(const fst_view *view, const fst_figure_options *op
     return legend;
 }
 
-static void write_plots(fst_figure_file *figure, const fst_view *view, const fst_figure_options *options)
+static void write_plots(fst_figure_file *figure, const path_magnet *magnet, const fst_figure_options *options)
 {
     fputs("plot \\\n", figure->script);
-    if (has_outline(view))
+    fst_figure_plot_poles(figure->script, magnet->poles);
+    if (magnet->bar)
         fputs("     data index 'magnet' using 1:2 with filledcurves closed fc rgb '#f4f4f4' notitle, \\\n"
               "     data index 'magnet' using 1:2 with lines lc rgb '#b4b4b4' lw 1 notitle, \\\n",
               figure->script);
@@ -297,25 +316,27 @@ fst_status fst_figure_path(const fst_table *table, const char *out, const fst_fi
     fst_status status = fst_view_of(&view, table, &asked, 2.0, 30.0, error);
     if (status == FST_OK)
         status = find_columns(&view, options->colour, &columns, error);
+    path_magnet magnet = {.count = 0};
     if (status == FST_OK)
-        status = choose_box(&view, &columns, options, box, error);
+        find_magnet(&view, &magnet);
+    if (status == FST_OK)
+        status = choose_box(&view, &columns, magnet.reach, options, box, error);
     if (status != FST_OK)
         return status;
-    const fst_legend legend = make_legend(&view, options, &columns, box);
+    const fst_legend legend = make_legend(&view, options, &columns, box, &magnet);
     const path_layout l = lay_out(&legend, options->inset);
     fst_figure_file figure;
     status = fst_figure_begin(&figure, out, FST_FIGURE_WIDTH, l.height, error);
     if (status != FST_OK)
         return status;
-    if (has_outline(&view))
-        draw_magnet(&figure, &view, &columns);
+    write_magnet(&figure, &view, &columns, &magnet);
     write_path(&figure, &view, &columns);
     fst_figure_panels(&figure);
     write_frame(&figure, &view, &l, box);
     write_colour(&figure, &view, &columns, &l);
     if (options->arrows)
         write_arrows(&figure, &view, &columns, box);
-    write_plots(&figure, &view, options);
+    write_plots(&figure, &magnet, options);
     if (options->inset)
         write_inset(&figure, &view, &columns, &l);
     fst_legend_write(&figure, &legend, l.height);

@@ -4,7 +4,6 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "draw/chart.h"
-#include "draw/smooth.h"
 #include "draw/view.h"
 
 #include <stdlib.h>

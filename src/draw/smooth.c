@@ -4,7 +4,7 @@
  * to follow; straight pieces between them look like corners of the physics.  The slope at a point is that of
  * the parabola through it and its neighbours, over the length of the chords, so that the curve follows folds
  * too. */
-#include "draw/smooth.h"
+#include <festoon/festoon_tools.h>
 
 #include <math.h>
 

@@ -147,7 +147,7 @@ fst_quantity fst_view_quantity(const fst_view *view, const fst_column_info *colu
 static void choose_units(fst_view *view, fst_shown_units units)
 {
     const fst_params *p = &view->table->params;
-    const fst_scales scales = {p->magnet_half_length, 1.0 / p->friction_gamma, p->bead_mass, NAN};
+    const fst_scales scales = {p->magnet_half_length, 1.0 / p->friction_gamma, fst_bead_mass(p), NAN};
     if (units == FST_SHOWN_AS_GIVEN)
         units = isfinite(p->drive_omega) ? FST_SHOWN_SCALED : FST_SHOWN_LAB;
     view->units = units;

@@ -53,21 +53,31 @@ static void write_at(cairo_t *pen, double x, double y, double size, const char *
 /* ------------------------------------------------------------------ from above; the pen works in
  * mm, y upwards */
 
+static void trace(cairo_t *pen, const double corners[][2], int count)
+{
+    cairo_new_path(pen);
+    for (int i = 0; i < count; ++i)
+        cairo_line_to(pen, corners[i][0], corners[i][1]);
+    cairo_close_path(pen);
+}
+
 static void paint_magnet(cairo_t *pen, const fst_film_layout *layout, double angle)
 {
-    double half = 0.5 * layout->magnet[0], across = 0.5 * layout->magnet[1];
     cairo_save(pen);
     cairo_rotate(pen, angle);
-    cairo_rectangle(pen, 0.0, -across, half, 2.0 * across);
-    cairo_set_source_rgba(pen, north[0], north[1], north[2], 0.22);
-    cairo_fill(pen);
-    cairo_rectangle(pen, -half, -across, half, 2.0 * across);
-    cairo_set_source_rgba(pen, south[0], south[1], south[2], 0.22);
-    cairo_fill(pen);
-    cairo_rectangle(pen, -half, -across, 2.0 * half, 2.0 * across);
-    cairo_set_source_rgb(pen, 0.6, 0.6, 0.6);
-    cairo_set_line_width(pen, 0.25);
-    cairo_stroke(pen);
+    for (int i = 0; i < layout->body_count; ++i) {
+        const fst_magnet_body *body = &layout->bodies[i];
+        for (int pole = 0; pole < 2; ++pole) {
+            const double *colour = pole == 0 ? north : south;
+            trace(pen, body->poles[pole], body->pole_count[pole]);
+            cairo_set_source_rgba(pen, colour[0], colour[1], colour[2], 0.22);
+            cairo_fill(pen);
+        }
+        trace(pen, body->seen.corners, body->seen.count);
+        cairo_set_source_rgb(pen, 0.6, 0.6, 0.6);
+        cairo_set_line_width(pen, 0.25);
+        cairo_stroke(pen);
+    }
     cairo_restore(pen);
 }
 
@@ -184,7 +194,7 @@ static void paint_plate(cairo_t *pen, const fst_film_layout *layout, const fst_f
     cairo_save(pen);
     cairo_translate(pen, 0.5 * layout->width, 0.5 * layout->height);
     cairo_scale(pen, scale, -scale);
-    if (layout->bar) {
+    if (layout->body_count) {
         paint_magnet(pen, layout, frame->magnet_angle);
         cairo_set_source_rgb(pen, 0.35, 0.35, 0.35);
         cairo_set_line_width(pen, layout->reach / 110.0);
@@ -202,17 +212,27 @@ static void paint_plate(cairo_t *pen, const fst_film_layout *layout, const fst_f
 
 /* ------------------------------------------------------------------ around it, in pixels */
 
-/* The magnet's slab from the front, its poles the paler the more they point away. */
-static void paint_slab(cairo_t *pen, const fst_film_layout *layout, double angle)
+/* A body of the magnet from the front, its poles the paler the more they point away. */
+static void paint_slab(cairo_t *pen, const fst_part_shape *body, double depth, double angle)
 {
-    double c = cos(angle), s = sin(angle);
-    double half = 0.5 * (layout->magnet[0] * fabs(c) + layout->magnet[1] * fabs(s));
-    double bottom = -layout->depth - 0.5 * layout->magnet[2];
-    cairo_pattern_t *poles = cairo_pattern_create_linear(-half, 0.0, half, 0.0);
-    const double *right = c > 0.0 ? north : south, *other = c > 0.0 ? south : north;
-    cairo_pattern_add_color_stop_rgba(poles, 0.0, other[0], other[1], other[2], 0.15 + 0.4 * fabs(c));
-    cairo_pattern_add_color_stop_rgba(poles, 1.0, right[0], right[1], right[2], 0.15 + 0.4 * fabs(c));
-    cairo_rectangle(pen, -half, bottom, 2.0 * half, layout->magnet[2]);
+    const double c = cos(angle), s = sin(angle), *j = body->magnetisation;
+    const double size = hypot(hypot(j[0], j[1]), j[2]);
+    const double aside = size > 0.0 ? (j[0] * c - j[1] * s) / size : 0.0, up = size > 0.0 ? j[2] / size : 0.0;
+    const int upright = fabs(up) > fabs(aside);
+    const double towards = upright ? up : aside; /* right, or upwards */
+    double left = INFINITY, right = -INFINITY;
+    for (int k = 0; k < body->count; ++k) {
+        const double x = body->corners[k][0] * c - body->corners[k][1] * s;
+        left = fmin(left, x);
+        right = fmax(right, x);
+    }
+    const double low = body->low - depth, high = body->high - depth;
+    cairo_pattern_t *poles = upright ? cairo_pattern_create_linear(0.0, low, 0.0, high)
+                                     : cairo_pattern_create_linear(left, 0.0, right, 0.0);
+    const double *end = towards > 0.0 ? north : south, *begin = towards > 0.0 ? south : north;
+    cairo_pattern_add_color_stop_rgba(poles, 0.0, begin[0], begin[1], begin[2], 0.15 + 0.4 * fabs(towards));
+    cairo_pattern_add_color_stop_rgba(poles, 1.0, end[0], end[1], end[2], 0.15 + 0.4 * fabs(towards));
+    cairo_rectangle(pen, left, low, right - left, high - low);
     cairo_set_source(pen, poles);
     cairo_fill(pen);
     cairo_pattern_destroy(poles);
@@ -222,7 +242,9 @@ static void paint_slab(cairo_t *pen, const fst_film_layout *layout, double angle
 static void paint_side(cairo_t *pen, const fst_film_layout *layout, const fst_film_frame *frame)
 {
     double width = 0.30 * layout->width, scale = width / (2.0 * layout->reach);
-    double left = 12.0, down = layout->depth + 0.8 * layout->magnet[2], up = 2.6 * layout->radius;
+    double left = 12.0, up = 2.6 * layout->radius;
+    double down = layout->depth - layout->low + 0.3 * (layout->high - layout->low);
+    down = fmin(down, 0.3 * layout->height / scale - up); /* of a deep magnet the upper part */
     double height = scale * (up + down), top = layout->height - height - 12.0;
     cairo_rectangle(pen, left, top, width, height);
     cairo_set_source_rgba(pen, 1.0, 1.0, 1.0, 0.9);
@@ -235,8 +257,8 @@ static void paint_side(cairo_t *pen, const fst_film_layout *layout, const fst_fi
     cairo_clip(pen);
     cairo_translate(pen, left + 0.5 * width, top + scale * up);
     cairo_scale(pen, scale, -scale);
-    if (layout->bar)
-        paint_slab(pen, layout, frame->magnet_angle);
+    for (int i = 0; i < layout->body_count; ++i)
+        paint_slab(pen, &layout->bodies[i].seen, layout->depth, frame->magnet_angle);
     cairo_move_to(pen, -layout->reach, 0.0);
     cairo_line_to(pen, layout->reach, 0.0);
     cairo_set_source_rgb(pen, 0.3, 0.3, 0.3);
@@ -278,7 +300,7 @@ static void paint_key(cairo_t *pen, const fst_film_layout *layout)
 {
     const double size = 0.024 * layout->height, x = 0.34 * layout->width, dot = 0.38 * size;
     const char *const words[2] = {"north pole", "south pole"};
-    double y = layout->height - 14.0 - (layout->bar ? 1.5 * size : 0.0), at = x;
+    double y = layout->height - 14.0 - (layout->body_count ? 1.5 * size : 0.0), at = x;
     for (int i = 0; i < 2; ++i) {
         const double *colour = i == 0 ? north : south;
         cairo_text_extents_t extents;
@@ -290,7 +312,7 @@ static void paint_key(cairo_t *pen, const fst_film_layout *layout)
         cairo_text_extents(pen, words[i], &extents);
         at += 4.5 * dot + extents.x_advance;
     }
-    if (!layout->bar)
+    if (!layout->body_count)
         return;
     write_at(pen, x, y + 1.5 * size, size, "arrow: the magnet turns so");
 }

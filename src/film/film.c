@@ -104,6 +104,21 @@ static fst_status check(const fst_film_options *options, fst_error *error)
 
 /* ------------------------------------------------------------------ the layout */
 
+/* The magnet: what is shown of the plate holds all of it. */
+static void add_bodies(fst_film_layout *layout, const fst_params *p)
+{
+    layout->body_count = fst_magnet_bodies(p, 1e3, FST_BAR_OVER_LINES, layout->bodies);
+    layout->high = 0.5 * FST_BAR_THICKNESS;
+    layout->low = -layout->high;
+    for (int i = 0; i < layout->body_count; ++i) {
+        const fst_part_shape *seen = &layout->bodies[i].seen;
+        layout->high = i ? fmax(layout->high, seen->high) : seen->high;
+        layout->low = i ? fmin(layout->low, seen->low) : seen->low;
+        for (int k = 0; k < seen->count; ++k)
+            layout->reach = fmax(layout->reach, 1.05 * hypot(seen->corners[k][0], seen->corners[k][1]));
+    }
+}
+
 static void set_layout(film *f, const fst_table *table)
 {
     const fst_params *p = &table->params;
@@ -120,14 +135,10 @@ static void set_layout(film *f, const fst_table *table)
         units = isfinite(p->drive_omega) ? FST_SHOWN_SCALED : FST_SHOWN_LAB;
     const fst_quantity colour = fst_quantity_of_column(m->colour_info, units, p);
     (void)snprintf(f->label, sizeof f->label, "%s", colour.label);
-    const int bar = p->magnet_shape == FST_MAGNET_LINES;
-    const double half = m->millimetres * FST_BAR_OVER_LINES, across = 0.5e3 * p->magnet_width;
     f->layout = (fst_film_layout){
         .width = f->options->width,
         .height = f->options->height,
-        .reach = fmax(fmax(1.25 * reach, 1.35) * m->millimetres, bar ? 1.05 * hypot(half, across) : 0.0),
-        .bar = bar,
-        .magnet = {2.0 * half, 2.0 * across, FST_BAR_THICKNESS},
+        .reach = fmax(1.25 * reach, 1.35) * m->millimetres,
         .depth = 1e3 * p->magnet_depth,
         .radius = 1e3 * p->bead_radius,
         .title = f->title,
@@ -137,6 +148,7 @@ static void set_layout(film *f, const fst_table *table)
         .colour_high = colour.factor * m->high,
         .both_signs = m->both_signs,
     };
+    add_bodies(&f->layout, p);
 }
 
 /* ------------------------------------------------------------------ frames */

@@ -7,17 +7,20 @@
 
 #include <stdio.h>
 
+#include "draw/poles.h"
+
 /* What is the same in all frames of a film.  Lengths are in mm. */
 typedef struct fst_film_layout {
-    int width, height;        /* pixels, both even */
-    double reach;             /* half the side of the square of plate that is shown */
-    int bar;                  /* whether the magnet is the bar of lines; another source is not painted */
-    double magnet[3];         /* length, width, thickness of the bar */
-    double depth;             /* of the magnet's middle plane below the plate */
-    double radius;            /* of the bead */
-    const char *title;        /* frequency and dynamics */
-    const char *slower;       /* "10.7 times slower" */
-    const char *colour_label; /* of the trail */
+    int width, height;                     /* pixels, both even */
+    double reach;                          /* half the side of the square of plate that is shown */
+    fst_magnet_body bodies[FST_PARTS_MAX]; /* of the magnet */
+    int body_count;                        /* 0: a source without a known shape is not painted */
+    double low, high;                      /* of the bodies, over the magnet's reference plane */
+    double depth;                          /* of the magnet's reference plane below the plate */
+    double radius;                         /* of the bead */
+    const char *title;                     /* frequency and dynamics */
+    const char *slower;                    /* "10.7 times slower" */
+    const char *colour_label;              /* of the trail */
     double colour_low, colour_high;
     int both_signs; /* use the palette for both signs */
 } fst_film_layout;

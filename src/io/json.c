@@ -231,6 +231,24 @@ static void add_field(json_t *document, const double b[3], double grad[3][3], do
     json_object_set_new(document, slope_key, rows);
 }
 
+/* The magnetic force on a bead whose moment lies along the field, and its load on the plate. */
+static void add_pull(json_t *document, const fst_model *model, double x, double y, fst_shown_units units)
+{
+    const fst_groups g = fst_model_groups(model);
+    const double newton = g.mass * g.length_unit / (g.time_unit * g.time_unit);
+    double force[3], load;
+    fst_field_pull(model, x, y, force, &load);
+    json_object_set_new(document, "height", fst_json_number(g.h));
+    json_object_set_new(document, "force", fst_json_numbers(force, 3));
+    json_object_set_new(document, "load", fst_json_number(load));
+    if (units != FST_SHOWN_SI && units != FST_SHOWN_LAB)
+        return;
+    for (int i = 0; i < 3; ++i)
+        force[i] *= newton;
+    json_object_set_new(document, "force_newtons", fst_json_numbers(force, 3));
+    json_object_set_new(document, "load_newtons", fst_json_number(newton * load));
+}
+
 char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units units)
 {
     double b[3], grad[3][3];
@@ -243,6 +261,7 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
     if (units == FST_SHOWN_SI || units == FST_SHOWN_LAB)
         add_field(document, b, grad, groups.field_unit, groups.field_unit / groups.length_unit, "b_tesla",
                   "grad_tesla_per_m");
+    add_pull(document, model, x, y, units);
     return fst_json_dump(document, JSON_INDENT(2));
 }
 

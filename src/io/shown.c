@@ -36,7 +36,7 @@ fst_scales fst_scales_of(const fst_params *params)
     fst_scales scales = {
         .length = params->magnet_half_length,
         .time = 1.0 / params->friction_gamma,
-        .mass = params->bead_mass,
+        .mass = fst_bead_mass(params),
         .field = NAN,
     };
     fst_model *model = NULL;

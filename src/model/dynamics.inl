@@ -96,11 +96,7 @@ static inline void FN(magnetic_pull)(const FN(coefficients) * c, const REAL *sta
     const REAL x = state[FST_X], y = state[FST_Y], *n = state + FST_NX;
     REAL gn[3];
 #ifdef FIELD_KEEPS_GRADIENT
-    FN(local_field) at;
-    FN(source_look)(&c->source, &c->kinds, x, y, &at);
-    for (int i = 0; i < 3; ++i)
-        p->b[i] = at.b[i];
-    p->gradient = at.gradient;
+    FN(source_field)(&c->source, &c->kinds, x, y, p->b, &p->gradient);
     FN(times_gradient)(&p->gradient, n, gn);
 #else
     FN(field_along)(c, x, y, n, p->b, gn);

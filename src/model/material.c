@@ -58,6 +58,13 @@ const char *fst_param_missing_choice(const fst_params *params, const char *key, 
         *of = "friction.law";
         return "coulomb";
     }
+    const int of_lines = strcmp(key, "magnet.lines") == 0 || strcmp(key, "magnet.width") == 0 ||
+                         strcmp(key, "model.lambda") == 0;
+    *of = "magnet.shape";
+    if (strncmp(key, "magnet.parts", strlen("magnet.parts")) == 0 && params->magnet_shape != FST_MAGNET_PARTS)
+        return "parts";
+    if (of_lines && params->magnet_shape == FST_MAGNET_PARTS)
+        return "lines";
     if (of_disc && params->contact_patch == FST_PATCH_POINT) {
         *of = "contact.patch";
         return "hertz or pade";
@@ -119,5 +126,10 @@ fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
                         "run.step = %g has no effect on run.method events, whose steps follow run.rtol: choose "
                         "splitting, or leave run.step out",
                         params->run_step);
+    if (params->run_method == FST_METHOD_SPLITTING && params->run_until == FST_UNTIL_SETTLED)
+        return fst_fail(
+            error, FST_BAD_INPUT, "run.until",
+            "run.until settled has no effect with run.method splitting, which does not look whether a "
+            "motion repeats itself: choose events, or leave run.until out");
     return FST_OK;
 }

@@ -43,35 +43,52 @@ static void set_geometry(const fst_params *p, fst_groups *g)
         g->lambda = p->magnet_width / ((p->magnet_lines - 1) * l);
 }
 
+/* The distance from the axis, in l, over which the field of a magnet of parts varies at a height: as far as the
+ * magnet reaches, and no less than the height; l of any other magnet. */
+static double magnet_reach(const fst_params *p, double height)
+{
+    double reach = height * p->magnet_half_length;
+    if (p->magnet_shape != FST_MAGNET_PARTS)
+        return 1.0;
+    for (int i = 0; i < p->magnet_part_count; ++i) {
+        const fst_part_shape seen = fst_part_seen(&p->magnet_parts[i]);
+        reach = fmax(reach, hypot(p->magnet_parts[i].centre[0], p->magnet_parts[i].centre[1]));
+        for (int k = 0; k < seen.count; ++k)
+            reach = fmax(reach, hypot(seen.corners[k][0], seen.corners[k][1]));
+    }
+    return reach / p->magnet_half_length;
+}
+
 /* Whether the field has the symmetry S2, which is asked of the field itself, at places that no other symmetry
- * maps onto each other. */
-static int field_has_s2(const fst_coefficients_double *c)
+ * maps onto each other, from the middle of the magnet to its surroundings.  Where the whole field is weak
+ * beside that of other places, rounding decides: a difference counts against the strongest field that was seen.
+ */
+static int field_has_s2(const fst_coefficients_double *c, double scale)
 {
     static const double places[][2] = {{0.31, 0.17}, {0.83, -0.59}, {-0.44, 1.07}, {1.63, 0.26}};
-    for (size_t i = 0; i < sizeof places / sizeof *places; ++i) {
-        const double x = places[i][0], y = places[i][1], u[3] = {0.0};
+    enum { PLACES = sizeof places / sizeof *places };
+    double strongest = 0.0, most = 0.0;
+    for (int i = 0; i < PLACES; ++i) {
+        const double x = scale * places[i][0], y = scale * places[i][1], u[3] = {0.0};
         double here[3], there[3], unused[3];
         fst_field_along_double(c, x, y, u, here, unused);
         fst_field_along_double(c, -x, -y, u, there, unused);
-        const double size = fabs(here[0]) + fabs(here[1]) + fabs(here[2]);
+        strongest = fmax(strongest, fabs(here[0]) + fabs(here[1]) + fabs(here[2]));
         for (int k = 0; k < 3; ++k)
-            if (!(fabs(there[k] - (k == 2 ? -here[k] : here[k])) <= 1e-9 * size))
-                return 0;
+            most = fmax(most, fabs(there[k] - (k == 2 ? -here[k] : here[k])));
     }
-    return 1;
+    return most <= 1e-9 * strongest;
 }
 
-fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
+static fst_status make_model(const fst_params *params, double height, fst_model **model, fst_error *error)
 {
-    *model = NULL;
-    const fst_status status = fst_params_validate(params, error);
-    if (status != FST_OK)
-        return status;
     fst_groups g;
     memset(&g, 0, sizeof g);
     const double gamma = params->friction_gamma;
     set_geometry(params, &g);
     set_strength(params, &g);
+    if (!isnan(height))
+        g.h = height;
     g.omega = isnan(params->drive_omega) ? FST_TWO_PI * params->drive_frequency / gamma : params->drive_omega;
     g.gravity = params->plate_gravity / (g.length_unit * (gamma * gamma));
     g.plate_radius = params->plate_radius / g.length_unit;
@@ -81,7 +98,7 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
     g.dynamics = (fst_dynamics)params->model_dynamics;
     g.time_unit = 1.0 / gamma;
     g.mass = fst_bead_mass(params);
-    if (!isfinite(g.kappa) || !isfinite(g.omega) || g.h <= 0)
+    if (!isfinite(g.kappa) || !isfinite(g.omega) || !isfinite(g.h) || (isnan(height) && g.h <= 0))
         return fst_fail(error, FST_BAD_INPUT, "fst_model_new",
                         "the scaled groups are out of range: kappa = %g, omega = %g, h = %g", g.kappa, g.omega,
                         g.h);
@@ -91,9 +108,23 @@ fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error 
     made->params = *params;
     made->groups = g;
     made->coefficients = fst_make_coefficients_double(params, &g);
-    made->has_s2 = field_has_s2(&made->coefficients);
+    made->has_s2 = field_has_s2(&made->coefficients, magnet_reach(params, g.h));
     *model = made;
     return FST_OK;
+}
+
+fst_status fst_model_new(const fst_params *params, fst_model **model, fst_error *error)
+{
+    *model = NULL;
+    const fst_status status = fst_params_validate(params, error);
+    return status == FST_OK ? make_model(params, NAN, model, error) : status;
+}
+
+fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model, fst_error *error)
+{
+    *model = NULL;
+    const fst_status status = fst_params_validate(params, error);
+    return status == FST_OK ? make_model(params, height, model, error) : status;
 }
 
 void fst_model_free(fst_model *model)
@@ -112,6 +143,21 @@ void fst_field(const fst_model *model, double x, double y, double b[3], double g
     fst_field_double(&model->coefficients, x, y, b, &g);
     const double all[3][3] = {{g.xx, g.xy, g.xz}, {g.xy, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
     memcpy(grad, all, sizeof all);
+}
+
+void fst_field_pull(const fst_model *model, double x, double y, double force[3], double *load)
+{
+    const fst_groups *g = &model->groups;
+    double b[3], grad[3][3];
+    fst_field(model, x, y, b, grad);
+    const double norm = sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
+    /* U = -kappa eps^2 B - (a + b) B^2 with n along B, and dB/dx_j = B_i G_ij/B. */
+    const double pull = g->kappa * (g->eps * g->eps) + 2.0 * (g->a + g->b) * norm;
+    for (int j = 0; j < 3; ++j) {
+        const double slope = b[0] * grad[0][j] + b[1] * grad[1][j] + b[2] * grad[2][j];
+        force[j] = norm > 0.0 ? pull * slope / norm : 0.0;
+    }
+    *load = g->gravity - force[2];
 }
 
 void fst_slip(const fst_model *model, const double state[FST_STATE_SIZE], double slip[2])

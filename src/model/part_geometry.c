@@ -1,6 +1,7 @@
 /* part_geometry.c - where the parts of a magnet are: below the plate, and as an outline seen from above. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
@@ -27,6 +28,128 @@ static double reach(const fst_magnet_part *part, const double direction[3])
     default:
         return 0.0;
     }
+}
+
+/* From the part's own axes to the magnet's, from its centre. */
+static void outwards(const fst_magnet_part *part, double axes[3][3], const double own[3], double place[3])
+{
+    for (int i = 0; i < 3; ++i)
+        place[i] = part->centre[i] + axes[0][i] * own[0] + axes[1][i] * own[1] + axes[2][i] * own[2];
+}
+
+/* ------------------------------------------------------------------ seen from above */
+
+/* Points of which the convex hull, seen from above, is the part's outline. */
+static int rim_points(const fst_magnet_part *part, double axes[3][3], double points[FST_OUTLINE_MOST][2])
+{
+    const int round = part->kind == FST_PART_CYLINDER || part->kind == FST_PART_SPHERE;
+    const int rims = part->kind == FST_PART_SPHERE ? 1 : 2, around = round ? FST_OUTLINE_MOST / rims : 4;
+    for (int i = 0; i < rims * around; ++i) {
+        const double angle = FST_TWO_PI * (i % around) / around;
+        double own[3], place[3];
+        if (round) {
+            own[0] = 0.5 * part->size[0] * cos(angle);
+            own[1] = 0.5 * part->size[0] * sin(angle);
+            own[2] = (i < around ? 0.5 : -0.5) * part->size[1]; /* of a sphere 0 */
+        } else {
+            own[0] = (i & 1 ? 0.5 : -0.5) * part->size[0];
+            own[1] = (i & 2 ? 0.5 : -0.5) * part->size[1];
+            own[2] = (i & 4 ? 0.5 : -0.5) * part->size[2];
+        }
+        outwards(part, axes, own, place);
+        points[i][0] = place[0];
+        points[i][1] = place[1];
+    }
+    return rims * around;
+}
+
+static int compare_points(const void *a, const void *b)
+{
+    const double *p = a, *q = b;
+    if (p[0] != q[0])
+        return p[0] < q[0] ? -1 : 1;
+    return p[1] < q[1] ? -1 : p[1] > q[1];
+}
+
+static double turns_left(const double a[2], const double b[2], const double c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* The convex hull by Andrew's monotone chain: the lower side from left to right, then the upper one back. */
+static int convex_hull(double points[FST_OUTLINE_MOST][2], int count, double size,
+                       double hull[FST_OUTLINE_MOST][2])
+{
+    double chain[2 * FST_OUTLINE_MOST][2];
+    const double flat = 1e-12 * size * size; /* three points in a line, but for rounding */
+    int length = 0;
+    qsort(points, (size_t)count, sizeof points[0], compare_points);
+    for (int side = 0; side < 2; ++side) {
+        const int least = side ? length + 1 : 2;
+        for (int k = side; k < count; ++k) {
+            const double *next = points[side ? count - 1 - k : k];
+            while (length >= least && turns_left(chain[length - 2], chain[length - 1], next) <= flat)
+                --length;
+            memcpy(chain[length++], next, sizeof chain[0]);
+        }
+    }
+    --length; /* the first point again */
+    length = length < FST_OUTLINE_MOST ? length : FST_OUTLINE_MOST;
+    memcpy(hull, chain, (size_t)length * sizeof chain[0]);
+    return length;
+}
+
+fst_part_shape fst_part_seen(const fst_magnet_part *part)
+{
+    static const double up[3] = {0, 0, 1};
+    const double *strength = part->kind == FST_PART_DIPOLE ? part->moment : part->remanence;
+    double axes[3][3], points[FST_OUTLINE_MOST][2];
+    fst_part_shape shape;
+    memset(&shape, 0, sizeof shape);
+    static const double upright[4] = {0, 0, 0, 1};
+    fst_set_axes_double(part->rotation, axes);
+    for (int i = 0; i < 3; ++i)
+        shape.magnetisation[i] = axes[0][i] * strength[0] + axes[1][i] * strength[1] + axes[2][i] * strength[2];
+    shape.low = part->centre[2] - reach(part, up);
+    shape.high = part->centre[2] + reach(part, up);
+    if (part->kind == FST_PART_SPHERE)
+        fst_set_axes_double(upright, axes); /* however it is turned, it looks the same */
+    if (part->kind != FST_PART_DIPOLE) {
+        const double size = fmax(part->size[0], fmax(part->size[1], part->size[2]));
+        shape.count = convex_hull(points, rim_points(part, axes, points), size, shape.corners);
+    }
+    return shape;
+}
+
+/* ------------------------------------------------------------------ what lies where */
+
+/* Whether a place, from the part's centre along its own axes, is no further out than its surface. */
+static int holds(const fst_magnet_part *part, const double own[3])
+{
+    switch (part->kind) {
+    case FST_PART_CUBOID:
+        return fabs(own[0]) <= 0.5 * part->size[0] && fabs(own[1]) <= 0.5 * part->size[1] &&
+               fabs(own[2]) <= 0.5 * part->size[2];
+    case FST_PART_CYLINDER:
+        return hypot(own[0], own[1]) <= 0.5 * part->size[0] && fabs(own[2]) <= 0.5 * part->size[1];
+    default:
+        return hypot(hypot(own[0], own[1]), own[2]) <= 0.5 * part->size[0]; /* of a dipole 0 */
+    }
+}
+
+int fst_part_at(const fst_params *params, const double place[3])
+{
+    for (int i = 0; i < params->magnet_part_count; ++i) {
+        const fst_magnet_part *part = &params->magnet_parts[i];
+        double axes[3][3], own[3];
+        fst_set_axes_double(part->rotation, axes);
+        for (int a = 0; a < 3; ++a)
+            own[a] = axes[a][0] * (place[0] - part->centre[0]) + axes[a][1] * (place[1] - part->centre[1]) +
+                     axes[a][2] * (place[2] - part->centre[2]);
+        if (holds(part, own))
+            return i;
+    }
+    return -1;
 }
 
 /* The plate's height over the reference plane, m. */

@@ -124,4 +124,9 @@ void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integ
     }
     for (int i = 0; i < FST_Q_COUNT; ++i)
         integrals[i] = fst_twofold_add(q->sums.total[i], part[i]).high;
+    if (!q->lacks_part)
+        return;
+    for (int i = 0; i < FST_Q_COUNT; ++i)
+        integrals[i] += q->left_out[i];
+    *moment_angle += q->left_out_moment_angle;
 }

@@ -13,6 +13,9 @@ typedef struct fst_quadrature {
     double between[FST_DENSE_PLACES - FST_PATH_PLACES][FST_Q_COUNT];
     double dense[8][FST_Q_COUNT];
     int has_dense;
+    /* Of a part of the window that was not observed (left_out.h), where there is one. */
+    int lacks_part;
+    double left_out[FST_Q_COUNT], left_out_moment_angle;
     fst_winding moment_angle_start,
         moment_angle; /* phi = atan2(n_alpha, -n_z), unwrapped: at the step's ends */
 } fst_quadrature;

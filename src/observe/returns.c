@@ -79,7 +79,8 @@ void fst_returns_see_side(fst_returns *r, const fst_flow *flow)
 static int is_needed(const fst_returns *r, const fst_span *span, const fst_flow *flow)
 {
     const fst_mark_series *marks = &r->marks;
-    if (!span->asked_at_end || marks->offered % marks->stride == 0)
+    if (!span->asked_at_end || marks->offered % marks->stride == 0 ||
+        fst_left_out_needs_integrals(&r->left_out))
         return 1;
     const double turning = fst_twofold_difference(flow->t, marks->kept[0].t);
     return (span->until - flow->t.high) * (double)marks->offered <= 2.01 * turning;
@@ -87,7 +88,10 @@ static int is_needed(const fst_returns *r, const fst_span *span, const fst_flow 
 
 int fst_returns_need_integrals(const fst_returns *r, const fst_span *span, const fst_flow *flow)
 {
-    return r->crossings % 2 == 0 && is_needed(r, span, flow);
+    /* Before the returns that were left out are counted, it is not known which crossing completes one. */
+    const int completes =
+        r->crossings % 2 == 0 || (r->left_out.state == FST_LEFT_OUT_FIRST && !r->left_out.is_counted);
+    return completes && is_needed(r, span, flow);
 }
 
 /* Keep the state at a crossing on the half Y > 0, and how far it is from the two before. */
@@ -102,6 +106,22 @@ static void keep_section(fst_returns *r, fst_mark *mark, int half)
     mark->full_distance = r->since_break > 2 ? distance(image, r->section[1]) : NAN;
     memmove(r->section[1], r->section[0], sizeof r->section - sizeof r->section[0]);
     memcpy(r->section[0], image, sizeof image);
+}
+
+/* Go on counting at the first crossing after returns that were left out, where an odd number of crossings
+ * changes the halves. */
+static void pass_left_out(fst_returns *r)
+{
+    const int64_t crossings = fst_left_out_count(&r->left_out, &r->crossing);
+    r->crossings += crossings;
+    r->since_break += crossings;
+    if (crossings % 2 == 0)
+        return;
+    double section[FST_STATE_SIZE];
+    r->last_half = -r->last_half;
+    memcpy(section, r->section[0], sizeof section);
+    memcpy(r->section[0], r->section[1], sizeof section);
+    memcpy(r->section[1], section, sizeof section);
 }
 
 void fst_returns_step(fst_returns *r, const fst_span *span, fst_quadrature *q, fst_flow *flow)
@@ -126,9 +146,15 @@ void fst_returns_step(fst_returns *r, const fst_span *span, fst_quadrature *q, f
     fst_mark_take(&r->crossing, q, flow, x, whole);
     r->crossed = 1;
     const int half = sign_of(r->crossing.state[FST_Y]);
+    if (r->left_out.state == FST_LEFT_OUT_FIRST && !r->left_out.is_counted)
+        pass_left_out(r);
     judge_alternation(r, half, half > 0 ? -side : side);
     keep_section(r, &r->crossing, half);
-    if (r->crossings % 2 == 1)
+    if (r->crossings % 2 == 0)
+        return;
+    if (r->left_out.state == FST_LEFT_OUT_FIRST || r->left_out.state == FST_LEFT_OUT_SECOND)
+        fst_left_out_end(&r->left_out, &r->crossing, &r->marks, q);
+    else
         fst_marks_offer(&r->marks, &r->crossing);
 }
 

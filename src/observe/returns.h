@@ -2,6 +2,7 @@
 #ifndef FST_OBSERVE_RETURNS_H
 #define FST_OBSERVE_RETURNS_H
 
+#include "observe/left_out.h"
 #include "observe/marks.h"
 #include "observe/span.h"
 
@@ -17,6 +18,7 @@ typedef struct fst_returns {
     int crossed;                    /* the last step holds a crossing: `crossing` */
     fst_mark crossing;
     fst_mark_series marks; /* one mark a whole return */
+    fst_left_out left_out; /* returns that nobody looked at */
 } fst_returns;
 
 void fst_returns_begin(fst_returns *r);

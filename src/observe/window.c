@@ -85,6 +85,19 @@ void fst_window_mark_periods(fst_window *w, fst_flow *flow)
     }
 }
 
+void fst_window_pass_left_out(fst_window *w, const fst_flow *flow)
+{
+    fst_mark mark = w->periods.latest;
+    w->returns.left_out.state = FST_LEFT_OUT_FIRST;
+    w->returns.side = (flow->step.end[FST_X] > 0) - (flow->step.end[FST_X] < 0);
+    fst_quadrature_begin_moment_angle(&w->quadrature, flow->step.end);
+    w->activity = mark.activity;
+    while (fst_window_next_mark(w) <= flow->t.high) {
+        mark.t = (fst_twofold){fst_window_next_mark(w), 0.0};
+        fst_marks_offer(&w->periods, &mark);
+    }
+}
+
 int fst_window_period_needs_integrals(const fst_window *w, fst_flow *flow)
 {
     double x;

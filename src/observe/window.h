@@ -62,6 +62,10 @@ void fst_window_look(fst_window *w, fst_flow *flow, int seek_extremes);
  * that is looked at. */
 void fst_window_mark_periods(fst_window *w, fst_flow *flow);
 
+/* The window is looked at again after a part of it was not (left_out.h): the periods that ended before the
+ * flow's time have marks without integrals. */
+void fst_window_pass_left_out(fst_window *w, const fst_flow *flow);
+
 /* Whether a mark of a period that ends in the flow's last step needs integrals. */
 int fst_window_period_needs_integrals(const fst_window *w, fst_flow *flow);
 

@@ -126,7 +126,7 @@ static fst_status check_key(const char *field, const char *key, double from, dou
     if (status != FST_OK)
         return status;
     for (int end = 0; row >= 0 && fst_param_at(row)->kind == FST_KIND_REAL && end < 2; ++end) {
-        fst_params scratch = fst_default_params();
+        fst_params scratch = *params;
         fst_error why;
         char text[40];
         (void)fst_number_write(text, sizeof text, end ? to : from);

@@ -17,8 +17,8 @@
 
 static double limit_of(const fst_row_worker *w, const fst_lane_batch *b, int l)
 {
-    const fst_span *span = &b->lanes[l].run->window.span;
-    return b == &w->observed ? span->until : span->from;
+    const fst_window *window = &b->lanes[l].run->window;
+    return b == &w->observed || fst_window_is_open(window) ? window->span.until : window->span.from;
 }
 
 /* The step that a lane has tried, as the run's own flow has it. */

@@ -93,6 +93,9 @@ fst_status fst_worker_ask(fst_row_worker *w, fst_error *error)
     }
     for (int i = 0; i < w->ready_count; ++i)
         save(w, &w->ready[i], NULL, 0, FST_STATION_READY, time);
+    for (int i = 0; i < w->unwatched_count; ++i)
+        if (w->unwatched[i].image)
+            save(w, &w->unwatched[i], NULL, 0, FST_STATION_RUN_UP, time);
     for (int i = 0; i < w->parked_count; ++i)
         save(w, &w->parked[i], NULL, 0, FST_STATION_PARKED, time);
     return answer;

@@ -15,6 +15,7 @@
  * numbers.
  */
 #include "study/lane_worker.h"
+#include "study/settle.h"
 
 #include <math.h>
 
@@ -26,8 +27,9 @@ void fst_worker_locate(fst_row_worker *w)
     double values[FST_MOST_LANES];
     w->engine->locate(w->pending_steps, values);
     for (int i = 0; i < w->pending_count; ++i)
-        fst_extremes_offer(w->observed.lanes[w->pending[i].lane].run->window.extremes, w->pending[i].record,
-                           values[i]);
+        if (w->pending[i].lane >= 0)
+            fst_extremes_offer(w->observed.lanes[w->pending[i].lane].run->window.extremes, w->pending[i].record,
+                               values[i]);
     w->pending_count = 0;
 }
 
@@ -40,11 +42,11 @@ static void keep_records(fst_row_worker *w, int l, const fst_window *window)
 
 /* Whether the orbit repeats itself so closely that later returns, even hundreds, cannot change a record by more
  * than 1e-6, or than the integration's own errors at loose tolerances.  The fast form then stops looking for
- * extremes. */
+ * extremes, and soon at all (observe/left_out.h). */
 static int repeats(const fst_watched_run *run)
 {
-    const fst_mark_series *marks = &run->window.returns.marks;
-    return marks->offered >= 3 && marks->latest.full_distance < fmax(1e-9, 10.0 * run->params->run_rtol);
+    const fst_returns *returns = &run->window.returns;
+    return returns->marks.offered >= 3 && returns->marks.latest.full_distance < returns->left_out.limit;
 }
 
 /* The fast form: set the steps aside in which a record may be beaten. */
@@ -151,6 +153,35 @@ static void follow_window(fst_row_worker *w, int l)
     fst_worker_keep_angle_range(w, l);
 }
 
+/* The run of a lane begins another window: extremes of the one before are no longer wanted. */
+static void forget_window(fst_row_worker *w, int l)
+{
+    w->settled |= fst_lane_bit(l);
+    w->tracked &= ~fst_lane_bit(l);
+    for (int i = 0; i < w->pending_count; ++i)
+        if (w->pending[i].lane == l)
+            w->pending[i].lane = -1;
+}
+
+/* After a return: may the run go on unobserved, or did it do so wrongly? */
+static void look_at_returns(fst_row_worker *w, int l)
+{
+    fst_watched_run *run = w->observed.lanes[l].run;
+    fst_window *window = &run->window;
+    fst_returns *returns = &window->returns;
+    if (run->settling.asked) {
+        if (fst_settling_look(run))
+            forget_window(w, l);
+        return;
+    }
+    if (!w->engine->fused || !returns->crossed || returns->crossings % 2 == 0)
+        return;
+    if (fst_left_out_begin(&returns->left_out, &returns->marks, &window->span))
+        w->leaving |= fst_lane_bit(l);
+    if (returns->left_out.state == FST_LEFT_OUT_FAILED)
+        w->failed |= fst_lane_bit(l);
+}
+
 /* Look closely at a lane's accepted step; 1 if its run is over. */
 static int watch(fst_row_worker *w, int l, fst_lane_events events)
 {
@@ -170,7 +201,9 @@ static int watch(fst_row_worker *w, int l, fst_lane_events events)
         fst_returns_see_side(&run->window.returns, flow);
     run->window.activity = b->view.activity[l];
     fst_window_look(&run->window, flow, !w->engine->fused);
-    follow_window(w, l);
+    look_at_returns(w, l);
+    if (!(w->settled & fst_lane_bit(l)))
+        follow_window(w, l);
     return flow->t.high >= run->window.span.until;
 }
 
@@ -196,6 +229,7 @@ unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events)
             w->engine->extract_clock(w->observed.memory, l, w->observed.lanes[l].run->flow);
             close = fst_window_period_needs_integrals(&w->observed.lanes[l].run->window,
                                                       w->observed.lanes[l].run->flow);
+            close |= w->observed.lanes[l].run->settling.asked;
             if (!close)
                 pass_mark(w, l);
         }

@@ -41,8 +41,15 @@ typedef struct fst_row_worker {
     unsigned in_window;                 /* the window is open */
     unsigned tracked;                   /* extremes are looked for */
     unsigned turning;                   /* Phi has gone so far that its range no longer matters */
+    unsigned leaving;                   /* after this step the run need not be observed */
+    unsigned settled;                   /* another window begins after this step */
+    unsigned failed;                    /* the motion that left is not the one that came back */
     fst_lane ready[2 * FST_MOST_LANES]; /* runs that are to be observed as soon as a lane is free */
     int ready_count;
+    /* The fast form: runs that wait for a lane of the run-up batch, in which nobody looks at them: they repeat
+     * themselves, or have to begin anew. */
+    fst_lane unwatched[2 * FST_MOST_LANES];
+    int unwatched_count;
     /* The fast form: steps that wait for their extremes to be located, and whose they are. */
     void *pending_steps;
     struct {
@@ -65,6 +72,44 @@ static inline unsigned fst_lane_bit(int l)
 {
     return 1u << l;
 }
+
+/* ------------------------------------------------------------------ places (lane_places.c) */
+
+/* What became of a job that was to begin. */
+typedef enum fst_beginning {
+    FST_BEGUN,
+    FST_BEGUN_REFUSED, /* it has to wait until nothing is at work */
+    FST_BEGUN_ALONE,   /* it is one for no lane */
+    FST_BEGUN_FAILED   /* `error` says why */
+} fst_beginning;
+
+/* Begin the job of `at`. */
+fst_beginning fst_worker_begin(fst_row_worker *w, fst_lane *at, fst_status *status, fst_error *error);
+
+/* A run that was begun, or taken up, goes to its place. */
+void fst_worker_place(fst_row_worker *w, fst_lane *fresh);
+
+/* Hand over the result of a job; 1 if another one follows in its place. */
+int fst_worker_hand_over(fst_row_worker *w, fst_lane *at, fst_status status, const fst_run_result *result,
+                         const fst_error *error);
+
+void fst_worker_free_run(fst_lane *at);
+void fst_worker_move_run(fst_lane *to, fst_lane *from);
+
+/* The run of a lane is no longer there. */
+void fst_worker_vacate(fst_row_worker *w, fst_lane_batch *b, int l);
+
+/* Runs that are on their way to their ends; these, and those at their ends whose exponents are wanted. */
+int fst_worker_on_their_way(const fst_row_worker *w);
+int fst_worker_at_work(const fst_row_worker *w);
+
+/* Change the engine, while nothing is at work. */
+void fst_worker_use_engine(fst_row_worker *w, const fst_lane_engine *engine);
+
+/* Idle lanes take runs that are ready, and new jobs; those that do not fit wait until nothing is at work. */
+void fst_worker_occupy_idle(fst_row_worker *w);
+
+/* ------------------------------------------------------------------ watching */
 
 /* A lane's step as the run's own flow has it, the clock, and Phi at its end. */
 void fst_worker_extract_step(const fst_row_worker *w, const fst_lane_batch *b, int l);

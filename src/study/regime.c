@@ -200,9 +200,18 @@ static decision decide_turning(const fst_watched_run *run, const fst_exponent *e
     const double half = last->half_distance, full = last->full_distance;
     if (still_drifts(run, result))
         return DECIDED;
-    if (half < CLOSED) {
+    const int magnet_has_s2 = run->model->has_s2; /* without it a half return has no image to compare with */
+    if (half < CLOSED && magnet_has_s2) {
         result->symmetry = FST_SYMMETRY_S2;
         REASON("a closed orbit with the symmetry S2: successive half returns differ by %.2g", half);
+        set_direction(result);
+        return DECIDED;
+    }
+    if (full < CLOSED && !magnet_has_s2) {
+        result->symmetry = FST_SYMMETRY_S1;
+        REASON("a closed orbit: successive whole returns differ by %.2g (the magnet is not its own image under "
+               "half a turn)",
+               full);
         set_direction(result);
         return DECIDED;
     }

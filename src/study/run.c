@@ -96,6 +96,10 @@ fst_status fst_run(const fst_params *params, const fst_run_options *options, fst
     fst_status status = check_options(options, error);
     if (status != FST_OK)
         return status;
+    if (params->run_until == FST_UNTIL_SETTLED && !isnan(options->ramp_from))
+        return fst_fail(
+            error, FST_BAD_INPUT, "run.until",
+            "a ramp ends where its last frequency is reached: run.until settled is for a steady drive");
     if (params->run_method == FST_METHOD_SPLITTING)
         return fst_splitting_alone(params, options, result, error);
     fst_params at_start = *params; /* a ramp starts at its own frequency */

@@ -12,6 +12,7 @@ typedef struct image {
     int numbers;
     fst_window window;
     fst_run_end end;
+    fst_settling settling;
     fst_exponent exponent; /* of a parked run */
     fst_flow flow;
 } image;
@@ -97,6 +98,7 @@ void *fst_run_image_make(const fst_watched_run *run, const fst_exponent *exponen
     made->numbers = numbers;
     made->window = run->window;
     made->end = run->end;
+    made->settling = run->settling;
     made->flow = *run->flow;
     if (exponent) {
         made->exponent = *exponent;
@@ -155,6 +157,7 @@ int fst_run_image_take(const void *bytes, size_t size, int numbers, fst_watched_
     run->window = from->window;
     run->window.groups = groups;
     run->end = from->end;
+    run->settling = from->settling;
     *run->flow = from->flow;
     run->flow->step.context.coefficients = coefficients;
     run->flow->groups = groups;

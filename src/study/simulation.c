@@ -7,6 +7,7 @@
 #include "base/constants.h"
 #include "base/watch.h"
 #include "ode/flight.h"
+#include "study/settle.h"
 
 /* ------------------------------------------------------------------ samples */
 
@@ -103,15 +104,20 @@ fst_status fst_simulation_step(fst_simulation *s, double t_limit, fst_error *err
         return push_samples(s, s->run.end.fraction, error);
     status = push_samples(s, 1.0, error);
     if (status == FST_OK)
+        (void)fst_settling_look(&s->run);
+    if (status == FST_OK)
         status = fst_ramp_step(&s->ramp, &s->run.window, s->run.flow, error);
     return status == FST_OK ? report_progress(s, error) : status;
 }
 
 fst_status fst_simulation_until(fst_simulation *s, double t, fst_error *error)
 {
-    const fst_twofold end = {t, 0.0};
     fst_status status = FST_OK;
-    while (status == FST_OK && !s->run.end.happened && fst_twofold_difference(end, s->run.flow->t) > 0)
-        status = fst_simulation_step(s, t, error);
+    while (status == FST_OK && !s->run.end.happened) {
+        const fst_twofold end = {fmin(t, s->run.window.span.until), 0.0}; /* a run may settle before t */
+        if (fst_twofold_difference(end, s->run.flow->t) <= 0)
+            break;
+        status = fst_simulation_step(s, end.high, error);
+    }
     return status;
 }

@@ -10,10 +10,12 @@
  */
 #include "study/watched_run.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "base/constants.h"
 #include "model/params.h"
+#include "study/settle.h"
 
 fst_status fst_watched_run_begin(fst_watched_run *run, const fst_params *params, const double *start,
                                  fst_error *error)
@@ -40,6 +42,9 @@ fst_status fst_watched_run_begin(fst_watched_run *run, const fst_params *params,
     const double period = FST_TWO_PI / run->model->groups.omega;
     const fst_span span = {.from = fst_run_discard(params) * period, .until = params->run_periods * period};
     fst_window_begin(&run->window, &span, period, run->flow);
+    run->window.returns.left_out.rtol = params->run_rtol;
+    run->window.returns.left_out.limit = fmax(1e-9, 10.0 * params->run_rtol);
+    fst_settling_begin(run);
     return FST_OK;
 }
 
@@ -73,12 +78,13 @@ fst_status fst_watched_run_step(fst_watched_run *run, double t_limit, fst_error 
 
 fst_status fst_watched_run_go_on(fst_watched_run *run, int steps, int *over, fst_error *error)
 {
-    const double until = run->window.span.until;
-    const fst_twofold end = {until, 0.0};
     fst_status status = FST_OK;
     *over = 0;
     for (int i = 0; i < steps && status == FST_OK && !*over; ++i) {
-        status = fst_watched_run_step(run, until, error);
+        status = fst_watched_run_step(run, run->window.span.until, error);
+        if (status == FST_OK)
+            (void)fst_settling_look(run);
+        const fst_twofold end = {run->window.span.until, 0.0};
         *over = run->end.happened || fst_twofold_difference(end, run->flow->t) <= 0;
     }
     return status;

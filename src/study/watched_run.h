@@ -11,12 +11,22 @@ typedef struct fst_run_end {
     double fraction;   /* where in the step */
 } fst_run_end;
 
+/* Of a run that ends once its motion is known (settle.h). */
+typedef struct fst_settling {
+    int asked;
+    double discard;    /* when its window opens if the motion is not known before */
+    double settled_at; /* drive periods after which it was known; NAN: it is not */
+    int64_t periods;   /* marks of periods in the window when it was looked at, */
+    int64_t at_rest;   /* and the last of them in which the bead stood still */
+} fst_settling;
+
 typedef struct fst_watched_run {
     const fst_params *params; /* the caller's, who keeps them */
     fst_model *model;
     fst_flow *flow;
     fst_window window; /* from the end of the discard to the end of the run */
     fst_run_end end;
+    fst_settling settling;
 } fst_watched_run;
 
 /* Model, start state, flow and window of `params`; `start`: the state to begin from, NULL: what start.* says.

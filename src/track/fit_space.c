@@ -77,7 +77,14 @@ static fst_status unknown_key(const char *key, fst_error *error)
 static fst_status start_of(const fst_params *params, const fst_param_info *info, double *start,
                            fst_error *error)
 {
+    char text[64];
     *start = value_of(params, info);
+    if (strcmp(info->key, "model.kappa") == 0 && fst_magnet_in_tesla(params) &&
+        isfinite(fst_bead_moment(params)) &&
+        fst_params_get(params, fst_param_find(info->key), text, sizeof text) == 0)
+        return fst_fail(error, FST_BAD_INPUT, info->key,
+                        "beside a magnet in tesla kappa follows from the bead's moment: fit bead.remanence or "
+                        "bead.moment");
     if (strcmp(info->key, "model.kappa") == 0 && isfinite(params->bead_moment) && isfinite(params->magnet_b0))
         return fst_fail(error, FST_BAD_INPUT, info->key,
                         "kappa follows from bead.moment and magnet.b0, which were given: fit one of these");

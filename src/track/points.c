@@ -375,6 +375,34 @@ fst_status fst_points_read(const char *path, fst_points *points, fst_error *erro
     return status;
 }
 
+/* ------------------------------------------------------------------ a track as a row */
+
+fst_status fst_point_of(const fst_measurement *m, double drive, fst_point *row, fst_error *error)
+{
+    double length;
+    char one[16];
+    (void)snprintf(one, sizeof one, "1 %s", m->length_unit);
+    if (fst_parse_value(one, FST_UNIT_LENGTH, &length, NULL) != FST_OK)
+        return fst_fail(error, FST_BAD_INPUT, "fst_point_of",
+                        "a table of points needs lengths, not pixels: give fst_track_options.scale");
+    /* The drive of the track goes with the bead's rate by the same clock. */
+    const int told = isfinite(m->drive_from_track_hz);
+    if (!told && isnan(drive))
+        return fst_fail(error, FST_BAD_INPUT, "fst_point_of",
+                        "the track does not tell the drive: give fst_measure_options.drive");
+    const double values[FST_MEASURED_COUNT][2] = {{length * m->mean_r, length * m->mean_r_error},
+                                                  {length * m->std_r, length * m->std_r_error},
+                                                  {m->bead_frequency_hz, m->bead_frequency_hz_error}};
+    *row = (fst_point){.frequency = told ? m->drive_from_track_hz : fabs(drive),
+                       .frequency_error = told ? m->drive_from_track_hz_error : NAN};
+    for (int q = 0; q < FST_MEASURED_COUNT; ++q) {
+        const int whole = isfinite(values[q][0]) && values[q][1] > 0;
+        row->value[q] = whole ? values[q][0] : NAN;
+        row->error[q] = whole ? values[q][1] : NAN;
+    }
+    return FST_OK;
+}
+
 /* ------------------------------------------------------------------ writing */
 
 /* Write a number in a unit that is 10^-shift of the SI unit, so that it is read back to the same bits: the

@@ -1,13 +1,9 @@
 /* cylinder.inl - the field of a uniformly magnetised cylinder, outside of it, over REAL.
  *
- * Let V be the potential of the solid cylinder of density 1, radius R and half height h, i.e. the integral of
- * 1/distance over it.  Outside
- *
- *     4 pi B = grad (J.grad V),
- *
- * so that B, G and T are second, third and fourth derivatives of V.  Take these along z and along x + i y,
- * d+ = d/dx + i d/dy and d- = d/dx - i d/dy.  As V has axial symmetry, m derivatives along d+ leave a number
- * times exp(i m phi), and d+ d- = -d/dz d/dz.  With `zz+` for d/dz d/dz d+ and so on there are
+ * V, called Phi in derivatives.inl, is the integral of 1/distance over the cylinder of radius R and half height
+ * h, and its second, third and fourth derivatives are what is wanted.  Take them along z and along x + i y, d+
+ * = d/dx + i d/dy and d- = d/dx - i d/dy.  As V has axial symmetry, m derivatives along d+ leave a number times
+ * exp(i m phi), and d+ d- = -d/dz d/dz.  With `zz+` for d/dz d/dz d+ and so on there are
  *
  *     of order 2:  zz, z+, ++     3:  zzz, zz+, z++, +++     4:  zzzz, zzz+, zz++, z+++, ++++,
  *
@@ -21,9 +17,13 @@
  * A rim.  Let D be the distance to the point of the rim at the angle theta, X_n,s the integral of cos(n theta)
  * D^(-2 s) over the circle.  By Gauss's theorem in the plane
  *
- *     z+ = -R X_1,1/2      zz+ = R zeta X_1,3/2     z++ = R (rho X_1 - R X_2),3/2     zzz = R (R X_0 - rho
- * X_1),3/2 zzz+ = R (X_1,3/2 - 3 zeta^2 X_1,5/2)   zz++ = -3 R zeta (rho X_1 - R X_2),5/2 zzzz = -3 R zeta (R
- * X_0 - rho X_1),5/2.
+ *     z+   = -R X_1,1/2
+ *     zz+  = R zeta X_1,3/2
+ *     z++  = R (rho X_1 - R X_2),3/2
+ *     zzz  = R (R X_0 - rho X_1),3/2
+ *     zzz+ = R (X_1,3/2 - 3 zeta^2 X_1,5/2)
+ *     zz++ = -3 R zeta (rho X_1 - R X_2),5/2
+ *     zzzz = -3 R zeta (R X_0 - rho X_1),5/2.
  *
  * With the greatest and least distance a_0 and b_0, a = (a_0 + b_0)/2 and c = rho R/a, D = |a - c exp(i
  * theta)|: this is a step of the arithmetic-geometric mean, after which the expressions below have no
@@ -52,25 +52,50 @@
 #define CYLINDER_FAR 16.0 /* the multipoles serve beyond 4 half diagonals */
 
 /* Derivatives of V, or what a rim adds to them; _1: over rho, _2: over rho^2. */
-typedef struct FN(axial) {
-    REAL zz, zp_1, pp_2;     /* zz, z+, ++ */
-    REAL zzz, zzp_1, zpp;    /* zzz, zz+, z++ */
-    REAL zzzz, zzzp_1, zzpp; /* zzzz, zzz+, zz++ */
+enum { FN(axial_of_field) = 6, FN(axial_all) = 9 }; /* without and with the fourth derivatives */
+typedef union FN(axial) {
+    struct {
+        REAL zz, zp_1, pp_2;     /* zz, z+, ++ */
+        REAL zzz, zzp_1, zpp;    /* zzz, zz+, z++ */
+        REAL zzzz, zzzp_1, zzpp; /* zzzz, zzz+, zz++ */
+    };
+    REAL all[FN(axial_all)];
 } FN(axial);
 
 typedef struct FN(cylinder_place) {
-    REAL rho, rho2, radius, radius2, past; /* past: rho - R */
+    REAL rho, rho2, per_rho2;
+    REAL radius, radius2, per_radius, area; /* area: rho R */
+    REAL past, width, per_width;            /* rho - R, rho + R */
     REAL z, half;
     REAL_MASK within; /* rho < R */
 } FN(cylinder_place);
 
+static inline FN(cylinder_place) FN(see_cylinder)(const FN(part) * part, const REAL d[3])
+{
+    FN(cylinder_place) at;
+    at.rho2 = REAL_MULADD(d[0], d[0], d[1] * d[1]);
+    at.per_rho2 = REAL_RECIPROCAL(REAL_MAX(at.rho2, REAL_OF(1e-300)));
+    at.rho = REAL_SQRT(at.rho2);
+    at.radius = part->half[0];
+    at.radius2 = at.radius * at.radius;
+    at.per_radius = REAL_RECIPROCAL(at.radius);
+    at.area = at.rho * at.radius;
+    at.past = at.rho - at.radius;
+    at.width = at.rho + at.radius;
+    at.per_width = REAL_RECIPROCAL(at.width);
+    at.z = d[2];
+    at.half = part->half[2];
+    at.within = REAL_LESS(at.past, R(0.0));
+    return at;
+}
+
 /* ------------------------------------------------------------------ a rim */
 
 typedef struct FN(rim) {
-    REAL zeta, size, sign;    /* the height over the rim; size, sign: of zeta */
-    REAL greatest, greatest2; /* a_0 */
-    REAL product2;            /* (a_0 b_0)^2 */
-    REAL a, a2, c, c2;
+    REAL zeta, size, sign;        /* the height over the rim; size, sign: of zeta */
+    REAL greatest, per_greatest2; /* a_0, 1/a_0^2 */
+    REAL per_product2;            /* 1/(a_0 b_0)^2 */
+    REAL a, a2, per_a, per_a2, c, c2;
     REAL circle;    /* X_0,1/2 */
     REAL sigma;     /* (sum of 2^(n-1) c_n^2, n >= 2)/c^2 */
     REAL first;     /* X_1,1/2 over rho */
@@ -82,26 +107,30 @@ typedef struct FN(rim) {
 static inline FN(rim) FN(see_rim)(const FN(cylinder_place) * at, REAL zeta)
 {
     FN(rim) rim;
-    const REAL zeta2 = zeta * zeta, width = at->rho + at->radius;
+    const REAL zeta2 = zeta * zeta, greatest2 = REAL_MULADD(at->width, at->width, zeta2);
+    const REAL least2 = REAL_MULADD(at->past, at->past, zeta2);
     rim.zeta = zeta;
     rim.size = REAL_ABS(zeta);
     rim.sign = REAL_SELECT(REAL_LESS(zeta, R(0.0)), R(-1.0), R(1.0));
-    rim.greatest2 = REAL_MULADD(width, width, zeta2);
-    rim.greatest = REAL_SQRT(rim.greatest2);
-    const REAL least = REAL_SQRT(REAL_MULADD(at->past, at->past, zeta2)), product = rim.greatest * least;
-    const REAL a = R(0.5) * (rim.greatest + least), c = at->rho * at->radius / a, a2 = a * a, c2 = c * c;
+    rim.greatest = ELLIPTIC_ROOT(greatest2);
+    const REAL least = ELLIPTIC_ROOT(least2), product = rim.greatest * least;
+    const REAL a = R(0.5) * (rim.greatest + least), per_a = REAL_RECIPROCAL(a), a2 = a * a;
+    const REAL c = at->area * per_a, c2 = c * c;
     rim.a = a;
     rim.a2 = a2;
     rim.c = c;
     rim.c2 = c2;
-    rim.product2 = product * product;
+    rim.per_a2 = per_a * per_a;
+    rim.per_greatest2 = REAL_RECIPROCAL(greatest2);
+    rim.per_product2 = REAL_RECIPROCAL(product * product);
     rim.means = FN(elliptic_mean)(a, product, c);
-    rim.circle = R(2.0) * REAL_OF(CYLINDER_PI) / rim.means.mean;
+    rim.circle = R(2.0) * REAL_OF(CYLINDER_PI) * REAL_RECIPROCAL(rim.means.mean);
     rim.sigma = c2 * rim.means.squares;
-    const REAL share = R(0.5) * rim.circle / a, turn = share * at->radius / a; /* c/(2 a) = rho R/(2 a^2) */
+    const REAL share = R(0.5) * rim.circle * per_a, turn = share * at->radius * per_a; /* times rho: c/(2 a) */
+    rim.per_a = per_a;
     rim.first = turn * (R(1.0) + rim.sigma);
-    rim.cube = turn * (R(3.0) * a2 - c2 - (a2 + c2) * rim.sigma) / rim.product2;
-    rim.cube_zero = share * (R(2.0) * a + c * (R(1.0) + rim.sigma)) / rim.greatest2;
+    rim.cube = turn * (R(3.0) * a2 - c2 - (a2 + c2) * rim.sigma) * rim.per_product2;
+    rim.cube_zero = share * (R(2.0) * a + c * (R(1.0) + rim.sigma)) * rim.per_greatest2;
     return rim;
 }
 
@@ -133,98 +162,90 @@ static inline void FN(rim_series)(REAL x, REAL y, REAL *of_y, REAL *of_x)
 /* zeta H_2 by the third kind.  nu_first: nu X_1,1/2. */
 static inline REAL FN(rim_third)(const FN(cylinder_place) * at, const FN(rim) * rim, REAL nu_first)
 {
-    const REAL width = at->rho + at->radius, gap = REAL_ABS(at->past) * width;
-    const REAL p = rim->greatest * REAL_ABS(at->past) / width;
+    const REAL past = REAL_ABS(at->past), gap = past * at->width, p = rim->greatest * (past * at->per_width);
+    const REAL_MASK over = REAL_LESS(p, rim->size);
     const REAL sum = FN(elliptic_third)(&rim->means, REAL_MAX(p, rim->size));
+    const REAL inverse = REAL_RECIPROCAL(REAL_SELECT(over, rim->zeta, gap));
     const REAL least2 = REAL_SELECT(at->within, at->rho2, at->radius2);
-    const REAL aside =
-        rim->zeta * (rim->circle * REAL_MULADD(at->rho * at->radius, sum, least2) / gap - nu_first);
+    const REAL aside = rim->zeta * (rim->circle * REAL_MULADD(at->area, sum, least2) * inverse - nu_first);
     const REAL above = REAL_OF(CYLINDER_PI) * rim->sign - rim->zeta * (R(0.5) * rim->circle + nu_first) -
-                       R(0.25) * rim->circle * gap * (R(1.0) + sum) / rim->zeta;
-    return REAL_SELECT(REAL_LESS(p, rim->size), above, aside);
+                       R(0.25) * rim->circle * gap * (R(1.0) + sum) * inverse;
+    return REAL_SELECT(over, above, aside);
 }
 
 /* zz and ++ of a rim; returns sgn zeta where 2 pi (R/rho)^2 sgn zeta is left out of ++, else 0. */
-static inline REAL FN(rim_axial)(const FN(cylinder_place) * at, const FN(rim) * rim, REAL *zz, REAL *pp_2)
+static inline REAL FN(rim_axial)(const FN(cylinder_place) * at, const FN(rim) * rim, FN(axial) * v)
 {
-    const REAL x = at->radius2 / rim->a2, y = at->rho2 / rim->a2, limit = REAL_OF(CYLINDER_SERIES);
+    const REAL limit = REAL_OF(CYLINDER_SERIES), none = R(0.0);
+    const REAL x = at->radius2 * rim->per_a2, y = at->rho2 * rim->per_a2;
     const REAL_MASK within = at->within, near = REAL_LESS(y, limit);
-    const REAL lesser = REAL_SELECT(within, y, x);
-    const REAL_MASK known = REAL_LESS(lesser, limit),
-                    unknown = REAL_LESS_EQUAL(limit, lesser); /* series of H_2 */
-    const REAL nu_first = rim->first * REAL_SELECT(within, at->rho2 / at->radius, at->radius);
-    REAL rest = R(0.0), inner = R(0.0); /* zeta H_2; ++ by a series */
+    const REAL lesser = REAL_SELECT(within, y, x); /* H_2 has a series where it is small */
+    const REAL_MASK known = REAL_LESS(lesser, limit), unknown = REAL_LESS_EQUAL(limit, lesser);
+    const REAL nu_first = rim->first * REAL_SELECT(within, at->rho2 * at->per_radius, at->radius);
+    REAL rest = none, inner = none; /* zeta H_2; ++ by a series */
     if (REAL_ANY(known) || REAL_ANY(near)) {
-        const REAL factor = R(2.0) * REAL_OF(CYLINDER_PI) * rim->zeta / rim->a;
+        const REAL factor = R(2.0) * REAL_OF(CYLINDER_PI) * rim->zeta * rim->per_a;
         REAL of_x, of_y;
         FN(rim_series)(x, y, &of_y, &of_x);
         rest = factor * REAL_SELECT(within, y * y * of_y, x * x * of_x);
-        inner = -(factor * of_y * (at->radius2 / (rim->a2 * rim->a2)));
+        inner = -(factor * of_y * (x * rim->per_a2));
     }
     if (REAL_ANY(unknown))
         rest = REAL_SELECT(known, rest, FN(rim_third)(at, rim, nu_first));
     const REAL first = REAL_MULADD(rim->zeta, nu_first, rest); /* zeta H_1 */
     /* zeta X_0 - 2 pi sgn zeta = X_0 sgn zeta (|zeta| - M) */
-    const REAL short_of = (rim->c2 - at->rho2 - at->radius2) / (rim->size + rim->a) + rim->means.below;
-    *zz = REAL_SELECT(within, REAL_MULADD(rim->sign * rim->circle, short_of, first), -first);
-    const REAL ratio = at->radius2 / at->rho2, none = R(0.0);
-    const REAL inside = -(rest * ratio / at->rho2);
-    const REAL outside = (rim->zeta * nu_first + ratio * REAL_MULADD(rim->zeta, rim->circle, first)) / at->rho2;
-    *pp_2 = REAL_SELECT(near, inner, REAL_SELECT(within, inside, outside));
+    const REAL short_of =
+        (rim->c2 - at->rho2 - at->radius2) * REAL_RECIPROCAL(rim->size + rim->a) + rim->means.below;
+    v->zz = REAL_SELECT(within, REAL_MULADD(rim->sign * rim->circle, short_of, first), -first);
+    const REAL ratio = at->radius2 * at->per_rho2;
+    const REAL inside = -(rest * ratio);
+    const REAL outside = REAL_MULADD(rim->zeta, nu_first, ratio * REAL_MULADD(rim->zeta, rim->circle, first));
+    v->pp_2 = REAL_SELECT(near, inner, REAL_SELECT(within, inside, outside) * at->per_rho2);
     return REAL_SELECT(near, REAL_SELECT(within, none, rim->sign), none);
-}
-
-static inline void FN(subtract_rims)(FN(axial) * lower, const FN(axial) * upper)
-{
-    lower->zz = lower->zz - upper->zz;
-    lower->zp_1 = lower->zp_1 - upper->zp_1;
-    lower->pp_2 = lower->pp_2 - upper->pp_2;
-    lower->zzz = lower->zzz - upper->zzz;
-    lower->zzp_1 = lower->zzp_1 - upper->zzp_1;
-    lower->zpp = lower->zpp - upper->zpp;
-    lower->zzzz = lower->zzzz - upper->zzzz;
-    lower->zzzp_1 = lower->zzzp_1 - upper->zzzp_1;
-    lower->zzpp = lower->zzpp - upper->zzpp;
 }
 
 /* What a rim adds; returns what rim_axial() does. */
 static inline __attribute__((always_inline)) REAL FN(rim_derivatives)(const FN(cylinder_place) * at, REAL zeta,
-                                                                      FN(axial) * v)
+                                                                      int with_fourth, FN(axial) * v)
 {
     const FN(rim) rim = FN(see_rim)(at, zeta);
     const REAL radius = at->radius, past = at->past;
     const REAL a = rim.a, a2 = rim.a2, c = rim.c, c2 = rim.c2, sigma = rim.sigma;
-    const REAL left_out = FN(rim_axial)(at, &rim, &v->zz, &v->pp_2);
+    const REAL left_out = FN(rim_axial)(at, &rim, v);
     v->zp_1 = -(radius * rim.first);
     /* X_1 and X_0 - X_1, X_1 - X_2 of the power 3/2 */
     const REAL cube = at->rho * rim.cube, past_cube = past * cube;
     const REAL cube_two =
-        R(0.5) * rim.circle / (a2 * rim.greatest2) *
+        R(0.5) * rim.circle * (rim.per_a2 * rim.per_greatest2) *
         (c * (R(3.0) * a + R(2.0) * c) + sigma * (R(2.0) * a2 + R(3.0) * a * c + R(2.0) * c2));
-    v->zzz = radius * (radius * rim.cube_zero - past_cube);
+    v->zzz = radius * REAL_MULSUB(radius, rim.cube_zero, past_cube);
     v->zzp_1 = radius * zeta * rim.cube;
     v->zpp = radius * REAL_MULADD(radius, cube_two, past_cube);
+    if (!with_fourth)
+        return left_out;
     /* The same of the power 5/2: with A = a^2 + c^2, B = 2 rho R, Y_1 = (B X_0 + A X_1/3)/(a_0 b_0)^2, Y_0 -
      * Y_1 = (X_0 - X_1/3)/a_0^2, Y_1 - Y_2 = 4 X_1/(3 B) - (Y_0 - Y_1). */
-    const REAL third = R(1.0) / R(3.0), zero = rim.circle * REAL_NEGMULADD(c2, sigma, a2) / rim.product2;
-    const REAL fifth = REAL_MULADD(R(2.0) * radius, zero, third * (a2 + c2) * rim.cube) / rim.product2;
-    const REAL fifth_zero = REAL_NEGMULADD(third, cube, zero) / rim.greatest2;
-    const REAL fifth_two = R(2.0) * third * rim.cube / radius - fifth_zero;
+    const REAL third = R(1.0) / R(3.0), zero = rim.circle * REAL_NEGMULADD(c2, sigma, a2) * rim.per_product2;
+    const REAL fifth = REAL_MULADD(R(2.0) * radius, zero, third * (a2 + c2) * rim.cube) * rim.per_product2;
+    const REAL fifth_zero = REAL_NEGMULADD(third, cube, zero) * rim.per_greatest2;
+    const REAL fifth_two = R(2.0) * third * rim.cube * at->per_radius - fifth_zero;
     const REAL past_fifth = past * at->rho * fifth, factor = R(-3.0) * radius * zeta;
-    v->zzzz = factor * (radius * fifth_zero - past_fifth);
+    v->zzzz = factor * REAL_MULSUB(radius, fifth_zero, past_fifth);
     v->zzzp_1 = radius * REAL_NEGMULADD(R(3.0) * zeta * zeta, fifth, rim.cube);
     v->zzpp = factor * REAL_MULADD(radius, fifth_two, past_fifth);
     return left_out;
 }
 
-static inline __attribute__((always_inline)) void FN(by_rims)(const FN(cylinder_place) * at, FN(axial) * v)
+static inline __attribute__((always_inline)) void FN(by_rims)(const FN(cylinder_place) * at, int with_fourth,
+                                                              FN(axial) * v)
 {
     FN(axial) upper;
-    const REAL below = FN(rim_derivatives)(at, at->z + at->half, v);
-    const REAL above = FN(rim_derivatives)(at, at->z - at->half, &upper);
-    FN(subtract_rims)(v, &upper);
+    const REAL below = FN(rim_derivatives)(at, at->z + at->half, with_fourth, v);
+    const REAL above = FN(rim_derivatives)(at, at->z - at->half, with_fourth, &upper);
+    for (int n = 0; n < (with_fourth ? FN(axial_all) : FN(axial_of_field)); ++n)
+        v->all[n] = v->all[n] - upper.all[n];
     const REAL left_out = below - above;
-    const REAL whole = R(2.0) * REAL_OF(CYLINDER_PI) * left_out * at->radius2 / (at->rho2 * at->rho2);
+    const REAL whole = R(2.0) * REAL_OF(CYLINDER_PI) * left_out * (at->radius2 * at->per_rho2) * at->per_rho2;
     v->pp_2 = REAL_SELECT(REAL_LESS(R(0.5), left_out), v->pp_2 + whole, v->pp_2);
 }
 
@@ -266,7 +287,7 @@ static inline __attribute__((always_inline)) void FN(next_moment)(FN(multipoles)
 }
 
 /* The term of n; d and s are those of l = n + 2 before, of n + 4 after. */
-static inline __attribute__((always_inline)) void FN(add_multipole)(FN(multipoles) * f, int n)
+static inline __attribute__((always_inline)) void FN(add_multipole)(FN(multipoles) * f, int n, int with_fourth)
 {
     const REAL moment = f->s[0];
     FN(axial) *v = &f->sum;
@@ -278,18 +299,22 @@ static inline __attribute__((always_inline)) void FN(add_multipole)(FN(multipole
     v->zzp_1 = REAL_MULADD(moment, f->d[1][0], v->zzp_1);
     v->zpp = REAL_MULADD(moment, f->d[2][0], v->zpp);
     FN(next_order)(f, n + 3);
-    v->zzzz = REAL_MULADD(moment, f->d[0][0], v->zzzz);
-    v->zzzp_1 = REAL_MULADD(moment, f->d[1][0], v->zzzp_1);
-    v->zzpp = REAL_MULADD(moment, f->d[2][0], v->zzpp);
+    if (with_fourth) {
+        v->zzzz = REAL_MULADD(moment, f->d[0][0], v->zzzz);
+        v->zzzp_1 = REAL_MULADD(moment, f->d[1][0], v->zzzp_1);
+        v->zzpp = REAL_MULADD(moment, f->d[2][0], v->zzpp);
+    }
     FN(next_moment)(f, n + 3);
     FN(next_moment)(f, n + 4);
 }
 
-static inline void FN(by_multipoles)(const FN(cylinder_place) * at, FN(axial) * v)
+static inline __attribute__((always_inline)) void FN(by_multipoles)(const FN(cylinder_place) * at,
+                                                                    int with_fourth, FN(axial) * v)
 {
     const REAL zero = R(0.0), r2 = REAL_MULADD(at->z, at->z, at->rho2);
-    const FN(axial) nothing = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
-    FN(multipoles) f = {.z = at->z, .per_r2 = R(1.0) / r2, .half = at->half, .sum = nothing};
+    FN(multipoles) f = {.z = at->z, .per_r2 = R(1.0) / r2, .half = at->half};
+    for (int n = 0; n < FN(axial_all); ++n)
+        f.sum.all[n] = zero;
     f.corner2 = REAL_MULADD(at->half, at->half, at->radius2);
     const REAL per_r = R(1.0) / REAL_SQRT(r2), per_r3 = per_r * f.per_r2;
     const REAL along = -(at->z * f.per_r2);
@@ -302,62 +327,47 @@ static inline void FN(by_multipoles)(const FN(cylinder_place) * at, FN(axial) * 
     const REAL factor = R(2.0) * REAL_OF(CYLINDER_PI) * at->radius2; /* 4 pi R s(1) */
     f.s[0] = factor * at->half;                                      /* s(2) = h R/2, and so on */
     f.s[1] = factor * REAL_MULSUB(R(5.0) * at->half, at->half, f.corner2) / R(8.0);
-    FN(add_multipole)(&f, 0);
-    FN(add_multipole)(&f, 2);
-    FN(add_multipole)(&f, 4);
-    FN(add_multipole)(&f, 6);
-    FN(add_multipole)(&f, 8);
-    FN(add_multipole)(&f, 10);
-    FN(add_multipole)(&f, 12);
-    FN(add_multipole)(&f, 14);
-    FN(add_multipole)(&f, 16);
-    FN(add_multipole)(&f, 18);
-    FN(add_multipole)(&f, 20);
-    FN(add_multipole)(&f, 22);
-    FN(add_multipole)(&f, 24);
-    FN(add_multipole)(&f, 26);
-    FN(add_multipole)(&f, 28);
-    FN(add_multipole)(&f, 30);
+    FN(add_multipole)(&f, 0, with_fourth);
+    FN(add_multipole)(&f, 2, with_fourth);
+    FN(add_multipole)(&f, 4, with_fourth);
+    FN(add_multipole)(&f, 6, with_fourth);
+    FN(add_multipole)(&f, 8, with_fourth);
+    FN(add_multipole)(&f, 10, with_fourth);
+    FN(add_multipole)(&f, 12, with_fourth);
+    FN(add_multipole)(&f, 14, with_fourth);
+    FN(add_multipole)(&f, 16, with_fourth);
+    FN(add_multipole)(&f, 18, with_fourth);
+    FN(add_multipole)(&f, 20, with_fourth);
+    FN(add_multipole)(&f, 22, with_fourth);
+    FN(add_multipole)(&f, 24, with_fourth);
+    FN(add_multipole)(&f, 26, with_fourth);
+    FN(add_multipole)(&f, 28, with_fourth);
+    FN(add_multipole)(&f, 30, with_fourth);
     *v = f.sum;
     v->zpp = v->zpp * at->rho2;
     v->zzpp = v->zzpp * at->rho2;
 }
 
-/* ------------------------------------------------------------------ B, G and T */
-
-static inline void FN(select_axial)(REAL_MASK mask, const FN(axial) * yes, FN(axial) * no)
-{
-    no->zz = REAL_SELECT(mask, yes->zz, no->zz);
-    no->zp_1 = REAL_SELECT(mask, yes->zp_1, no->zp_1);
-    no->pp_2 = REAL_SELECT(mask, yes->pp_2, no->pp_2);
-    no->zzz = REAL_SELECT(mask, yes->zzz, no->zzz);
-    no->zzp_1 = REAL_SELECT(mask, yes->zzp_1, no->zzp_1);
-    no->zpp = REAL_SELECT(mask, yes->zpp, no->zpp);
-    no->zzzz = REAL_SELECT(mask, yes->zzzz, no->zzzz);
-    no->zzzp_1 = REAL_SELECT(mask, yes->zzzp_1, no->zzzp_1);
-    no->zzpp = REAL_SELECT(mask, yes->zzpp, no->zzpp);
-}
+/* ------------------------------------------------------------------ both */
 
 static inline __attribute__((always_inline)) void FN(axial_derivatives)(const FN(cylinder_place) * at,
-                                                                        FN(axial) * v)
+                                                                        int with_fourth, FN(axial) * v)
 {
     const REAL r2 = REAL_MULADD(at->z, at->z, at->rho2);
     const REAL edge2 = REAL_OF(CYLINDER_FAR) * REAL_MULADD(at->half, at->half, at->radius2);
     const REAL_MASK far = REAL_LESS(edge2, r2), near = REAL_LESS_EQUAL(r2, edge2);
     FN(axial) afar;
-    if (!REAL_ANY(far)) {
-        FN(by_rims)(at, v);
-        return;
-    }
-    FN(by_multipoles)(at, &afar);
-    *v = afar;
-    if (REAL_ANY(near)) {
-        FN(by_rims)(at, v);
-        FN(select_axial)(far, &afar, v);
-    }
+    if (REAL_ANY(far))
+        FN(by_multipoles)(at, with_fourth, &afar);
+    if (REAL_ANY(near))
+        FN(by_rims)(at, with_fourth, v);
+    else
+        *v = afar;
+    for (int n = 0; REAL_ANY(far) && n < (with_fourth ? FN(axial_all) : FN(axial_of_field)); ++n)
+        v->all[n] = REAL_SELECT(far, afar.all[n], v->all[n]);
 }
 
-/* A derivative of V times exp(i m phi): its real and its imaginary part. */
+/* A number times exp(i m phi): real and imaginary part. */
 typedef struct FN(turned) {
     REAL x, y;
 } FN(turned);
@@ -368,84 +378,119 @@ static inline FN(turned) FN(turn_on)(FN(turned) a, FN(turned) b)
     return product;
 }
 
-/* (J.grad)/(4 pi) of a derivative, for j = J/(4 pi): `along` is what d/dz makes of it, `up` what d+ makes of
- * it, `down` what d- does. */
-static inline FN(turned) FN(along_remanence)(const REAL j[3], FN(turned) along, FN(turned) up, FN(turned) down)
-{
-    const REAL half = R(0.5);
-    FN(turned) sum;
-    sum.x = REAL_MULADD(j[2], along.x, half * (j[0] * (up.x + down.x) + j[1] * (up.y - down.y)));
-    sum.y = REAL_MULADD(j[2], along.y, half * (j[0] * (up.y + down.y) - j[1] * (up.x - down.x)));
-    return sum;
-}
-
 static inline FN(turned) FN(scaled)(REAL size, FN(turned) a)
 {
     const FN(turned) product = {size * a.x, size * a.y};
     return product;
 }
 
-static inline FN(turned) FN(mirrored)(FN(turned) a)
+/* (J.grad)/(4 pi) of a derivative of V, for j = J/(4 pi): `along` is what d/dz makes of it, `up` what d+ makes
+ * of it, `down` what d- does.  B_z, B_x + i B_y and their like are such; taken so, and not from derivatives
+ * along x and y, they keep their digits where J lies along the axis and other derivatives are far greater. */
+static inline FN(turned) FN(along_remanence)(const REAL j[3], FN(turned) along, FN(turned) up, FN(turned) down)
 {
-    const FN(turned) conjugate = {a.x, -a.y};
-    return conjugate;
+    const REAL half = R(0.5);
+    FN(turned) sum;
+    sum.x = REAL_MULADD(j[2], along.x, half * REAL_MULADD(j[0], up.x + down.x, j[1] * (up.y - down.y)));
+    sum.y = REAL_MULADD(j[2], along.y, half * REAL_MULSUB(j[0], up.y + down.y, j[1] * (up.x - down.x)));
+    return sum;
 }
 
-static inline __attribute__((always_inline)) void FN(cylinder_field)(const FN(part) * part, const REAL d[3],
-                                                                     FN(local_field) * to)
+/* The same of a derivative with z alone, which is real; of its two neighbours one is given. */
+static inline REAL FN(upright)(const REAL j[3], REAL along, FN(turned) up)
 {
-    const REAL zero = R(0.0), tiny = REAL_OF(1e-150);
-    FN(cylinder_place) at;
-    at.z = d[2];
-    at.rho2 = REAL_MULADD(d[0], d[0], d[1] * d[1]);
-    at.rho = REAL_SQRT(at.rho2);
-    at.radius = part->half[0];
-    at.half = part->half[2];
-    at.radius2 = at.radius * at.radius;
-    at.past = at.rho - at.radius;
-    at.within = REAL_LESS(at.past, zero);
+    return REAL_MULADD(j[2], along, REAL_MULADD(j[0], up.x, j[1] * up.y));
+}
+
+/* Of zz, z+, ++ and so on with their directions. */
+typedef struct FN(directed) {
+    REAL j[3];
+    FN(turned) zz, zp, pp, zzz, zzp, zpp, ppp, zzzz, zzzp, zzpp, zppp, pppp;
+} FN(directed);
+
+static inline FN(turned) FN(upward)(REAL value)
+{
+    const FN(turned) real = {value, R(0.0)};
+    return real;
+}
+
+static inline __attribute__((always_inline)) FN(directed)
+    FN(see_derivatives)(const FN(part) * part, const REAL d[3], int with_fourth)
+{
+    const FN(cylinder_place) at = FN(see_cylinder)(part, d);
     FN(axial) v;
-    FN(axial_derivatives)(&at, &v);
-
-    const REAL per_rho = R(1.0) / REAL_MAX(at.rho, tiny);
+    FN(axial_derivatives)(&at, with_fourth, &v);
+    const REAL per_rho = REAL_RECIPROCAL(REAL_MAX(at.rho, REAL_OF(1e-150)));
     const FN(turned) place = {d[0], d[1]}, e = {d[0] * per_rho, d[1] * per_rho};
-    const FN(turned) e2 = FN(turn_on)(e, e), place2 = FN(turn_on)(place, place);
+    const FN(turned) e2 = FN(turn_on)(e, e), place3 = FN(turn_on)(place, e2);
     const REAL ppp_1 = -REAL_MULADD(R(4.0), v.pp_2, v.zzp_1);
-    const REAL zppp = -REAL_MULADD(R(4.0), v.zpp * per_rho, at.rho * v.zzzp_1);
-    const REAL pppp = -REAL_MULADD(R(6.0), ppp_1, v.zzpp);
-    const FN(turned) zz = {v.zz, zero}, zp = FN(scaled)(v.zp_1, place), pp = FN(scaled)(v.pp_2, place2);
-    const FN(turned) zzz = {v.zzz, zero}, zzp = FN(scaled)(v.zzp_1, place), zpp = FN(scaled)(v.zpp, e2);
-    const FN(turned) ppp = FN(scaled)(ppp_1, FN(turn_on)(place, e2));
-    const FN(turned) zzzz = {v.zzzz, zero}, zzzp = FN(scaled)(v.zzzp_1, place), zzpp = FN(scaled)(v.zzpp, e2);
-    const FN(turned) e3 = FN(turn_on)(e, e2);
-    const FN(turned) zppp_turned = FN(scaled)(zppp, e3), pppp_turned = FN(scaled)(pppp, FN(turn_on)(e2, e2));
+    FN(directed) to;
+    for (int i = 0; i < 3; ++i)
+        to.j[i] = R(0.25) / REAL_OF(CYLINDER_PI) * part->j[i];
+    to.zz = FN(upward)(v.zz);
+    to.zp = FN(scaled)(v.zp_1, place);
+    to.pp = FN(scaled)(v.pp_2, FN(turn_on)(place, place));
+    to.zzz = FN(upward)(v.zzz);
+    to.zzp = FN(scaled)(v.zzp_1, place);
+    to.zpp = FN(scaled)(v.zpp, e2);
+    to.ppp = FN(scaled)(ppp_1, place3);
+    if (with_fourth) {
+        to.zzzz = FN(upward)(v.zzzz);
+        to.zzzp = FN(scaled)(v.zzzp_1, place);
+        to.zzpp = FN(scaled)(v.zzpp, e2);
+        to.zppp = FN(scaled)(-REAL_MULADD(R(4.0) * v.zpp, at.per_rho2, v.zzzp_1), place3);
+        to.pppp = FN(scaled)(-REAL_MULADD(R(6.0), ppp_1, v.zzpp), FN(turn_on)(e2, e2));
+    }
+    return to;
+}
 
-    const REAL quarter = R(0.25) / REAL_OF(CYLINDER_PI);
-    const REAL j[3] = {quarter * part->j[0], quarter * part->j[1], quarter * part->j[2]};
-    const FN(turned) bz = FN(along_remanence)(j, zz, zp, FN(mirrored)(zp));
-    const FN(turned) bp = FN(along_remanence)(j, zp, pp, FN(scaled)(R(-1.0), zz));
-    to->b[0] = bp.x;
-    to->b[1] = bp.y;
-    to->b[2] = bz.x;
-    const FN(turned) gzz = FN(along_remanence)(j, zzz, zzp, FN(mirrored)(zzp));
-    const FN(turned) gzp = FN(along_remanence)(j, zzp, zpp, FN(scaled)(R(-1.0), zzz));
-    const FN(turned) gpp = FN(along_remanence)(j, zpp, ppp, FN(scaled)(R(-1.0), zzp));
-    to->gradient.xx = R(0.5) * (gpp.x - gzz.x);
-    to->gradient.yy = R(-0.5) * (gpp.x + gzz.x);
-    to->gradient.xy = R(0.5) * gpp.y;
-    to->gradient.xz = gzp.x;
-    to->gradient.yz = gzp.y;
-    const FN(turned) tzzz = FN(along_remanence)(j, zzzz, zzzp, FN(mirrored)(zzzp));
-    const FN(turned) tzzp = FN(along_remanence)(j, zzzp, zzpp, FN(scaled)(R(-1.0), zzzz));
-    const FN(turned) tzpp = FN(along_remanence)(j, zzpp, zppp_turned, FN(scaled)(R(-1.0), zzzp));
-    const FN(turned) tppp = FN(along_remanence)(j, zppp_turned, pppp_turned, FN(scaled)(R(-1.0), zzpp));
-    FN(bend) *t = &to->bend;
+static inline __attribute__((always_inline)) void FN(field_of_derivatives)(const FN(directed) * v, REAL b[3],
+                                                                           FN(gradient) * g)
+{
+    const REAL minus = R(-1.0), half = R(0.5);
+    const FN(turned) across = FN(along_remanence)(v->j, v->zp, v->pp, FN(scaled)(minus, v->zz));
+    b[0] = across.x;
+    b[1] = across.y;
+    b[2] = FN(upright)(v->j, v->zz.x, v->zp);
+    const REAL zz = FN(upright)(v->j, v->zzz.x, v->zzp);
+    const FN(turned) zp = FN(along_remanence)(v->j, v->zzp, v->zpp, FN(scaled)(minus, v->zzz));
+    const FN(turned) pp = FN(along_remanence)(v->j, v->zpp, v->ppp, FN(scaled)(minus, v->zzp));
+    g->xx = half * (pp.x - zz);
+    g->yy = -(half * (pp.x + zz));
+    g->xy = half * pp.y;
+    g->xz = zp.x;
+    g->yz = zp.y;
+}
+
+/* With p = d+: ppp = xxx - 3 xyy + i (3 xxy - yyy), and xx + yy = -zz. */
+static inline __attribute__((always_inline)) void FN(bend_of_derivatives)(const FN(directed) * v, FN(bend) * t)
+{
+    const REAL minus = R(-1.0), half = R(0.5), quarter = R(0.25), three = R(3.0);
+    const REAL zzz = FN(upright)(v->j, v->zzzz.x, v->zzzp);
+    const FN(turned) zzp = FN(along_remanence)(v->j, v->zzzp, v->zzpp, FN(scaled)(minus, v->zzzz));
+    const FN(turned) zpp = FN(along_remanence)(v->j, v->zzpp, v->zppp, FN(scaled)(minus, v->zzzp));
+    const FN(turned) ppp = FN(along_remanence)(v->j, v->zppp, v->pppp, FN(scaled)(minus, v->zzpp));
     t->scale = t->vertical = R(1.0);
-    t->xxx = R(0.25) * (tppp.x - R(3.0) * tzzp.x);
-    t->xyy = R(-0.25) * (tppp.x + tzzp.x);
-    t->xxy = R(0.25) * (tppp.y - tzzp.y);
-    t->yyy = R(-0.25) * (tppp.y + R(3.0) * tzzp.y);
-    t->xxz = R(0.5) * (tzpp.x - tzzz.x);
-    t->yyz = R(-0.5) * (tzpp.x + tzzz.x);
-    t->xyz = R(0.5) * tzpp.y;
+    t->xxx = quarter * REAL_NEGMULADD(three, zzp.x, ppp.x);
+    t->xxy = quarter * (ppp.y - zzp.y);
+    t->xyy = -(quarter * (ppp.x + zzp.x));
+    t->yyy = -(quarter * REAL_MULADD(three, zzp.y, ppp.y));
+    t->xxz = half * (zpp.x - zzz);
+    t->yyz = -(half * (zpp.x + zzz));
+    t->xyz = half * zpp.y;
+}
+
+/* B and G of a cylinder at the place d from its centre. */
+PART_KIND void FN(cylinder_field)(const FN(part) * part, const REAL d[3], REAL b[3], FN(gradient) * g)
+{
+    const FN(directed) v = FN(see_derivatives)(part, d, 0);
+    FN(field_of_derivatives)(&v, b, g);
+}
+
+/* And T. */
+PART_KIND void FN(cylinder_look)(const FN(part) * part, const REAL d[3], FN(local_field) * at)
+{
+    const FN(directed) v = FN(see_derivatives)(part, d, 1);
+    FN(field_of_derivatives)(&v, at->b, &at->gradient);
+    FN(bend_of_derivatives)(&v, &at->bend);
 }

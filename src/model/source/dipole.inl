@@ -9,25 +9,47 @@
  *
  * where ... are the other two choices of the index that stands alone.
  */
-static inline __attribute__((always_inline)) void FN(dipole_field)(const FN(part) * part, const REAL d[3],
-                                                                   FN(local_field) * at)
+typedef struct FN(dipole_view) {
+    REAL s, inverse2, inverse3, three5; /* 1/r^2, 1/r^3, 3/r^5 */
+} FN(dipole_view);
+
+static inline __attribute__((always_inline)) FN(dipole_view)
+    FN(see_dipole)(const FN(part) * part, const REAL d[3])
 {
     const REAL *m = part->j;
     const REAL r2 = REAL_MULADD(d[2], d[2], REAL_MULADD(d[1], d[1], d[0] * d[0]));
-    const REAL s = REAL_MULADD(m[2], d[2], REAL_MULADD(m[1], d[1], m[0] * d[0]));
-    const REAL inverse2 = R(1.0) / r2, inverse3 = inverse2 * inverse2 * REAL_SQRT(r2);
-    const REAL three5 = R(3.0) * (inverse3 * inverse2), s_over = s * inverse2; /* 3/r^5 and s/r^2 */
-    const REAL five = R(5.0) * s_over, thirty5 = R(35.0) * s_over * inverse2;
-    const REAL x = d[0], y = d[1], z = d[2];
+    FN(dipole_view) at;
+    at.s = REAL_MULADD(m[2], d[2], REAL_MULADD(m[1], d[1], m[0] * d[0]));
+    at.inverse2 = R(1.0) / r2;
+    at.inverse3 = at.inverse2 * at.inverse2 * REAL_SQRT(r2);
+    at.three5 = R(3.0) * (at.inverse3 * at.inverse2);
+    return at;
+}
+
+/* B and G of a dipole at the place d from it. */
+PART_KIND void FN(dipole_field)(const FN(part) * part, const REAL d[3], REAL b[3], FN(gradient) * g)
+{
+    const FN(dipole_view) at = FN(see_dipole)(part, d);
+    const REAL *m = part->j, x = d[0], y = d[1], z = d[2];
+    const REAL s = at.s, three5 = at.three5, five = R(5.0) * (s * at.inverse2);
     for (int i = 0; i < 3; ++i)
-        at->b[i] = REAL_MULSUB(three5 * s, d[i], m[i] * inverse3);
-    at->gradient.xx = three5 * (R(2.0) * m[0] * x + s - five * x * x);
-    at->gradient.yy = three5 * (R(2.0) * m[1] * y + s - five * y * y);
-    at->gradient.xy = three5 * (m[0] * y + m[1] * x - five * x * y);
-    at->gradient.xz = three5 * (m[0] * z + m[2] * x - five * x * z);
-    at->gradient.yz = three5 * (m[1] * z + m[2] * y - five * y * z);
-    const REAL q = R(5.0) * inverse2;
-    FN(bend) *t = &at->bend;
+        b[i] = REAL_MULSUB(three5 * s, d[i], m[i] * at.inverse3);
+    g->xx = three5 * (R(2.0) * m[0] * x + s - five * x * x);
+    g->yy = three5 * (R(2.0) * m[1] * y + s - five * y * y);
+    g->xy = three5 * (m[0] * y + m[1] * x - five * x * y);
+    g->xz = three5 * (m[0] * z + m[2] * x - five * x * z);
+    g->yz = three5 * (m[1] * z + m[2] * y - five * y * z);
+}
+
+/* And T. */
+PART_KIND void FN(dipole_look)(const FN(part) * part, const REAL d[3], FN(local_field) * look)
+{
+    const FN(dipole_view) at = FN(see_dipole)(part, d);
+    const REAL *m = part->j, x = d[0], y = d[1], z = d[2];
+    const REAL s = at.s, three5 = at.three5, q = R(5.0) * at.inverse2;
+    const REAL thirty5 = R(35.0) * (s * at.inverse2) * at.inverse2;
+    FN(dipole_field)(part, d, look->b, &look->gradient);
+    FN(bend) *t = &look->bend;
     t->scale = t->vertical = R(1.0);
     t->xxx = three5 * (R(3.0) * m[0] - R(3.0) * q * x * (m[0] * x + s) + thirty5 * x * x * x);
     t->yyy = three5 * (R(3.0) * m[1] - R(3.0) * q * y * (m[1] * y + s) + thirty5 * y * y * y);

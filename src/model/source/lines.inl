@@ -252,8 +252,9 @@ FN(lines_look)(const FN(lines) * lines, const fst_kinds *kinds, REAL x, REAL y, 
 
 /* ------------------------------------------------------------------ B and G u alone */
 
+SOURCE_FIELD_BY_LOOK(lines)
 #ifdef FIELD_KEEPS_GRADIENT
-SOURCE_ALONG_BY_LOOK(lines)
+SOURCE_ALONG_BY_FIELD(lines)
 #else
 /* G u = sum of s (u/|d|^3 - 3 d (d.u)/|d|^5) needs of the plus ends and the minus ends the sums of q = 1/|d|^3,
  * Y q, t = 3 (d.u)/|d|^5 and Y t, because u is known before the roots and quotients are: a third less work than

@@ -49,15 +49,30 @@ static inline void FN(gradient_change)(const FN(bend) * t, REAL ex, REAL ey, FN(
     dg->yz = REAL_MULADD(zx, t->xyz, zy * t->yyz);
 }
 
-/* For a source that has no quicker way to B and G u than its whole local field: defines NAME_along of its
+/* For a source that has no quicker way to B and G than its whole local field: defines NAME_field of its
  * NAME_look (sources.inl). */
-#define SOURCE_ALONG_BY_LOOK(name)                                                                             \
-    static inline void FN(name##_along)(const FN(name) * source, const fst_kinds *kinds, REAL x, REAL y,       \
-                                        const REAL u[3], REAL b[3], REAL gu[3])                                \
+#define SOURCE_FIELD_BY_LOOK(name)                                                                             \
+    static inline __attribute__((always_inline)) void FN(name##_field)(                                        \
+        const FN(name) * source, const fst_kinds *kinds, REAL x, REAL y, REAL b[3], FN(gradient) * g)          \
     {                                                                                                          \
         FN(local_field) at;                                                                                    \
         FN(name##_look)(source, kinds, x, y, &at);                                                             \
         for (int i = 0; i < 3; ++i)                                                                            \
             b[i] = at.b[i];                                                                                    \
-        FN(times_gradient)(&at.gradient, u, gu);                                                               \
+        *g = at.gradient;                                                                                      \
     }
+
+/* For one that has no quicker way to B and G u than B and G: defines NAME_along of its NAME_field. */
+#define SOURCE_ALONG_BY_FIELD(name)                                                                            \
+    static inline void FN(name##_along)(const FN(name) * source, const fst_kinds *kinds, REAL x, REAL y,       \
+                                        const REAL u[3], REAL b[3], REAL gu[3])                                \
+    {                                                                                                          \
+        FN(gradient) g;                                                                                        \
+        FN(name##_field)(source, kinds, x, y, b, &g);                                                          \
+        FN(times_gradient)(&g, u, gu);                                                                         \
+    }
+
+/* For one that has no quicker way to either. */
+#define SOURCE_ALONG_BY_LOOK(name)                                                                             \
+    SOURCE_FIELD_BY_LOOK(name)                                                                                 \
+    SOURCE_ALONG_BY_FIELD(name)

@@ -1,8 +1,11 @@
 /* part_local.inl - one part of a magnet as its field functions see it: its numbers, and its axes, over REAL.
  *
  * A field function adds nothing up and turns nothing: it is given the place from the part's centre along the
- * part's own axes, and leaves B, G and T along these axes.  Lengths are in l, fields in B0.
+ * part's own axes, and leaves B and G, or B, G and T, along these axes.  Lengths are in l, fields in B0.
  */
+#define PART_KIND                                                                                              \
+    static __attribute__((noinline, unused)) /* long: a copy for each caller would fill the cache */
+
 typedef struct FN(part) {
     REAL centre[3];
     REAL half[3];    /* cuboid: half edges; cylinder: radius, radius, half height; sphere: radius each */

@@ -6,6 +6,9 @@
  */
 #include "model/source/part_local.inl"
 
+#include "model/source/derivatives.inl"
+
+#include "model/source/cuboid.inl"
 #include "model/source/cylinder.inl"
 #include "model/source/dipole.inl"
 
@@ -24,15 +27,33 @@ static inline FN(parts) FN(make_parts)(const fst_params *params, const fst_group
     return parts;
 }
 
-/* B, G and T of one part at the place d from its centre, along its own axes. */
-static inline void FN(part_field)(const FN(part) * part, int kind, const REAL d[3], FN(local_field) * at)
+/* B and G of one part at the place d from its centre, along its own axes. */
+static inline void FN(part_field)(const FN(part) * part, int kind, const REAL d[3], REAL b[3], FN(gradient) * g)
 {
     switch (kind) {
+    case FST_PART_CUBOID:
+        FN(cuboid_field)(part, d, b, g);
+        break;
     case FST_PART_CYLINDER:
-        FN(cylinder_field)(part, d, at);
+        FN(cylinder_field)(part, d, b, g);
         break;
     default: /* FST_PART_SPHERE, FST_PART_DIPOLE */
-        FN(dipole_field)(part, d, at);
+        FN(dipole_field)(part, d, b, g);
+    }
+}
+
+/* B, G and T of it. */
+static inline void FN(part_look)(const FN(part) * part, int kind, const REAL d[3], FN(local_field) * at)
+{
+    switch (kind) {
+    case FST_PART_CUBOID:
+        FN(cuboid_look)(part, d, at);
+        break;
+    case FST_PART_CYLINDER:
+        FN(cylinder_look)(part, d, at);
+        break;
+    default:
+        FN(dipole_look)(part, d, at);
     }
 }
 
@@ -56,6 +77,38 @@ static inline void FN(add_gradient)(FN(gradient) * sum, const FN(gradient) * g)
     sum->yz = sum->yz + g->yz;
 }
 
+/* The place as part i sees it. */
+static inline void FN(place_in_part)(const FN(parts) * parts, const fst_kinds *kinds, int i, REAL x, REAL y,
+                                     REAL own[3])
+{
+    const FN(part) *part = &parts->part[i];
+    const REAL from[3] = {x - part->centre[0], y - part->centre[1], parts->height - part->centre[2]};
+    if (kinds->part_turned[i])
+        FN(into_part)(part, from, own);
+    else
+        memcpy(own, from, sizeof from);
+}
+
+static inline __attribute__((always_inline)) void
+FN(parts_field)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y, REAL b[3], FN(gradient) * sum)
+{
+    const REAL zero = R(0.0);
+    const FN(gradient) flat = {zero, zero, zero, zero, zero};
+    b[0] = b[1] = b[2] = zero;
+    *sum = flat;
+    for (int i = 0; i < kinds->pieces; ++i) {
+        REAL own[3], of[3];
+        FN(gradient) g;
+        FN(place_in_part)(parts, kinds, i, x, y, own);
+        FN(part_field)(&parts->part[i], kinds->part[i], own, of, &g);
+        if (kinds->part_turned[i])
+            FN(turn_field)(&parts->part[i], of, &g);
+        for (int k = 0; k < 3; ++k)
+            b[k] = b[k] + of[k];
+        FN(add_gradient)(sum, &g);
+    }
+}
+
 static inline __attribute__((always_inline)) void
 FN(parts_look)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y, FN(local_field) * sum)
 {
@@ -66,16 +119,13 @@ FN(parts_look)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y, 
     sum->gradient = flat;
     sum->bend = straight;
     for (int i = 0; i < kinds->pieces; ++i) {
-        const FN(part) *part = &parts->part[i];
-        const REAL from[3] = {x - part->centre[0], y - part->centre[1], parts->height - part->centre[2]};
-        REAL own[3] = {from[0], from[1], from[2]};
+        REAL own[3];
         FN(local_field) at;
-        if (kinds->part_turned[i])
-            FN(into_part)(part, from, own);
-        FN(part_field)(part, kinds->part[i], own, &at);
+        FN(place_in_part)(parts, kinds, i, x, y, own);
+        FN(part_look)(&parts->part[i], kinds->part[i], own, &at);
         if (kinds->part_turned[i]) {
-            FN(turn_field)(part, at.b, &at.gradient);
-            FN(turn_bend)(part, &at.bend);
+            FN(turn_field)(&parts->part[i], at.b, &at.gradient);
+            FN(turn_bend)(&parts->part[i], &at.bend);
         }
         for (int k = 0; k < 3; ++k)
             sum->b[k] = sum->b[k] + at.b[k];
@@ -84,4 +134,4 @@ FN(parts_look)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y, 
     }
 }
 
-SOURCE_ALONG_BY_LOOK(parts)
+SOURCE_ALONG_BY_FIELD(parts)

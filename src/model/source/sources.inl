@@ -8,7 +8,10 @@
  *     make_NAME()   these numbers, made of the parameters and the scaled groups;
  *     NAME_look()   B, G and T at a place (local_field.inl), by + - * / and square roots; always inlined, so
  *                   that what a caller does not use is not computed;
- *     NAME_along()  B and G u, by SOURCE_ALONG_BY_LOOK(NAME) unless the source has a quicker way.
+ *     NAME_field()  B and G;
+ *     NAME_along()  B and G u.
+ *
+ * SOURCE_ALONG_BY_LOOK(NAME) makes the last two of NAME_look(), for a source without a quicker way.
  */
 /* clang-format on */
 /*
@@ -21,6 +24,7 @@
 #define FIELD_KEEPS_GRADIENT
 #endif
 
+#include "base/elementary.inl"
 #include "model/source/local_field.inl"
 
 #include "model/source/lines.inl"
@@ -60,6 +64,21 @@ FN(source_look)(const FN(source_numbers) * source, const fst_kinds *kinds, REAL 
     }
     FST_SOURCES(LOOK)
 #undef LOOK
+    __builtin_unreachable();
+}
+
+/* B and G there. */
+static inline __attribute__((always_inline)) void FN(source_field)(const FN(source_numbers) * source,
+                                                                   const fst_kinds *kinds, REAL x, REAL y,
+                                                                   REAL b[3], FN(gradient) * g)
+{
+#define FIELD(NAME, name, doc)                                                                                 \
+    if (kinds->source == FST_MAGNET_##NAME) {                                                                  \
+        FN(name##_field)(&source->name, kinds, x, y, b, g);                                                    \
+        return;                                                                                                \
+    }
+    FST_SOURCES(FIELD)
+#undef FIELD
     __builtin_unreachable();
 }
 

@@ -1,0 +1,129 @@
+/* Real magnets in lanes: runs over blocks, turned blocks, dipoles and blocks seen from afar have the bits of
+ * single runs in the portable form; the fast forms make the same motion. */
+#include "physics.h"
+
+#include "lanes/final_states.h"
+
+enum { JOBS = 16 };
+
+/* Magnets of three kinds, which cannot share a batch: a bar, a row of turned blocks of which the outer ones are
+ * farther away than ten of their half diagonals from some beads, and a block with a sphere and a dipole. */
+static fst_params job_params(int i)
+{
+    fst_params p = bead_at(0.2 + 0.02 * i, i & 1 ? FST_DYNAMICS_FARAGO2020 : FST_DYNAMICS_RIGID);
+    p.run_periods = 1.0 + 0.1 * i;
+    p.run_discard = 0;
+    p.run_rtol = 1e-10;
+    p.magnet_shape = FST_MAGNET_PARTS;
+    fst_magnet_part *part = p.magnet_parts;
+    if (i % 3 == 0) {
+        p.magnet_part_count = 1;
+        part[0] = (fst_magnet_part){.kind = FST_PART_CUBOID, .size = {56e-3, 40e-3, 9e-3}, .remanence = {0.3}};
+    } else if (i % 3 == 1) {
+        p.magnet_part_count = 4;
+        for (int k = 0; k < 4; ++k)
+            part[k] = (fst_magnet_part){.kind = FST_PART_CUBOID,
+                                        .centre = {(k - 1.5) * 15e-3, 2e-3 * k, -3e-3},
+                                        .size = {4e-3, 3e-3, 5e-3},
+                                        .remanence = {1.2, 0.1, 0.5},
+                                        .rotation = {30.0 * k, 0.3, -1.0, 0.5}};
+    } else {
+        p.magnet_part_count = 3;
+        part[0] = (fst_magnet_part){.kind = FST_PART_CUBOID, .size = {30e-3, 20e-3, 9e-3}, .remanence = {0.4}};
+        part[1] = (fst_magnet_part){
+            .kind = FST_PART_SPHERE, .centre = {15e-3, 5e-3, 0}, .size = {8e-3}, .remanence = {0, 0, 1.1}};
+        part[2] =
+            (fst_magnet_part){.kind = FST_PART_DIPOLE, .centre = {-20e-3, 0, 0}, .moment = {0.2, 0.1, -0.3}};
+    }
+    return p;
+}
+
+typedef struct store {
+    int next;
+    fst_run_result results[JOBS];
+    fst_status statuses[JOBS];
+} store;
+
+static int next_job(void *user, fst_row_job *job)
+{
+    store *s = user;
+    if (s->next == JOBS)
+        return 0;
+    memset(job, 0, sizeof *job);
+    job->point = s->next++;
+    job->params = job_params((int)job->point);
+    return 1;
+}
+
+static int job_done(void *user, fst_row_job *job, fst_status status, const fst_run_result *result,
+                    const fst_error *error)
+{
+    (void)error;
+    store *s = user;
+    s->results[job->point] = *result;
+    s->statuses[job->point] = status;
+    return 0;
+}
+
+static void do_all(store *s, fst_arithmetic arithmetic, int lanes)
+{
+    memset(s, 0, sizeof *s);
+    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, NULL};
+    fst_error error = {FST_OK, "", ""};
+    if (fst_rows(&work, &error) != FST_OK)
+        fail_msg("fst_rows: %s", error.sentence);
+}
+
+static void single_runs(store *s)
+{
+    int moved = 0;
+    for (int i = 0; i < JOBS; ++i) {
+        const fst_params p = job_params(i);
+        const fst_run_options options = fst_default_run_options();
+        s->statuses[i] = fst_run(&p, &options, &s->results[i], NULL);
+        assert_int_equal(s->statuses[i], FST_OK);
+        moved += s->results[i].accepted > 30;
+    }
+    assert_true(moved > JOBS / 2);
+}
+
+static void test_portable_lanes(void **unused)
+{
+    (void)unused;
+    static store alone, beside;
+    single_runs(&alone);
+    for (int lanes = 4; lanes <= 8; lanes += 4) {
+        if (!fst_lane_engine_of(FST_ARITHMETIC_PORTABLE, lanes))
+            continue;
+        do_all(&beside, FST_ARITHMETIC_PORTABLE, lanes);
+        for (int i = 0; i < JOBS; ++i) {
+            assert_int_equal(beside.statuses[i], FST_OK);
+            assert_memory_equal(beside.results[i].final_state, alone.results[i].final_state,
+                                sizeof alone.results[i].final_state);
+        }
+    }
+}
+
+static void test_fast_lanes(void **unused)
+{
+    (void)unused;
+    static store alone, fast;
+    single_runs(&alone);
+    for (int form = FST_ARITHMETIC_AVX2; form <= FST_ARITHMETIC_AVX512; ++form) {
+        if (!fst_lane_engine_of((fst_arithmetic)form, 0))
+            continue;
+        do_all(&fast, (fst_arithmetic)form, 0);
+        for (int i = 0; i < JOBS; ++i) {
+            assert_int_equal(fast.results[i].regime, alone.results[i].regime);
+            for (int k = 0; k < FST_STATE_SIZE; ++k)
+                CHECK_CLOSE(fast.results[i].final_state[k], alone.results[i].final_state[k], 1e-6);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_portable_lanes),
+                                       cmocka_unit_test(test_fast_lanes)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
