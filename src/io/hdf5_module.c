@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "io/hdf5_driver.h"
+#include "io/hdf5_session.h"
 
 /* Rows in a chunk.  One chunk is held in memory, so memory does not grow with the trajectory. */
 #define CHUNK 4096
@@ -430,23 +431,38 @@ static fst_status load(const char *path, fst_hdf5_disk *disk, fst_error *error)
     return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason));
 }
 
+fst_status fst_hdf5_session_begin(const char *path, fst_hdf5_session *session, fst_error *error)
+{
+    const fst_status status = load(path, &session->disk, error);
+    if (status != FST_OK)
+        return status;
+    const quiet before = be_quiet();
+    session->told = before.function;
+    session->told_data = before.data;
+    session->access = fst_hdf5_access(&session->disk);
+    session->file = session->access >= 0 ? H5Fopen(path, H5F_ACC_RDONLY, session->access) : -1;
+    return FST_OK;
+}
+
+void fst_hdf5_session_end(fst_hdf5_session *session)
+{
+    if (session->file >= 0)
+        (void)H5Fclose(session->file);
+    if (session->access >= 0)
+        (void)H5Pclose(session->access);
+    be_as_before((quiet){session->told, session->told_data});
+    fst_hdf5_forget(&session->disk);
+}
+
 static fst_status read_all(const char *path, const fst_column_info *const *columns, int needed, int count,
                            double **data, size_t *rows, char **scene, int *complete, fst_error *error)
 {
-    fst_hdf5_disk disk;
-    fst_status status = load(path, &disk, error);
+    fst_hdf5_session session;
+    fst_status status = fst_hdf5_session_begin(path, &session, error);
     if (status != FST_OK)
         return status;
-    quiet before = be_quiet();
-    const hid_t access = fst_hdf5_access(&disk);
-    const hid_t file = access >= 0 ? H5Fopen(path, H5F_ACC_RDONLY, access) : -1;
-    status = read_file(file, path, columns, needed, count, data, rows, scene, complete, error);
-    if (file >= 0)
-        (void)H5Fclose(file);
-    if (access >= 0)
-        (void)H5Pclose(access);
-    be_as_before(before);
-    fst_hdf5_forget(&disk);
+    status = read_file(session.file, path, columns, needed, count, data, rows, scene, complete, error);
+    fst_hdf5_session_end(&session);
     return status;
 }
 
@@ -458,4 +474,5 @@ const fst_hdf5_module_table fst_hdf5_module = {
     .finish = finish,
     .abandon = abandon,
     .read = read_all,
+    .read_map = fst_hdf5_read_map,
 };

@@ -417,14 +417,39 @@ fst_status fst_scene_parse(const char *text, size_t size, const char *name, fst_
 
 /* ---------------------------------------------------------------- the file */
 
+/* A path in a scene begins at the scene's folder. */
+static fst_status begin_at_scene(const char *path, char file[sizeof((fst_params *)NULL)->magnet_file],
+                                 fst_error *error)
+{
+    const char *slash = strrchr(path, '/');
+    char joined[sizeof((fst_params *)NULL)->magnet_file];
+    if (!file[0] || file[0] == '/' || !slash)
+        return FST_OK;
+    const int length = snprintf(joined, sizeof joined, "%.*s/%s", (int)(slash - path), path, file);
+    if (length < 0 || (size_t)length >= sizeof joined)
+        return fst_fail(error, FST_BAD_INPUT, path,
+                        "magnet.file and the scene's folder make a path of more than %zu bytes: move the file",
+                        sizeof joined - 1);
+    memcpy(file, joined, sizeof joined);
+    return FST_OK;
+}
+
 fst_status fst_scene_read(const char *path, fst_params *params, fst_error *error)
 {
     char *text;
     size_t size;
+    fst_params changed = *params;
     fst_status status = fst_read_regular(path, FST_SCENE_SIZE_LIMIT, &text, &size, error);
     if (status != FST_OK)
         return status;
-    status = fst_scene_parse(text, size, path, params, error);
+    changed.magnet_file[0] = '\0';
+    status = fst_scene_parse(text, size, path, &changed, error);
     free(text);
+    if (status == FST_OK && !changed.magnet_file[0])
+        memcpy(changed.magnet_file, params->magnet_file, sizeof changed.magnet_file);
+    else if (status == FST_OK)
+        status = begin_at_scene(path, changed.magnet_file, error);
+    if (status == FST_OK)
+        *params = changed;
     return status;
 }

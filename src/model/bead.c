@@ -11,7 +11,7 @@ static const double USUAL_REMANENCE = 1.2;
 
 int fst_magnet_in_tesla(const fst_params *p)
 {
-    return p->magnet_shape == FST_MAGNET_PARTS;
+    return p->magnet_shape == FST_MAGNET_PARTS || p->magnet_shape == FST_MAGNET_GRID;
 }
 
 /* R in m: of a scaled bead, model.eps, R/l tells it. */

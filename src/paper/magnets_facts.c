@@ -6,10 +6,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { APART, SPREAD, REMANENCE, HALVING };
+enum { APART, REMANENCE, SPREAD, HALVING, BELL = FST_MAGNET_FACTS - 1 };
 
-/* What the field decides, and the halving of the period. */
-static const fst_statement own_facts[FST_MAGNET_FIELD_FACTS] = {
+/* What the field decides, and the halving of the period; then what is read off as in the chapter on dry
+ * friction. */
+static const fst_statement facts[FST_MAGNET_FACTS] = {
     [APART] = {.id = "magnet-maxima",
                .section = "IV (modelling)",
                .text = "Distance of the two maxima of the field, at the height of the bead's centre",
@@ -18,15 +19,6 @@ static const fst_statement own_facts[FST_MAGNET_FIELD_FACTS] = {
                .unit = "mm",
                .digits = 1,
                .rule = FST_RULE_NUMBER},
-    [SPREAD] = {.id = "magnet-spread",
-                .section = "V A (4-fold counter-rotation)",
-                .text = "Standard deviation of the field's strength along the path at 10.7 Hz (of the paper's "
-                        "simulation)",
-                .published = 13.0,
-                .scale = 1.0,
-                .unit = "%",
-                .digits = 1,
-                .rule = FST_RULE_AT_MOST},
     [REMANENCE] = {.id = "magnet-remanence",
                    .section = "IV B (numerical simulations)",
                    .text = "Remanence with which κ = 1.5 and a bead of 1.2 T give this greatest field",
@@ -35,23 +27,79 @@ static const fst_statement own_facts[FST_MAGNET_FIELD_FACTS] = {
                    .unit = "T",
                    .digits = 3,
                    .rule = FST_RULE_NUMBER},
+    [SPREAD] = {.id = "magnet-spread",
+                .section = "V A (4-fold counter-rotation)",
+                .text = "Spread of the field's strength along the path, 10.7 Hz (the paper's simulation)",
+                .published = 13.0,
+                .scale = 1.0,
+                .unit = "%",
+                .digits = 1,
+                .rule = FST_RULE_AT_MOST},
     [HALVING] = {.id = "magnet-halving",
                  .section = "V C (order of the patterns)",
-                 .text = "The period halves, S1 to S2, at about (halfway between two runs)",
+                 .text = "The period halves at about (halfway between two runs)",
                  .published = 14.4,
                  .scale = 1.0,
                  .unit = "Hz",
                  .digits = 1,
-                 .rule = FST_RULE_NUMBER}};
+                 .rule = FST_RULE_NUMBER},
+    [FST_MAGNET_FIELD_FACTS + 0] = {.id = "corotation",
+                                    .section = "III (experiments)",
+                                    .text = "From rest, goes round with the magnet up to about",
+                                    .published = 7.0,
+                                    .scale = 1.0,
+                                    .unit = "Hz",
+                                    .digits = 2,
+                                    .rule = FST_RULE_NUMBER},
+    [FST_MAGNET_FIELD_FACTS + 1] = {.id = "ejection",
+                                    .section = "III (experiments)",
+                                    .text = "Leaves the plate, 7 to 10 Hz (share of the runs)",
+                                    .published = NAN,
+                                    .scale = 100.0,
+                                    .unit = "%",
+                                    .digits = 0,
+                                    .rule = FST_RULE_MOSTLY},
+    [FST_MAGNET_FIELD_FACTS + 2] = {.id = "onset",
+                                    .section = "III (experiments)",
+                                    .text = "Circles against the magnet in all runs from about",
+                                    .published = 10.0,
+                                    .scale = 1.0,
+                                    .unit = "Hz",
+                                    .digits = 1,
+                                    .rule = FST_RULE_NUMBER},
+    [FST_MAGNET_FIELD_FACTS + 3] = {.id = "four",
+                                    .section = "III (experiments)",
+                                    .text = "Festoons, 10.7 Hz",
+                                    .published = 4.0,
+                                    .scale = 1.0,
+                                    .unit = "",
+                                    .digits = 2,
+                                    .rule = FST_RULE_NUMBER},
+    [FST_MAGNET_FIELD_FACTS + 4] = {.id = "many",
+                                    .section = "III (experiments)",
+                                    .text = "Festoons, 19.9 Hz (15: the paper's simulation)",
+                                    .published = 15.0,
+                                    .scale = 1.0,
+                                    .unit = "",
+                                    .digits = 2,
+                                    .rule = FST_RULE_NUMBER},
+    [BELL] = {.id = "bell",
+              .section = "III (experiments)",
+              .text = "Circles most slowly at",
+              .published = 16.0,
+              .scale = 1.0,
+              .unit = "Hz",
+              .digits = 1,
+              .rule = FST_RULE_NUMBER},
+};
 
-/* Which facts of the chapter on dry friction are told of magnets too. */
+/* Of these, which fact of that chapter each is. */
 static const fst_dry_fact_id of_motion[FST_MAGNET_FACTS - FST_MAGNET_FIELD_FACTS] = {
     FST_FACT_COROTATION, FST_FACT_EJECTION, FST_FACT_ONSET, FST_FACT_FOUR, FST_FACT_MANY, FST_FACT_BELL};
 
 const fst_statement *fst_magnet_fact_about(int fact)
 {
-    return fact < FST_MAGNET_FIELD_FACTS ? &own_facts[fact]
-                                         : &fst_dry_facts[of_motion[fact - FST_MAGNET_FIELD_FACTS]];
+    return &facts[fact];
 }
 
 const char *fst_magnet_law_name(int law)
@@ -88,6 +136,13 @@ static double spread_of(const fst_run_result *result)
     return result ? 100.0 * result->std_b / result->mean_b : NAN;
 }
 
+/* The slowest drive; NAN where it is the first or the last one, beyond which a slower one may lie. */
+static double bell_of(const fst_paper_run *runs)
+{
+    const double slowest = fst_dry_fact_of(runs, FST_MAGNET_RUNS, FST_FACT_BELL);
+    return slowest > 10.0 && slowest < fst_magnet_drive(FST_MAGNET_ROLLING - 1) ? slowest : NAN;
+}
+
 double fst_magnet_fact(const fst_paper_state *paper, int fact, int magnet, int law)
 {
     const fst_magnet_column *column = &paper->magnets->of[magnet];
@@ -101,6 +156,8 @@ double fst_magnet_fact(const fst_paper_state *paper, int fact, int magnet, int l
         return spread_of(settled_at(runs, 10.7));
     case HALVING:
         return halving_of(runs);
+    case BELL:
+        return bell_of(runs);
     default:
         return fst_dry_fact_of(runs, FST_MAGNET_RUNS, of_motion[fact - FST_MAGNET_FIELD_FACTS]);
     }
