@@ -140,7 +140,7 @@ static int is_known(const fst_model *model, const double at[2])
 static fst_status check_outside(const fst_params *params, const double at[2], double height, fst_error *error)
 {
     const double l = params->magnet_half_length, place[3] = {l * at[0], l * at[1], l * height};
-    const int part = params->magnet_shape == FST_MAGNET_PARTS ? fst_part_at(params, place) : -1;
+    const int part = params->magnet_shape == FST_MAGNET_PARTS ? fst_part_touched(params, place, 0.0) : -1;
     if (part < 0)
         return FST_OK;
     char key[48], kind[32];

@@ -162,6 +162,11 @@ static int moment_given(const fst_params *params)
     return !isnan(params->bead_moment) || !isnan(params->bead_remanence);
 }
 
+int fst_magnet_in_tesla(const fst_params *p)
+{
+    return p->magnet_shape == FST_MAGNET_PARTS || p->magnet_shape == FST_MAGNET_GRID;
+}
+
 int fst_kappa_given(const fst_params *params)
 {
     return params->model_kappa_given || params->model_kappa != rows[fst_param_find("model.kappa")].initial;
