@@ -23,7 +23,7 @@ async function bundle(entry, define) {
 
 const wasm = readFileSync(library), core = await Core.open(new WebAssembly.Module(wasm));
 const worker = await bundle("worker.js", {});
-const script = await bundle("main.js", { WORKER_SOURCE: JSON.stringify(worker) });
+const loader = await bundle("loader.js", {}), script = await bundle("main.js", { WORKER_SOURCE: JSON.stringify(worker) });
 /* The licence of three asks that copies carry it. */
 const licence = readFileSync(join(here, "node_modules", "three", "LICENSE"), "utf8").replace(/--+>?/g, "-").trim();
 const parts = {
@@ -31,8 +31,9 @@ const parts = {
     STYLE: readFileSync(join(here, "style.css"), "utf8").replace(/\/\*.*?\*\//gs, "").replace(/\s+/g, " "),
     STAMP: `festoon ${core.version}, results version ${core.resultsVersion}`,
     WASM: gzipSync(wasm, { level: 9 }).toString("base64"),
-    SCRIPT_HASH: `sha256-${createHash("sha256").update(script).digest("base64")}`,
-    SCRIPT: script,
+    SCRIPT_HASH: `sha256-${createHash("sha256").update(loader).digest("base64")}`,
+    PROGRAM: gzipSync(script, { level: 9 }).toString("base64"),
+    LOADER: loader,
 };
 const whole = readFileSync(join(here, "page.html"), "utf8").replace(/%([A-Z_]+)%/g, (all, name) => parts[name] ?? all);
 if (Buffer.byteLength(whole) > MOST_BYTES) {

@@ -117,8 +117,8 @@ EXPORT(lab_param_text) const char *lab_param_text(int index, int which)
 {
     const fst_param_info *info = fst_param_at(index);
     const char *texts[] = {info->key,
-                           info->kind == FST_KIND_CHOICE ? "" : fst_unit_name(info->unit),
-                           info->kind == FST_KIND_CHOICE ? "" : fst_unit_accepted(info->unit),
+                           info->kind >= FST_KIND_CHOICE ? "" : fst_unit_name(info->unit),
+                           info->kind >= FST_KIND_CHOICE ? "" : fst_unit_accepted(info->unit),
                            info->names,
                            info->doc,
                            fst_param_other_form(info->key)};

@@ -40,6 +40,8 @@ class Tables:
             key = self.text(row.key)
             if row.kind == self.lib.FST_KIND_CHOICE:
                 unit, kind = self.text(row.names).replace("|", ", "), "str"
+            elif row.kind == self.lib.FST_KIND_TEXT:
+                unit, kind = "", "str"
             else:
                 unit = self.text(self.lib.fst_unit_name(row.unit))
                 kind = "int" if row.kind == self.lib.FST_KIND_INT else "float"
@@ -76,7 +78,7 @@ def write_parameters(tables, out):
     out.write(f"        def replace(\n            self: Self,\n            *,\n{keywords}        ) -> Self: ...\n\n")
     for key, kind, unit, doc in tables.parameters():
         out.write(f"    @property\n    def {key.replace('.', '__')}(self) -> Optional[{kind}]:\n")
-        out.write(docstring(f"{doc} [{unit}]", 8))
+        out.write(docstring(f"{doc} [{unit}]" if unit else doc, 8))
         out.write(f"        return self._parameter({key!r})  # type: ignore[no-any-return]\n\n")
     out.write("\n")
 

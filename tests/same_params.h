@@ -12,7 +12,9 @@ static inline void check_same_params(const fst_params *actual, const fst_params 
     assert_int_equal(actual->magnet_part_count, expected->magnet_part_count);
     for (int i = 0; i < fst_params_row_count(expected); i++) {
         const fst_param_info *info = fst_param_at(i);
-        const size_t size = info->kind == FST_KIND_REAL ? sizeof(double) : sizeof(int);
+        const size_t size = info->kind == FST_KIND_REAL   ? sizeof(double)
+                            : info->kind == FST_KIND_TEXT ? (size_t)info->greatest + 1
+                                                          : sizeof(int);
         if (memcmp((const char *)actual + info->offset, (const char *)expected + info->offset, size) != 0)
             fail_msg("%s differs", info->key);
     }

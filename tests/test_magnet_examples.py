@@ -39,7 +39,7 @@ def answer(*arguments):
 
 class Scenes(unittest.TestCase):
     def test_each_checks_and_runs(self):
-        self.assertGreaterEqual(len(SCENES), 9)
+        self.assertGreaterEqual(len(SCENES), 10)
         for scene in SCENES:
             with self.subTest(scene=scene):
                 path = f"examples/magnets/{scene}"
@@ -72,6 +72,14 @@ class Fields(unittest.TestCase):
         made = subprocess.run([sys.executable, "-B", str(MAGNETS / "measured-map.py")], capture_output=True, text=True,
                               check=True).stdout
         self.assertEqual(made.splitlines(), (MAGNETS / "measured-map.csv").read_text().splitlines())
+
+    def test_the_map_tells_the_field_between_its_points(self):
+        """At a place between the points of the grid: the maker's own field there, within the probe's noise."""
+        x, y = 16.4, -4.7
+        shown = answer("field", "examples/magnets/measured-map.yaml", "--at", f"{x}mm,{y}mm", "--units", "si")
+        expected = maker.field(maker.charges(), x, y, maker.HEIGHT)
+        for value, mt in zip(shown["b_tesla"], expected):
+            self.assertAlmostEqual(1e3 * value, mt, delta=4 * maker.NOISE)
 
     def test_the_bar_is_two_charged_ends(self):
         """|B| at the bead's centre by Gauss's rule over both ends, and the maxima 53 mm apart, not 41."""

@@ -445,10 +445,10 @@ static void parts_are_seen(void **state)
     p.magnet_parts[0] = part;
     const double within[3] = {0.01, 0.009, 0.0105}, above[3] = {0.01, 0.009, 0.0107},
                  beside[3] = {0.01, 0.011, 0.0};
-    assert_int_equal(fst_part_at(&p, (const double[3]){0.01, 0.009, 0.0070}), 0);
-    assert_int_equal(fst_part_at(&p, within), -1); /* over the edge of the turned block */
-    assert_int_equal(fst_part_at(&p, above), -1);
-    assert_int_equal(fst_part_at(&p, beside), -1);
+    assert_int_equal(fst_part_touched(&p, (const double[3]){0.01, 0.009, 0.0070}, 0), 0);
+    assert_int_equal(fst_part_touched(&p, within, 0), -1); /* over the edge of the turned block */
+    assert_int_equal(fst_part_touched(&p, above, 0), -1);
+    assert_int_equal(fst_part_touched(&p, beside, 0), -1);
     part = (fst_magnet_part){.kind = FST_PART_SPHERE, .size = {0.02}, .rotation = {30, 0, 1, 0}};
     seen = fst_part_seen(&part);
     assert_int_equal(seen.count, FST_OUTLINE_MOST);

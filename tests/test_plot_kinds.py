@@ -244,7 +244,7 @@ class LaboratoryFiles(Case):
 
     def test_what_is_refused(self):
         path = self.folder / "c.csv"
-        for wanted, words in (("--csv", ["--fps", "3"]), ("--csv", ["--units", "lab"]),
+        for wanted, words in (("--csv", ["--fps", "3"]), ("nearest is lab", ["--units", "labs"]),
                               ("0.01", ["--csv", path, "--fps", "0"]), ("number", ["--csv", path, "--fps", "x"]),
                               ("nearest is si", ["--csv", path, "--units", "SI"])):
             status, _, messages = run("run", "--set", "run.periods=3", "--set", "run.discard=1", *words)

@@ -78,10 +78,15 @@ class Keys(Over):
         for key in numbers:
             with self.subTest(key=key):
                 self.check_real(key)
+        for key in (key for key, row in keys.items() if row["kind"] == "text"):
+            self.says(f"{key} is a text", f"{key}=a,b")
+        field_map = self.path("map.csv")  # for the shape grid, with the height and within the reach of the default bead
+        self.good("field", "--set", "magnet.b0=10mT", "--csv", field_map, "--radius", "60mm", "--spacing", "5mm")
         for key, row in keys.items():
             if row["names"]:
                 with self.subTest(key=key):
-                    rows = self.table(f"{key}=" + ",".join(row["names"]), sets=NEEDS.get(key, []))
+                    given = [f"magnet.file={field_map}"] if key == "magnet.shape" else []
+                    rows = self.table(f"{key}=" + ",".join(row["names"]), sets=NEEDS.get(key, []) + given)
                     self.assertEqual([found[key] for found in rows], row["names"])
                     self.assertEqual({found["status"] for found in rows}, {"done"})
                     self.says("is a choice", f"{key}={row['names'][0]}:{row['names'][-1]}:2")

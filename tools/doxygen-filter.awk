@@ -65,7 +65,10 @@ function put_field(row,    words, strings, count, kind, name, i, doc)
         doc = rows_of("FST_SOURCES")
     if (row ~ /FST_CONTACT_DOCS/)
         doc = rows_of("FST_CONTACTS")
-    print (kind == "FST_REAL" || kind == "FST_RESULT" ? "double " : "int ") name "; /**< " plain(doc) " */"
+    if (kind == "FST_TEXT")
+        print "char " name "[" words[4] "]; /**< " plain(doc) " */"
+    else
+        print (kind == "FST_REAL" || kind == "FST_RESULT" ? "double " : "int ") name "; /**< " plain(doc) " */"
 }
 
 function put_table(file,    line, row)

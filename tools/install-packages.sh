@@ -14,7 +14,7 @@ demo_packages="$build_packages gnuplot-nox fonts-dejavu-core"
 # The Python module; its tests need the second line too.
 python_packages="python3-dev python3-cffi python3-numpy"
 python_test_packages="$python_packages python3-pytest python3-matplotlib python3-pandas python3-xarray"
-test_packages="$demo_packages $python_test_packages g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
+test_packages="$demo_packages $python_test_packages python3-h5py g++ libcmocka-dev libsundials-dev python3 auto-07p ffmpeg openmpi-bin"
 # The page of the lab.  Where node and npm are there already, from wherever they came, they serve.
 lab_packages="$build_packages clang-14 lld-14 wasi-libc libclang-rt-14-dev-wasm32 binaryen"
 for program in node npm; do

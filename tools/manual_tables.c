@@ -34,6 +34,8 @@ static void put_range(const fst_params *defaults, int index)
     (void)fst_params_get(defaults, index, initial, sizeof initial);
     if (row->kind == FST_KIND_CHOICE) {
         put_text(row->names);
+    } else if (row->kind == FST_KIND_TEXT) {
+        put_text("a text");
     } else {
         if (row->kind == FST_KIND_REAL && row->unit != FST_UNIT_NUMBER) {
             put_text(fst_unit_name(row->unit));

@@ -140,6 +140,8 @@ typedef struct fst_magnet_part {
 
 enum { FST_PARTS_MAX = 16 };
 
+typedef struct fst_field_map fst_field_map; /* of magnet.shape: grid (field_maps.h) */
+
 /* A setup in SI units: what a scene says.  Get one from fst_default_params(), change fields, and make a model
  * of it.  A field that is NAN was not given and follows from others; params.def says how. */
 typedef struct fst_params {
@@ -147,10 +149,15 @@ typedef struct fst_params {
 #define FST_REAL(group, name, unit, initial, least, greatest, doc) double group##_##name;
 #define FST_INT(group, name, initial, least, greatest, doc) int group##_##name;
 #define FST_CHOICE(group, name, names, initial, doc) int group##_##name;
+#define FST_TEXT(group, name, room, doc) char group##_##name[room];
 #include <festoon/params.def>
 #undef FST_REAL
 #undef FST_INT
 #undef FST_CHOICE
+#undef FST_TEXT
+    /* The map of magnet.file.  It is borrowed: it stays its owner's, who keeps it as long as these parameters,
+     * or copies of them, are used. */
+    const fst_field_map *magnet_map;
     int magnet_part_count; /* of magnet.shape: parts */
     fst_magnet_part magnet_parts[FST_PARTS_MAX];
     int model_kappa_given; /* beside a real magnet, where model.kappa counts only if it was given: whether it
@@ -160,22 +167,26 @@ typedef struct fst_params {
 /* How far a place in the magnet's frame is from a part, m; 0 inside it and on its surface. */
 FST_API double fst_part_distance(const fst_magnet_part *part, const double place[3]);
 
-/* The first part that a ball of this radius about the place touches; -1 if none. */
+/* The first part that a ball of this radius about the place touches; -1 if none.  With radius 0: the part in or
+ * on which the place lies, where the magnet's field is not computed. */
 FST_API int fst_part_touched(const fst_params *params, const double place[3], double radius);
 
 /* The paper's bead at 10.7 Hz with the dynamics `rigid`. */
 FST_API fst_params fst_default_params(void);
 
-typedef enum { FST_KIND_REAL, FST_KIND_INT, FST_KIND_CHOICE } fst_param_kind;
+typedef enum { FST_KIND_REAL, FST_KIND_INT, FST_KIND_CHOICE, FST_KIND_TEXT } fst_param_kind;
+
+/* Room for the text of any parameter, with the zero behind it. */
+enum { FST_PARAM_TEXT_SIZE = 256 };
 
 /* One row of params.def, or of a part of the magnet. */
 typedef struct fst_param_info {
     const char *key; /* "bead.radius" */
     fst_param_kind kind;
     fst_unit unit;
-    const char *names; /* of a choice, "rigid|farago2020"; otherwise NULL */
-    double initial;    /* default, in SI; NAN: not given; of a choice: its index */
-    double least, greatest;
+    const char *names;      /* of a choice, "rigid|farago2020"; otherwise NULL */
+    double initial;         /* default, in SI; NAN: not given; of a choice: its index */
+    double least, greatest; /* of a text: its length */
     const char *doc;
     size_t offset; /* of the field in fst_params */
 } fst_param_info;
@@ -207,9 +218,10 @@ FST_API fst_status fst_parse_value(const char *text, fst_unit unit, double *valu
 
 /* Set one parameter from text: checks key, unit and range, and clears the other form of the same quantity
  * (drive.omega and drive.frequency, model.eps and bead.radius, model.h and magnet.depth, model.lambda and
- * magnet.width, model.kappa and magnet.b0, bead.density and bead.mass, bead.remanence and bead.moment).  The
- * key magnet.parts[N].kind of the part behind the last one adds a part.  FST_BAD_INPUT: the sentence names the
- * nearest valid key, the units, or the range. */
+ * magnet.width, model.kappa and magnet.b0, bead.density and bead.mass, bead.remanence and bead.moment).
+ * Another magnet.file takes magnet.checksum and the map away.  The key magnet.parts[N].kind of the part behind
+ * the last one adds a part.  FST_BAD_INPUT: the sentence names the nearest valid key, the units, or the range.
+ */
 FST_API fst_status fst_params_set(fst_params *params, const char *key, const char *text, fst_error *error);
 
 /* The drive periods that a run leaves out of its means: run.discard; but the first half of a run that is no
@@ -236,10 +248,6 @@ typedef struct fst_part_shape {
     double magnetisation[3];
 } fst_part_shape;
 FST_API fst_part_shape fst_part_seen(const fst_magnet_part *part);
-
-/* The part of the magnet in or on which a place lies (m, in the magnet's frame), where its field is not
- * computed; -1: none. */
-FST_API int fst_part_at(const fst_params *params, const double place[3]);
 
 /* Whether the bead's mass and radius contradict any material: the density is outside 1000 to 23000 kg/m^3, or
  * the radius was changed while mass and magnetic strength (kappa) are those of the default bead.  Returns 0 if
@@ -290,6 +298,7 @@ typedef struct fst_groups {
     double omega;   /* drive */
     double gravity; /* g/(l gamma^2) */
     double plate_radius;
+    double map_radius; /* of the disc about the axis that the map of magnet.file covers; infinite without map */
     int lines;
     fst_magnet_shape shape;
     fst_material material;
@@ -312,7 +321,7 @@ FST_API fst_groups fst_model_groups(const fst_model *model);
 
 /* A model of which only the field is asked, with a bead's force and load in it, at the height `height` (l) over
  * the magnet's reference plane instead of that of a bead on the plate.  It may lie below the plate, beside
- * parts of the magnet; inside of one, which fst_part_at() finds, the field means nothing. */
+ * parts of the magnet; inside of one, which fst_part_touched() finds, the field means nothing. */
 FST_API fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model,
                                        fst_error *error);
 
@@ -325,7 +334,8 @@ FST_API fst_status fst_start_state(const fst_params *params, const fst_model *mo
                                    double state[FST_STATE_SIZE], fst_error *error);
 
 /* The magnet's field at the height of the bead's centre, in the magnet's frame: b[3], grad[i][j] = dB_i/dx_j
- * (symmetric, traceless), scaled.  Paper, section IV: lines of dipoles, each two point charges, Eq. (11). */
+ * (traceless, and symmetric but for the curl that a measured field has), scaled; NAN beyond the samples of a
+ * map.  Paper, section IV: lines of dipoles, each two point charges, Eq. (11). */
 FST_API void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3]);
 
 /* The magnetic force per mass (l gamma^2) on a bead there whose moment lies along the field, and the load on a
@@ -603,6 +613,7 @@ FST_API fst_status fst_rows_with_images(const fst_row_work *work, const fst_row_
 }
 #endif
 
+#include <festoon/field_maps.h>
 #include <festoon/orbits.h>
 
 #endif

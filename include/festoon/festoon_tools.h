@@ -37,6 +37,26 @@ FST_API char *fst_scene_text(const fst_params *params, int commented);
 FST_API fst_status fst_scene_write(const char *path, const fst_params *params, int commented, int overwrite,
                                    fst_error *error);
 
+/* ------------------------------------------------------------------ maps of a field */
+
+/* Read a map of the field; fst_field_map_free() it.  The ending of the name is that of the format,
+ * docs/magnets.md describes them.  `checksum` receives 16 hexadecimal digits that belong to the file's content.
+ * FST_BAD_INPUT: no such file, a hole, a sample twice, unequal spacing, a unit or a number that is none; the
+ * error says where. */
+FST_API fst_status fst_field_map_read(const char *path, const fst_progress *progress, fst_field_map **map,
+                                      char checksum[17], fst_error *error);
+
+/* Read the map that magnet.file names, if it names one, and let the parameters use it.  They borrow it: free
+ * *map (NULL: no map was wanted) when neither they nor copies of them are used any more.  FST_BAD_INPUT: as
+ * above, or magnet.checksum is that of another content. */
+FST_API fst_status fst_params_read_map(fst_params *params, const fst_progress *progress, fst_field_map **map,
+                                       fst_error *error);
+
+/* Write a map of a model's field as CSV: a square grid of steps of `spacing`, out to `radius` from the axis
+ * along X and Y (both in m), at the height of the bead's centre.  fst_field_map_read() reads it back. */
+FST_API fst_status fst_field_map_write(const char *path, const fst_model *model, double radius, double spacing,
+                                       const fst_progress *progress, fst_error *error);
+
 /* ------------------------------------------------------------------ JSON */
 
 /* One JSON document each: 17 significant digits, undefined numbers null, a newline at the end; free() it.
@@ -141,6 +161,7 @@ typedef struct fst_table {
     double **columns;
     fst_params params; /* the scene that made it */
     int complete;
+    fst_field_map *map; /* of that scene; NULL: it has none, or the map's file is gone or has changed */
 } fst_table;
 /* FST_BAD_INPUT: no trajectory, cut off, damaged, or with a number that is not finite.  FST_NO_MEMORY: HDF5
  * files are read into memory as a whole, if they take no more than half of it. */

@@ -45,7 +45,7 @@ export class Controls {
     build(main, others) {
         const groups = new Map();
         for (const row of this.core.parameters) {
-            if (HIDDEN.has(row.key))
+            if (HIDDEN.has(row.key) || row.kind === "text") // a page reads no files
                 continue;
             const made = this.row(row);
             if (MAIN.includes(row.key)) {

@@ -19,7 +19,7 @@ export const COLUMNS = columns;
 
 const GROUP_NAMES = ["eps", "h", "lambda", "kappa", "a", "b", "omega", "gravity", "plate_radius", "length_unit_m",
     "time_unit_s", "mass_kg", "field_unit_t", "lines"];
-const KINDS = ["real", "integer", "choice"];
+const KINDS = ["real", "integer", "choice", "text"];
 
 /* An error of the library: `where` names a key or a time, `message` is its sentence. */
 export class FestoonError extends Error {
@@ -195,7 +195,7 @@ export class Core {
     scene() {
         const scene = Object.fromEntries(this.parameters.map((row) => {
             const text = this.get(row.key);
-            return [row.key, text === "" ? null : row.kind === "choice" ? text : number(this.value(row.key))];
+            return [row.key, text === "" ? null : row.kind === "choice" || row.kind === "text" ? text : number(this.value(row.key))];
         }));
         const parts = this.parts();
         return parts.length ? { ...scene, "magnet.parts": parts } : scene;

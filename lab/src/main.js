@@ -18,14 +18,6 @@ const ROOM = 6000, RAMP_SECONDS = 5, RUN_DELAY = 350, TURNS = 7;
 const SLOWS = [1, 1.5, 2, 3, 4, 5, 7, 10, 13, 16, 20, 25, 30, 40, 50, 60, 70, 80, 100, 120, 140, 160, 180, 200];
 const $ = (id) => document.getElementById(id);
 
-/* Bytes of the library: gzip in base64, once in the page. */
-async function libraryModule() {
-    const text = atob($("library").textContent.trim());
-    const bytes = Uint8Array.from(text, (c) => c.charCodeAt(0));
-    const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-    return WebAssembly.compile(await new Response(stream).arrayBuffer());
-}
-
 class Lab {
     constructor(core, pool) {
         this.core = core;
@@ -351,7 +343,7 @@ class Lab {
 }
 
 async function begin() {
-    const module = await libraryModule(), core = await Core.open(module);
+    const module = await WebAssembly.compile(await window.festoonUnpack("library").arrayBuffer()), core = await Core.open(module);
     const address = URL.createObjectURL(new Blob([WORKER_SOURCE], { type: "text/javascript" }));
     const threads = Math.max(1, Math.min(8, (navigator.hardwareConcurrency || 2) - 1));
     const pool = new Pool(module, address, threads), lab = new Lab(core, pool);
@@ -401,8 +393,4 @@ async function begin() {
     return window.festoonLab;
 }
 
-window.festoonLab = {};
-window.festoonLab.ready = begin();
-window.festoonLab.ready.catch((error) => {
-    $("notice").textContent = `The page could not begin: ${error.message}`;
-});
+window.festoonLab.begin = begin; /* loader.js calls it */

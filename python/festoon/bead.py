@@ -125,6 +125,9 @@ class Bead(Parameters):
                 self._set_parts(value)
             else:
                 call(lib.fst_params_set, self._params, key.encode(), value_text(value).encode())
+        field_map = ffi.new("fst_field_map **")  # of magnet.file
+        call(lib.fst_params_read_map, self._params, ffi.NULL, field_map)
+        self._map = ffi.gc(field_map[0], lib.fst_field_map_free) if field_map[0] else None
         model = ffi.new("fst_model **")
         call(lib.fst_model_new, self._params, model)
         self._model = ffi.gc(model[0], lib.fst_model_free)
@@ -200,6 +203,8 @@ class Bead(Parameters):
     def _parameter(self, key: str) -> Any:
         kind, unit, _ = PARAMETERS[key]
         value = getattr(self._params, key.replace(".", "_"))
+        if kind == "str" and not unit:
+            return text_of(value) or None
         if kind == "str":
             return unit.split(", ")[value]
         if kind == "int":

@@ -4,7 +4,9 @@
 
 #include <math.h>
 
-#include "base/constants.h"
+#include "base/real_double.h"
+
+#include "base/elementary.inl"
 
 /* Taylor's series for |x| <= pi/4; the first term left out is below 2^-64 of the result. */
 static double sine_series(double x)
@@ -52,42 +54,11 @@ void fst_sin_cos_degrees(double degrees, double *sine, double *cosine)
     }
 }
 
-/* atan(i/8), i from 0 to 8. */
-static const double EIGHTHS[] = {0.0,
-                                 0.12435499454676144,
-                                 0.24497866312686414,
-                                 0.35877067027057225,
-                                 0.4636476090008061,
-                                 0.5585993153435624,
-                                 0.6435011087932844,
-                                 0.7188299996216245,
-                                 0.7853981633974483};
-
-/* The angle of (x, y), 0 <= y <= x: that of the nearest eighth, and Taylor's series for the rest z <= 1/16. */
-static double angle_below_45(double y, double x)
-{
-    static const double c[] = {-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
-    const int i = (int)(8.0 * (y / x) + 0.5);
-    const double eighths = i / 8.0, z = (y - eighths * x) / (x + eighths * y), z2 = z * z;
-    double sum = 0.0;
-    for (int k = 6; k >= 0; --k)
-        sum = (sum + c[k]) * z2;
-    return EIGHTHS[i] + (z + z * sum);
-}
-
 double fst_atan2(double y, double x)
 {
     if (isnan(x) || isnan(y))
         return x + y;
-    const double across = fabs(y), along = fabs(x);
-    double angle = 0.0;
-    if (across > along)
-        angle = 0.5 * FST_PI - angle_below_45(along, across);
-    else if (along > 0)
-        angle = angle_below_45(across, along);
-    if (signbit(x))
-        angle = FST_PI - angle;
-    return copysign(angle, y);
+    return copysign(fst_angle_double(fabs(y), x), y);
 }
 
 double fst_asin(double x)
@@ -95,20 +66,7 @@ double fst_asin(double x)
     return fst_atan2(x, sqrt((1.0 - x) * (1.0 + x)));
 }
 
-/* x = m 2^k with m within sqrt(2) of 1, and log m = 2 atanh(s), s = (m - 1)/(m + 1), by its series: s < 0.172.
- * log 2 is in two parts, of which the first has so few digits that k times it is exact. */
 double fst_log(double x)
 {
-    static const double log2_high = 0x1.62e42feep-1, log2_low = 1.9082149292705877e-10;
-    int k;
-    double m = frexp(x, &k);
-    if (m < 0.70710678118654752440) {
-        m *= 2.0;
-        --k;
-    }
-    const double s = (m - 1.0) / (m + 1.0), s2 = s * s;
-    double sum = 0.0;
-    for (int n = 23; n >= 3; n -= 2)
-        sum = (sum + 1.0 / n) * s2;
-    return k * log2_high + (2.0 * s + (2.0 * s * sum + k * log2_low));
+    return fst_log_of_ratio_double(x, 1.0, x - 1.0);
 }

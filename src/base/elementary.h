@@ -8,7 +8,8 @@
 void fst_sin_cos_degrees(double degrees, double *sine, double *cosine);
 
 /* The same for what the numbers of a run need beside: the angle of (x, y) from -pi to pi, the angle whose sine
- * is x, and the natural logarithm of a normal number x > 0.  Correct within two units in the last place. */
+ * is x, and the natural logarithm of a normal number x > 0.  Correct within two units in the last place
+ * (elementary.inl). */
 double fst_atan2(double y, double x);
 double fst_asin(double x);
 double fst_log(double x);

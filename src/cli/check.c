@@ -20,6 +20,20 @@ static void print_text(FILE *out, const char *path, const fst_model *model, cons
     (void)fprintf(out, "\n");
 }
 
+/* How good a measured field is. */
+static void print_map(FILE *out, const fst_field_map *map)
+{
+    const fst_field_map_facts facts = fst_field_map_describe(map);
+    (void)fprintf(out,
+                  "\nMap: %d x %d x %d samples, %.4g mm and %.4g mm apart, known to %.4g mm from the axis, |B| "
+                  "up to %.4g "
+                  "mT\n  curl (dBx/dy - dBy/dx, rms, over all derivatives): %.2g%s\n",
+                  facts.count[0], facts.count[1], facts.count[2], 1e3 * facts.spacing[0],
+                  1e3 * facts.spacing[1], 1e3 * facts.radius, 1e3 * facts.greatest, facts.curl,
+                  facts.curl > 0.1 ? "; a magnet's field has none: much noise, or columns or axes exchanged?"
+                                   : "");
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
@@ -38,7 +52,9 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         char *scene = fst_scene_text(&params, 0);
         if (scene)
             print_text(out, operand(given), model, state, scene);
-        else
+        if (scene && params.magnet_map)
+            print_map(out, params.magnet_map);
+        if (!scene)
             status = fail(error, FST_NO_MEMORY, "", "out of memory");
         free(scene);
     }

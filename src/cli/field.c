@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cli/command.h"
+#include "cli/terminal.h"
 
 static const option options[] = {
     SCENE_OPTIONS,
@@ -13,6 +14,9 @@ static const option options[] = {
      "18.7mm, "
      "or in l"},
     {"output", 'o', "FIG", "draw the map of the field to FIG.svg, .pdf or .png"},
+    {"csv", '\0', "FILE", "write the map of the field to FILE.csv, which magnet.shape: grid reads back"},
+    {"radius", '\0', "R", "how far from the axis the map of --csv goes along X and Y: 60 mm unless given"},
+    {"spacing", '\0', "D", "from one sample of --csv to the next: 1 mm unless given"},
     {"map", '\0', "strength|x|y|z|force|load",
      "what the map shows: |B| (the default), a component of B, or the force or the load of a bead"},
     UNITS_OPTION,
@@ -129,11 +133,18 @@ static fst_status read_height(const char *height, const fst_params *params, doub
                                       height, farthest);
 }
 
+static int is_known(const fst_model *model, const double at[2])
+{
+    double b[3], grad[3][3];
+    fst_field(model, at[0], at[1], b, grad);
+    return isfinite(b[0]);
+}
+
 /* There is no field to tell in or on a part of the magnet. */
 static fst_status check_outside(const fst_params *params, const double at[2], double height, fst_error *error)
 {
     const double l = params->magnet_half_length, place[3] = {l * at[0], l * at[1], l * height};
-    const int part = params->magnet_shape == FST_MAGNET_PARTS ? fst_part_at(params, place) : -1;
+    const int part = params->magnet_shape == FST_MAGNET_PARTS ? fst_part_touched(params, place, 0.0) : -1;
     if (part < 0)
         return FST_OK;
     char key[48], kind[32];
@@ -160,11 +171,52 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
     if (status == FST_OK)
         status = check_outside(params, at, fst_model_groups(model).h, error);
+    if (status == FST_OK && !is_known(model, at))
+        status = fail(error, FST_BAD_INPUT, "--at",
+                      "%g,%g lies beyond the map of magnet.file, where the field is not known", at[0], at[1]);
     if (status == FST_OK && option_value(given, "json"))
         status = print_and_free(fst_field_json(model, at[0], at[1], units), out, error);
     else if (status == FST_OK)
         print_text(out, model, at, height, units);
     fst_model_free(model);
+    return status;
+}
+
+/* The length of an option in m, or the usual one. */
+static fst_status read_metres(const arguments *given, const char *name, double length_unit, double *value,
+                              fst_error *error)
+{
+    const char *text = option_value(given, name);
+    if (!text)
+        return FST_OK;
+    if (read_length(text, length_unit, value) != FST_OK || !(*value > 0) || !isfinite(*value))
+        return fail(error, FST_BAD_INPUT, name,
+                    "\"%.60s\" must be a positive length: with its unit as in 1mm, or a number in l", text);
+    *value *= length_unit;
+    return FST_OK;
+}
+
+static fst_status write_map(const arguments *given, const fst_params *params, double height, const char *path,
+                            fst_error *error)
+{
+    double radius = 0.06, spacing = 1e-3;
+    fst_model *model = NULL;
+    fst_status status = read_metres(given, "radius", params->magnet_half_length, &radius, error);
+    if (status == FST_OK)
+        status = read_metres(given, "spacing", params->magnet_half_length, &spacing, error);
+    if (status == FST_OK)
+        status = isnan(height) ? fst_model_new(params, &model, error)
+                               : fst_field_model_new(params, height, &model, error);
+    if (status == FST_OK) {
+        progress_line line;
+        const fst_progress progress = {&line, progress_tell};
+        progress_begin(&line);
+        status = fst_field_map_write(path, model, radius, spacing, &progress, error);
+        progress_end(&line);
+    }
+    fst_model_free(model);
+    if (status == FST_OK)
+        tell_written(path, "");
     return status;
 }
 
@@ -193,10 +245,15 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
     const char *at = option_value(given, "at"), *figure = option_value(given, "output");
-    if (!at && !figure)
-        return fail(error, FST_BAD_INPUT, "", "say where with --at X,Y, or draw a map with -o FIG.svg");
+    const char *csv = option_value(given, "csv");
+    if (!at && !figure && !csv)
+        return fail(error, FST_BAD_INPUT, "",
+                    "say where with --at X,Y, draw a map with -o FIG.svg, or write one with --csv FILE.csv");
     if (option_value(given, "json") && !at)
         return fail(error, FST_BAD_INPUT, "", "--json prints the field at a point: give one with --at X,Y");
+    if ((option_value(given, "radius") || option_value(given, "spacing")) && !csv)
+        return fail(error, FST_BAD_INPUT, "--csv",
+                    "--radius and --spacing are those of a written map: give --csv");
     if (option_value(given, "map") && !figure)
         return fail(error, FST_BAD_INPUT, "--map", "it concerns a map: give -o FIG.svg");
     fst_shown_units units;
@@ -217,13 +274,16 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = fst_figure_field_map(&params, &map, figure, error);
     if (status == FST_OK && figure)
         tell_written(figure, "");
+    if (status == FST_OK && csv)
+        status = write_map(given, &params, map.height, csv, error);
     return status;
 }
 
 const command field_command = {
     .name = "field",
     .synopsis =
-        "[SCENE.yaml] [--set KEY=VALUE]... [--height H] --at X,Y [--json] | [--map ...] -o FIG.(svg|pdf|png)",
+        "[SCENE.yaml] [--set KEY=VALUE]... [--height H] --at X,Y [--json] | [--map ...] -o FIG.(svg|pdf|png) | "
+        "--csv FILE",
     .summary = "The magnet's field and its gradient at a point, or drawn as a map",
     .details =
         "Positions without a unit are in l (half length of the magnet's lines); they are in the "

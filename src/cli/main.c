@@ -44,11 +44,14 @@ static fst_status perform(int count, char **words, FILE *out, fst_error *error)
         return FST_OK;
     }
     arguments given;
+    fst_field_map *map = NULL;
     fst_status status =
         read_arguments(wanted->options, wanted->most_operands, count - 1, words + 1, &given, error);
     if (status != FST_OK)
         return status;
+    given.map = &map;
     status = wanted->perform(&given, out, error);
+    fst_field_map_free(map);
     /* The signal reached a helper program such as gnuplot first. */
     if (wanted->has_helpers && status != FST_OK && status != FST_INTERRUPTED && interrupted())
         status = fail(error, FST_INTERRUPTED, "", "interrupted");

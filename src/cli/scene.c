@@ -45,6 +45,18 @@ static fst_status read_scene_from_input(fst_params *params, fst_error *error)
     return status;
 }
 
+/* The map of the scene, which lives until the command is done. */
+static fst_status read_map(const arguments *given, fst_params *params, fst_error *error)
+{
+    progress_line line;
+    const fst_progress progress = {&line, progress_tell};
+    fst_field_map_free(*given->map);
+    progress_begin(&line);
+    const fst_status status = fst_params_read_map(params, &progress, given->map, error);
+    progress_end(&line);
+    return status;
+}
+
 fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error)
 {
     *params = fst_default_params();
@@ -63,7 +75,9 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
     }
     params->run_discard = fst_run_discard(params); /* what is printed is what is done */
     const fst_status status = fst_params_check_effects(params, error);
-    if (status != FST_OK)
+    if (status != FST_OK) {
         (void)snprintf(error->where, sizeof error->where, "%s", path ? path : "");
-    return status;
+        return status;
+    }
+    return read_map(given, params, error);
 }

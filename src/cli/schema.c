@@ -12,6 +12,8 @@ static void print_limits(FILE *out, const fst_param_info *info)
     const char *accepted = fst_unit_accepted(info->unit);
     if (info->kind == FST_KIND_CHOICE)
         (void)fprintf(out, "      one of %s\n", info->names);
+    else if (info->kind == FST_KIND_TEXT)
+        (void)fprintf(out, "      a text of at most %g bytes\n", info->greatest);
     else
         (void)fprintf(out, "      %s%g to %g%s%s%s%s\n", info->kind == FST_KIND_INT ? "integer, " : "",
                       info->least, info->greatest, accepted[0] ? " " : "",

@@ -7,12 +7,12 @@
 
 #include "draw/poles.h"
 
-double fst_field_map_x(const fst_field_map *map, int column)
+double fst_drawn_map_x(const fst_drawn_map *map, int column)
 {
     return map->half_width * (2.0 * column / (FST_MAP_COLUMNS - 1) - 1.0);
 }
 
-double fst_field_map_y(const fst_field_map *map, int row)
+double fst_drawn_map_y(const fst_drawn_map *map, int row)
 {
     return map->half_height * (2.0 * row / (FST_MAP_ROWS - 1) - 1.0);
 }
@@ -24,18 +24,18 @@ static double strength(const fst_model *model, double x, double y)
     return sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2]);
 }
 
-int fst_field_map_of_bead(const fst_field_map *map)
+int fst_drawn_map_of_bead(const fst_drawn_map *map)
 {
     return map->quantity == FST_FIELD_FORCE || map->quantity == FST_FIELD_LOAD;
 }
 
-static int is_inside(const fst_field_map *map, double x, double y)
+static int is_inside(const fst_drawn_map *map, double x, double y)
 {
     const double l = map->groups.length_unit, place[3] = {l * x, l * y, l * map->groups.h};
-    return map->params->magnet_shape == FST_MAGNET_PARTS && fst_part_at(map->params, place) >= 0;
+    return map->params->magnet_shape == FST_MAGNET_PARTS && fst_part_touched(map->params, place, 0.0) >= 0;
 }
 
-double fst_field_map_value(const fst_field_map *map, double x, double y)
+double fst_drawn_map_value(const fst_drawn_map *map, double x, double y)
 {
     double b[3], gradient[3][3], force[3], load;
     if (is_inside(map, x, y))
@@ -55,10 +55,10 @@ double fst_field_map_value(const fst_field_map *map, double x, double y)
     }
 }
 
-void fst_field_map_arrow(const fst_field_map *map, double x, double y, double arrow[2])
+void fst_drawn_map_arrow(const fst_drawn_map *map, double x, double y, double arrow[2])
 {
     double v[3], gradient[3][3], load;
-    if (fst_field_map_of_bead(map))
+    if (fst_drawn_map_of_bead(map))
         fst_field_pull(map->model, x, y, v, &load);
     else
         fst_field(map->model, x, y, v, gradient);
@@ -91,10 +91,10 @@ static void climb(const fst_model *model, double step, double place[2])
     }
 }
 
-static void note_maximum(fst_field_map *map, int column, int row)
+static void note_maximum(fst_drawn_map *map, int column, int row)
 {
-    double place[2] = {fst_field_map_x(map, column), fst_field_map_y(map, row)};
-    climb(map->model, fst_field_map_x(map, 1) - fst_field_map_x(map, 0), place);
+    double place[2] = {fst_drawn_map_x(map, column), fst_drawn_map_y(map, row)};
+    climb(map->model, fst_drawn_map_x(map, 1) - fst_drawn_map_x(map, 0), place);
     for (int m = 0; m < map->maximum_count; ++m)
         if (hypot(place[0] - map->maxima[m][0], place[1] - map->maxima[m][1]) < 1e-4)
             return;
@@ -104,29 +104,29 @@ static void note_maximum(fst_field_map *map, int column, int row)
 }
 
 /* Every map point that is not lower than its eight neighbours leads to a maximum. */
-static void find_maxima(fst_field_map *map)
+static void find_maxima(fst_drawn_map *map)
 {
     for (int row = 1; row < FST_MAP_ROWS - 1; ++row)
         for (int column = 1; column < FST_MAP_COLUMNS - 1 && map->maximum_count < FST_MAP_MAXIMA; ++column) {
             const double here =
-                fst_field_map_value(map, fst_field_map_x(map, column), fst_field_map_y(map, row));
+                fst_drawn_map_value(map, fst_drawn_map_x(map, column), fst_drawn_map_y(map, row));
             int highest = 1;
             for (int i = 0; i < 9 && highest; ++i)
-                highest = here >= fst_field_map_value(map, fst_field_map_x(map, column + i % 3 - 1),
-                                                      fst_field_map_y(map, row + i / 3 - 1));
+                highest = here >= fst_drawn_map_value(map, fst_drawn_map_x(map, column + i % 3 - 1),
+                                                      fst_drawn_map_y(map, row + i / 3 - 1));
             if (highest)
                 note_maximum(map, column, row);
         }
 }
 
-void fst_field_map_survey(fst_field_map *map)
+void fst_drawn_map_survey(fst_drawn_map *map)
 {
     map->least = INFINITY;
     map->greatest = -INFINITY;
     for (int row = 0; row < FST_MAP_ROWS; ++row)
         for (int column = 0; column < FST_MAP_COLUMNS; ++column) {
             const double value =
-                fst_field_map_value(map, fst_field_map_x(map, column), fst_field_map_y(map, row));
+                fst_drawn_map_value(map, fst_drawn_map_x(map, column), fst_drawn_map_y(map, row));
             map->least = fmin(map->least, value); /* of NAN the other */
             map->greatest = fmax(map->greatest, value);
         }
@@ -136,11 +136,11 @@ void fst_field_map_survey(fst_field_map *map)
 
 /* ------------------------------------------------------------------ making it */
 
-static void choose_units(fst_field_map *map, fst_shown_units units)
+static void choose_units(fst_drawn_map *map, fst_shown_units units)
 {
     const fst_scales scales = fst_scales_of(map->params);
     map->length = fst_unit_shown("l", units, &scales, &map->length_unit);
-    map->value = fst_unit_shown(fst_field_map_of_bead(map) ? "l gamma^2" : "B0", units, &scales, &map->unit);
+    map->value = fst_unit_shown(fst_drawn_map_of_bead(map) ? "l gamma^2" : "B0", units, &scales, &map->unit);
     if (strcmp(map->length_unit, "l") == 0)
         map->length_unit = "ℓ";
     if (strcmp(map->unit, "B0") == 0)
@@ -150,11 +150,11 @@ static void choose_units(fst_field_map *map, fst_shown_units units)
 }
 
 /* The map shows the poles and the corners of the magnet, with room about them that grows with the height. */
-static void choose_extent(fst_field_map *map)
+static void choose_extent(fst_drawn_map *map)
 {
     const double h = map->groups.h, half_lines = 0.5 * (map->groups.lines - 1) * map->groups.lambda;
     const double l = map->groups.length_unit;
-    map->half_width = 1.0 + 0.9 * h + 0.3;
+    map->half_width = fmin(1.0 + 0.9 * h + 0.3, map->groups.map_radius); /* a measured field ends there */
     map->half_height = map->bar ? half_lines + 0.9 * h : map->half_width;
     fst_magnet_body *bodies = calloc(FST_PARTS_MAX, sizeof *bodies);
     const int count = bodies && !map->bar ? fst_magnet_bodies(map->params, 1.0 / l, 1.0, bodies) : 0;
@@ -173,11 +173,11 @@ static void choose_extent(fst_field_map *map)
     map->half_height = fmax(reach[1] + room, 0.5 * map->half_width);
 }
 
-fst_status fst_field_map_make(fst_field_map *map, const fst_params *params, const fst_field_options *options,
+fst_status fst_drawn_map_make(fst_drawn_map *map, const fst_params *params, const fst_field_options *options,
                               fst_error *error)
 {
     fst_model *model = NULL;
-    *map = (fst_field_map){.params = params,
+    *map = (fst_drawn_map){.params = params,
                            .quantity = options->quantity,
                            .other_height = !isnan(options->height),
                            .bar = params->magnet_shape == FST_MAGNET_LINES};
@@ -192,7 +192,7 @@ fst_status fst_field_map_make(fst_field_map *map, const fst_params *params, cons
     return FST_OK;
 }
 
-void fst_field_map_free(fst_field_map *map)
+void fst_drawn_map_free(fst_drawn_map *map)
 {
     fst_model_free((fst_model *)map->model);
 }

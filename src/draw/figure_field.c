@@ -33,7 +33,7 @@ static const struct {
 };
 
 typedef struct field_figure {
-    fst_field_map map;
+    fst_drawn_map map;
     fst_magnet_body bodies[FST_PARTS_MAX];
     int body_count;
     int poles;              /* which poles are drawn: bits of fst_figure_write_poles() */
@@ -43,13 +43,13 @@ typedef struct field_figure {
 
 /* ------------------------------------------------------------------ data */
 
-static void write_map(fst_figure_file *figure, const fst_field_map *map)
+static void write_map(fst_figure_file *figure, const fst_drawn_map *map)
 {
     fst_figure_block(figure, "map", "X Y and what is shown");
     for (int row = 0; row < FST_MAP_ROWS; ++row) {
         for (int column = 0; column < FST_MAP_COLUMNS; ++column) {
-            const double x = fst_field_map_x(map, column), y = fst_field_map_y(map, row);
-            const double value = fst_field_map_value(map, x, y);
+            const double x = fst_drawn_map_x(map, column), y = fst_drawn_map_y(map, row);
+            const double value = fst_drawn_map_value(map, x, y);
             (void)fprintf(figure->data, "%.5g %.5g ", map->length * x, map->length * y);
             if (isnan(value)) /* in a part of the magnet */
                 (void)fputs("NaN\n", figure->data);
@@ -61,7 +61,7 @@ static void write_map(fst_figure_file *figure, const fst_field_map *map)
 }
 
 /* The length of the longest arrow, in l. */
-static double longest_arrow(const fst_field_map *map)
+static double longest_arrow(const fst_drawn_map *map)
 {
     return 1.1 * ARROW_STEP * 2.0 * map->half_width / (FST_MAP_COLUMNS - 1);
 }
@@ -70,19 +70,19 @@ static double longest_arrow(const fst_field_map *map)
  * so that weak fields show too. */
 static void write_arrows(fst_figure_file *figure, field_figure *f)
 {
-    const fst_field_map *map = &f->map;
+    const fst_drawn_map *map = &f->map;
     double v[2];
     f->strongest = 0.0;
     for (int row = ARROW_STEP / 2; row < FST_MAP_ROWS; row += ARROW_STEP)
         for (int column = ARROW_STEP / 2; column < FST_MAP_COLUMNS; column += ARROW_STEP) {
-            fst_field_map_arrow(map, fst_field_map_x(map, column), fst_field_map_y(map, row), v);
+            fst_drawn_map_arrow(map, fst_drawn_map_x(map, column), fst_drawn_map_y(map, row), v);
             f->strongest = fmax(f->strongest, hypot(v[0], v[1]));
         }
     fst_figure_block(figure, "arrows", "X Y dX dY: the part in the plane");
     for (int row = ARROW_STEP / 2; row < FST_MAP_ROWS; row += ARROW_STEP)
         for (int column = ARROW_STEP / 2; column < FST_MAP_COLUMNS; column += ARROW_STEP) {
-            const double x = fst_field_map_x(map, column), y = fst_field_map_y(map, row);
-            fst_field_map_arrow(map, x, y, v);
+            const double x = fst_drawn_map_x(map, column), y = fst_drawn_map_y(map, row);
+            fst_drawn_map_arrow(map, x, y, v);
             const double plane = hypot(v[0], v[1]);
             const double scale = plane > 0.0 ? longest_arrow(map) * sqrt(plane / f->strongest) / plane : 0.0;
             (void)fprintf(figure->data, "%.5g %.5g %.4g %.4g\n", map->length * (x - 0.5 * scale * v[0]),
@@ -93,7 +93,7 @@ static void write_arrows(fst_figure_file *figure, field_figure *f)
 
 static void write_marks(fst_figure_file *figure, field_figure *f)
 {
-    const fst_field_map *map = &f->map;
+    const fst_drawn_map *map = &f->map;
     if (map->bar)
         fst_figure_block(figure, "lines", "X Y: the magnet's lines");
     for (int line = 0; map->bar && line < map->groups.lines; ++line) {
@@ -113,21 +113,21 @@ static void write_marks(fst_figure_file *figure, field_figure *f)
 
 /* Label lines of equal field where they pass the column of the map beside a maximum, on which the field falls:
  * between two columns of arrows, and no closer to the label before than letters are high. */
-static void write_levels(fst_figure_file *figure, const fst_field_map *map)
+static void write_levels(fst_figure_file *figure, const fst_drawn_map *map)
 {
     enum { STEPS = 2000 };
     const double peak = map->maximum_count ? fabs(map->maxima[0][0]) : 0.0;
     const double place = (peak / map->half_width + 1.0) / 2.0 * (FST_MAP_COLUMNS - 1) / ARROW_STEP;
-    const double x = fst_field_map_x(map, ARROW_STEP * (int)(place + 0.5));
+    const double x = fst_drawn_map_x(map, ARROW_STEP * (int)(place + 0.5));
     const double from = map->quantity == FST_FIELD_STRENGTH ? 0.0 : map->least;
     const double step = fst_round_step((map->greatest - from) / LEVELS);
     const double pixel = 2.0 * map->half_width / (FST_FIGURE_WIDTH - LEFT - RIGHT);
-    double before = fst_field_map_value(map, x, 0.0), labelled = -INFINITY;
+    double before = fst_drawn_map_value(map, x, 0.0), labelled = -INFINITY;
     (void)fprintf(figure->script, "set cntrparam levels incremental %.9g,%.9g,%.9g\n",
                   step * (floor(from / step) + 1.0), step, map->greatest);
     for (int i = 1; i <= STEPS; ++i) {
         const double y = 0.95 * map->half_height * i / STEPS;
-        const double here = fst_field_map_value(map, x, y);
+        const double here = fst_drawn_map_value(map, x, y);
         const double level = step * fmax(floor(before / step), floor(here / step));
         const int passes = floor(before / step) != floor(here / step) && isfinite(before) && isfinite(here);
         if (passes && (level > 0.0 || from < 0.0) && y - labelled > LABEL_GAP * pixel) {
@@ -143,7 +143,7 @@ static void write_levels(fst_figure_file *figure, const fst_field_map *map)
 
 /* ------------------------------------------------------------------ script */
 
-static void write_distance(fst_figure_file *figure, const fst_field_map *map)
+static void write_distance(fst_figure_file *figure, const fst_drawn_map *map)
 {
     if (map->maximum_count != 2)
         return;
@@ -159,7 +159,7 @@ static void write_distance(fst_figure_file *figure, const fst_field_map *map)
 
 static void write_axes(fst_figure_file *figure, const field_figure *f)
 {
-    const fst_field_map *map = &f->map;
+    const fst_drawn_map *map = &f->map;
     const int scale = f->top + f->frame + AXIS;
     const double frame[4] = {LEFT, FST_FIGURE_WIDTH - RIGHT, f->top, f->top + f->frame};
     char label[96];
@@ -177,7 +177,7 @@ static void write_axes(fst_figure_file *figure, const field_figure *f)
 }
 
 /* A component has both signs, and grey is its zero; the load may be of any sign. */
-static void write_colours(fst_figure_file *figure, const fst_field_map *map)
+static void write_colours(fst_figure_file *figure, const fst_drawn_map *map)
 {
     const int component = map->quantity >= FST_FIELD_X && map->quantity <= FST_FIELD_Z;
     const double most = fmax(fabs(map->least), fabs(map->greatest));
@@ -221,7 +221,7 @@ static void write_script(fst_figure_file *figure, const field_figure *f)
 
 static fst_legend make_legend(const field_figure *f)
 {
-    const fst_field_map *map = &f->map;
+    const fst_drawn_map *map = &f->map;
     fst_legend legend = {.count = 0};
     char text[128], unit[32];
     if (map->other_height)
@@ -229,12 +229,12 @@ static fst_legend make_legend(const field_figure *f)
                        words[map->quantity].title, 1e3 * map->groups.h * map->groups.length_unit);
     else
         (void)snprintf(legend.title, sizeof legend.title, "%s%s", words[map->quantity].title,
-                       fst_field_map_of_bead(map) ? "" : " at the height of the bead's centre");
+                       fst_drawn_map_of_bead(map) ? "" : " at the height of the bead's centre");
     fst_unit_symbols("l", unit, sizeof unit);
     (void)snprintf(legend.about, sizeof legend.about, "%s: %s = %.4g mm%s",
                    map->bar ? "half length of the magnet's lines" : "unit of length", unit,
                    1e3 * map->groups.length_unit,
-                   fst_field_map_of_bead(map) ? "; the bead's moment along the field" : "");
+                   fst_drawn_map_of_bead(map) ? "; the bead's moment along the field" : "");
     (void)snprintf(text, sizeof text, "lines of equal %s", words[map->quantity].label);
     fst_legend_add(&legend, FST_SAMPLE_LINE, "lc rgb '#6f8fae' lw 0.8", text);
     if (map->maximum_count > 0)
@@ -245,7 +245,7 @@ static fst_legend make_legend(const field_figure *f)
     fst_legend_add_poles(&legend, f->bodies, f->body_count, "below the plate");
     const double longest = map->value * f->strongest;
     (void)snprintf(text, sizeof text, "%s: this length is %.*g %s, others as its square root",
-                   fst_field_map_of_bead(map) ? "horizontal force" : "in-plane part of B",
+                   fst_drawn_map_of_bead(map) ? "horizontal force" : "in-plane part of B",
                    longest < 100.0 ? 2 : 3, longest, map->unit);
     fst_legend_add(&legend, FST_SAMPLE_ARROW, "lc rgb '#333333' lw 1", text);
     legend.entries[legend.count - 1].length =
@@ -279,15 +279,15 @@ fst_status fst_figure_field_map(const fst_params *params, const fst_field_option
     field_figure *f = calloc(1, sizeof *f);
     if (!f)
         return fst_fail(error, FST_NO_MEMORY, out, "out of memory");
-    fst_status status = fst_field_map_make(&f->map, params, options, error);
+    fst_status status = fst_drawn_map_make(&f->map, params, options, error);
     if (status == FST_OK) {
-        fst_field_map_survey(&f->map);
+        fst_drawn_map_survey(&f->map);
         if (!f->map.bar)
             f->body_count =
                 fst_magnet_bodies(params, f->map.length / params->magnet_half_length, 1.0, f->bodies);
         status = draw(f, out, error);
     }
-    fst_field_map_free(&f->map);
+    fst_drawn_map_free(&f->map);
     free(f);
     return status;
 }

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "io/hdf5_driver.h"
+#include "io/hdf5_session.h"
 
 /* Rows in a chunk.  One chunk is held in memory, so memory does not grow with the trajectory. */
 #define CHUNK 4096
@@ -42,28 +43,6 @@ struct fst_hdf5_writer {
     double *buffer;   /* count columns of CHUNK rows */
     const char *name; /* the name that the file will have, for messages */
 };
-
-/* HDF5 prints its errors unless told not to; the caller's setting is restored.  The first time, HDF5 is also
- * told to do nothing at the end of the program: we close what we open, and HDF5 would print and crash there
- * over objects that it failed to close in a damaged file. */
-typedef struct quiet {
-    H5E_auto2_t function;
-    void *data;
-} quiet;
-
-static quiet be_quiet(void)
-{
-    quiet before = {NULL, NULL};
-    (void)H5dont_atexit();
-    (void)H5Eget_auto2(H5E_DEFAULT, &before.function, &before.data);
-    (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    return before;
-}
-
-static void be_as_before(quiet before)
-{
-    (void)H5Eset_auto2(H5E_DEFAULT, before.function, before.data);
-}
 
 /* ---------------------------------------------------------------- attributes */
 
@@ -250,7 +229,7 @@ static fst_status create(const char *path, const char *name, const fst_column_in
     }
     for (int i = 0; i < count; ++i)
         writer->sets[i] = -1;
-    quiet before = be_quiet();
+    fst_hdf5_told before = fst_hdf5_quiet();
     int failed = open_file(writer, path) || write_text(writer->file, "program", PROGRAM) ||
                  write_text(writer->file, "version", fst_version()) ||
                  write_text(writer->file, "units", UNITS) || write_text(writer->file, "scene", scene) ||
@@ -259,7 +238,7 @@ static fst_status create(const char *path, const char *name, const fst_column_in
         fail_write(writer, error);
         (void)close_writer(writer);
     }
-    be_as_before(before);
+    fst_hdf5_as_before(before);
     if (failed)
         return FST_IO;
     *out = writer;
@@ -295,15 +274,15 @@ static fst_status row(fst_hdf5_writer *writer, const double *values, fst_error *
         writer->buffer[(size_t)i * CHUNK + writer->pending] = values[i];
     if (++writer->pending < CHUNK)
         return FST_OK;
-    quiet before = be_quiet();
+    fst_hdf5_told before = fst_hdf5_quiet();
     int failed = flush_rows(writer) || writer->disk.reason;
-    be_as_before(before);
+    fst_hdf5_as_before(before);
     return failed ? fail_write(writer, error) : FST_OK;
 }
 
 static fst_status finish(fst_hdf5_writer *writer, const char *result, int complete, fst_error *error)
 {
-    quiet before = be_quiet();
+    fst_hdf5_told before = fst_hdf5_quiet();
     int failed = flush_rows(writer) || (result && write_text(writer->file, "result", result)) ||
                  write_boolean(writer->file, "complete", complete);
     const char *name = writer->name;
@@ -311,15 +290,15 @@ static fst_status finish(fst_hdf5_writer *writer, const char *result, int comple
     const int reason = close_writer(writer);
     if (reason && status == FST_OK)
         status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(reason));
-    be_as_before(before);
+    fst_hdf5_as_before(before);
     return status;
 }
 
 static void abandon(fst_hdf5_writer *writer)
 {
-    quiet before = be_quiet();
+    fst_hdf5_told before = fst_hdf5_quiet();
     (void)close_writer(writer);
-    be_as_before(before);
+    fst_hdf5_as_before(before);
 }
 
 /* ---------------------------------------------------------------- reading */
@@ -407,46 +386,15 @@ static fst_status read_file(hid_t file, const char *path, const fst_column_info 
     return status == FST_OK ? fill_columns(path, there, count, data, *rows, error) : status;
 }
 
-/* The whole file in memory. */
-static fst_status load(const char *path, fst_hdf5_disk *disk, fst_error *error)
-{
-    const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
-    *disk = (fst_hdf5_disk){.descriptor = descriptor};
-    const int reason = descriptor < 0 ? errno : fst_hdf5_load(disk);
-    if (descriptor >= 0)
-        (void)close(descriptor);
-    if (!reason)
-        return FST_OK;
-    fst_hdf5_forget(disk);
-    if (reason == EFBIG)
-        return fst_fail(
-            error, FST_NO_MEMORY, path,
-            "this HDF5 file is too large: it would be read into memory as a whole, and at most half of "
-            "this computer's memory, %.1f GiB, is used for that: use a computer with more memory, or a "
-            "run with fewer samples",
-            (double)fst_hdf5_most() / (1 << 30));
-    if (reason == ENOMEM)
-        return fst_fail(error, FST_NO_MEMORY, path, "no memory for this file");
-    return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason));
-}
-
 static fst_status read_all(const char *path, const fst_column_info *const *columns, int needed, int count,
                            double **data, size_t *rows, char **scene, int *complete, fst_error *error)
 {
-    fst_hdf5_disk disk;
-    fst_status status = load(path, &disk, error);
+    fst_hdf5_session session;
+    fst_status status = fst_hdf5_session_begin(path, &session, error);
     if (status != FST_OK)
         return status;
-    quiet before = be_quiet();
-    const hid_t access = fst_hdf5_access(&disk);
-    const hid_t file = access >= 0 ? H5Fopen(path, H5F_ACC_RDONLY, access) : -1;
-    status = read_file(file, path, columns, needed, count, data, rows, scene, complete, error);
-    if (file >= 0)
-        (void)H5Fclose(file);
-    if (access >= 0)
-        (void)H5Pclose(access);
-    be_as_before(before);
-    fst_hdf5_forget(&disk);
+    status = read_file(session.file, path, columns, needed, count, data, rows, scene, complete, error);
+    fst_hdf5_session_end(&session);
     return status;
 }
 
@@ -458,4 +406,5 @@ const fst_hdf5_module_table fst_hdf5_module = {
     .finish = finish,
     .abandon = abandon,
     .read = read_all,
+    .read_map = fst_hdf5_read_map,
 };

@@ -7,6 +7,16 @@
 
 typedef struct fst_hdf5_writer fst_hdf5_writer;
 
+/* A map of a field as its file has it: places along x, y, z (NULL: not told) and B of each sample, x fastest,
+ * with their units. */
+enum { FST_HDF5_UNIT_SIZE = 32 };
+#define FST_HDF5_MAP_LIMIT 32000000u
+typedef struct fst_hdf5_map {
+    size_t count[3];
+    double *places[3], *b;
+    char units[4][FST_HDF5_UNIT_SIZE]; /* of x, y, z, B; "": not told */
+} fst_hdf5_map;
+
 /* The module's one symbol is a table of this type, named FST_HDF5_MODULE_SYMBOL. */
 #define FST_HDF5_MODULE_SYMBOL "fst_hdf5_module"
 typedef struct fst_hdf5_module_table {
@@ -26,6 +36,9 @@ typedef struct fst_hdf5_module_table {
      * data[i] and `scene`, also on failure where they are not NULL. */
     fst_status (*read)(const char *path, const fst_column_info *const *columns, int needed, int count,
                        double **data, size_t *rows, char **scene, int *complete, fst_error *error);
+
+    /* Read a map of a field.  The caller frees its places and b, also on failure. */
+    fst_status (*read_map)(const char *path, fst_hdf5_map *map, fst_error *error);
 } fst_hdf5_module_table;
 
 #endif

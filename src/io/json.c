@@ -27,12 +27,12 @@ static json_t *count_of(uint64_t value)
 static json_t *parameter(const fst_params *params, int index)
 {
     const fst_param_info *info = fst_param_at(index);
-    char text[64];
+    char text[FST_PARAM_TEXT_SIZE];
     double real;
     int integer;
     if (fst_params_get(params, index, text, sizeof text) == 0)
         return json_null();
-    if (info->kind == FST_KIND_CHOICE)
+    if (info->kind == FST_KIND_CHOICE || info->kind == FST_KIND_TEXT)
         return json_string(text);
     memcpy(&integer, (const char *)params + info->offset, sizeof integer);
     if (info->kind == FST_KIND_INT)
@@ -242,6 +242,22 @@ char *fst_run_json_in(const fst_params *params, const fst_run_result *result, co
     return fst_json_dump(run, JSON_INDENT(2));
 }
 
+/* What can be told of a measured field, in SI. */
+static json_t *map_object(const fst_field_map *map)
+{
+    const fst_field_map_facts facts = fst_field_map_describe(map);
+    json_t *object = json_object(), *count = json_array();
+    for (int axis = 0; axis < 3; ++axis)
+        json_array_append_new(count, json_integer(facts.count[axis]));
+    json_object_set_new(object, "count", count);
+    json_object_set_new(object, "first_m", fst_json_numbers(facts.first, 3));
+    json_object_set_new(object, "spacing_m", fst_json_numbers(facts.spacing, 3));
+    json_object_set_new(object, "radius_m", fst_json_number(facts.radius));
+    json_object_set_new(object, "greatest_b_tesla", fst_json_number(facts.greatest));
+    json_object_set_new(object, "curl", fst_json_number(facts.curl));
+    return object;
+}
+
 char *fst_scene_json(const fst_params *params)
 {
     json_t *document = json_object();
@@ -252,6 +268,8 @@ char *fst_scene_json(const fst_params *params)
     if (fst_bead_contradiction(params, sentence, sizeof sentence))
         json_array_append_new(warnings, json_string(sentence));
     json_object_set_new(document, "warnings", warnings);
+    if (params->magnet_map)
+        json_object_set_new(document, "map", map_object(params->magnet_map));
     return fst_json_dump(document, JSON_INDENT(2));
 }
 
@@ -308,8 +326,10 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
 
 char *fst_schema_json(void)
 {
-    static const char *const kinds[] = {
-        [FST_KIND_REAL] = "real", [FST_KIND_INT] = "integer", [FST_KIND_CHOICE] = "choice"};
+    static const char *const kinds[] = {[FST_KIND_REAL] = "real",
+                                        [FST_KIND_INT] = "integer",
+                                        [FST_KIND_CHOICE] = "choice",
+                                        [FST_KIND_TEXT] = "text"};
     fst_params defaults = fst_default_params();
     json_t *schema = json_array();
     for (int i = 0; i < fst_param_count(); ++i) {
@@ -320,13 +340,14 @@ char *fst_schema_json(void)
         json_t *row = json_object();
         json_object_set_new(row, "key", json_string(info->key));
         json_object_set_new(row, "kind", json_string(kinds[info->kind]));
-        json_object_set_new(row, "unit", choice ? json_null() : json_string(fst_unit_name(info->unit)));
+        const int limits = !choice && info->kind != FST_KIND_TEXT;
+        json_object_set_new(row, "unit", limits ? json_string(fst_unit_name(info->unit)) : json_null());
         json_object_set_new(row, "default",
                             choice    ? json_string(text)
                             : integer ? json_integer((json_int_t)info->initial)
                                       : fst_json_number(info->initial));
-        json_object_set_new(row, "min", choice ? json_null() : fst_json_number(info->least));
-        json_object_set_new(row, "max", choice ? json_null() : fst_json_number(info->greatest));
+        json_object_set_new(row, "min", limits ? fst_json_number(info->least) : json_null());
+        json_object_set_new(row, "max", limits ? fst_json_number(info->greatest) : json_null());
         json_object_set_new(row, "doc", json_string(info->doc));
         json_t *names = choice ? json_array() : json_null();
         for (const char *name = choice ? info->names : ""; *name; name += strspn(name, "|")) {

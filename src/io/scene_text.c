@@ -38,6 +38,10 @@ static void write_limits(FILE *out, const fst_param_info *info)
         (void)fprintf(out, "  # one of: %s\n", info->names);
         return;
     }
+    if (info->kind == FST_KIND_TEXT) {
+        (void)fprintf(out, "  # a text of at most %g bytes\n", info->greatest);
+        return;
+    }
     char least[64], greatest[64];
     const char *accepted = fst_unit_accepted(info->unit);
     (void)fst_value_write(least, sizeof least, info->least, info->unit);
@@ -48,26 +52,46 @@ static void write_limits(FILE *out, const fst_param_info *info)
     (void)fprintf(out, "\n");
 }
 
+/* Room for a text in quotes of which every byte is escaped. */
+enum { VALUE_SIZE = 2 * FST_PARAM_TEXT_SIZE + 3 };
+
+/* A text in YAML's double quotes, in which nothing but these two has a meaning. */
+static void quote(char text[VALUE_SIZE])
+{
+    char plain[FST_PARAM_TEXT_SIZE], *to = text;
+    (void)snprintf(plain, sizeof plain, "%s", text);
+    *to++ = '"';
+    for (const char *from = plain; *from; ++from) {
+        if (*from == '"' || *from == '\\')
+            *to++ = '\\';
+        *to++ = *from;
+    }
+    *to++ = '"';
+    *to = '\0';
+}
+
 /* Write a value as people write it: numbers in their customary unit. */
-static void value_text(const fst_params *params, int index, char *text, size_t size)
+static void value_text(const fst_params *params, int index, char text[VALUE_SIZE])
 {
     const fst_param_info *info = fst_param_at(index);
-    int length = fst_params_get(params, index, text, size);
+    int length = fst_params_get(params, index, text, FST_PARAM_TEXT_SIZE);
+    if (length > 0 && info->kind == FST_KIND_TEXT)
+        quote(text);
     if (length == 0 || info->kind != FST_KIND_REAL)
         return;
     double value;
     memcpy(&value, (const char *)params + info->offset, sizeof value);
-    (void)fst_value_write(text, size, value, info->unit);
+    (void)fst_value_write(text, VALUE_SIZE, value, info->unit);
 }
 
 /* Whether any key of the group that begins at a parameter has a value. */
 static int group_has_value(const fst_params *params, int index, size_t group_length)
 {
     const char *group = fst_param_at(index)->key;
-    char value[64];
+    char value[VALUE_SIZE];
     for (int i = index; i < fst_param_count(); ++i)
         if (strncmp(fst_param_at(i)->key, group, group_length + 1) == 0) {
-            value_text(params, i, value, sizeof value);
+            value_text(params, i, value);
             if (value[0])
                 return 1;
         }
@@ -84,12 +108,12 @@ static int write_part_numbers(FILE *out, const fst_params *params, int row)
     const double *turn = part->rotation;
     const int stays = turn[0] == 0.0 && turn[1] == 0.0 && turn[2] == 0.0 && turn[3] == 0.0;
     const int silent = strncmp(key, "rotation", length) == 0 && stays;
-    char value[64];
+    char value[VALUE_SIZE];
     int count = 0, written = 0;
     for (; row + count < fst_params_row_count(params); ++count) {
         if (strncmp(key, strrchr(fst_param_at(row + count)->key, '.') + 1, length + 1) != 0)
             break;
-        value_text(params, row + count, value, sizeof value);
+        value_text(params, row + count, value);
         if (!value[0] || silent)
             continue;
         if (written++)
@@ -141,7 +165,7 @@ static void end_group(FILE *out, const fst_params *params, const char *group, in
 
 static void write_scene(FILE *out, const fst_params *params, int commented)
 {
-    char group[32] = "", value[64];
+    char group[32] = "", value[VALUE_SIZE];
     if (commented)
         (void)fprintf(out,
                       "# A festoon scene.  A line that is missing keeps its default.\n"
@@ -149,7 +173,7 @@ static void write_scene(FILE *out, const fst_params *params, int commented)
     for (int i = 0; i < fst_param_count(); ++i) {
         const fst_param_info *info = fst_param_at(i);
         size_t group_length = strcspn(info->key, ".");
-        value_text(params, i, value, sizeof value);
+        value_text(params, i, value);
         if (!value[0] && !commented)
             continue;
         if (strncmp(group, info->key, group_length) != 0 || group[group_length]) {

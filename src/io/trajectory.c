@@ -8,14 +8,13 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "host/module.h"
 #include "host/regular_file.h"
 #include "host/whole_file.h"
 #include "io/columns.h"
 #include "io/csv.h"
 #include "io/hdf5_module.h"
 #include "io/json.h"
-#include "io/trajectory_module.h"
+#include "io/load_hdf5.h"
 
 struct fst_trajectory {
     fst_params params;
@@ -27,24 +26,6 @@ struct fst_trajectory {
     double factors[FST_COLUMN_COUNT];
     const char *units[FST_COLUMN_COUNT];
 };
-
-fst_status fst_load_hdf5_module(const fst_hdf5_module_table **module, const char *path, fst_error *error)
-{
-    int found;
-    *module = fst_module_table(FST_HDF5_MODULE, FST_HDF5_MODULE_SYMBOL, &found);
-    fst_status status = FST_OK;
-    if (!*module)
-        status =
-            fst_fail(error, FST_UNAVAILABLE, path,
-                     "this festoon has no HDF5 (%s): install libhdf5-dev and build festoon again, or give the "
-                     "file a name that ends in .csv",
-                     found ? FST_HDF5_MODULE " is no module of festoon" : FST_HDF5_MODULE " cannot be loaded");
-    else if (strcmp((*module)->version, fst_version()) != 0)
-        status =
-            fst_fail(error, FST_UNAVAILABLE, path, "%s belongs to festoon %s, not to %s: install festoon again",
-                     FST_HDF5_MODULE, (*module)->version, fst_version());
-    return status;
-}
 
 static int ends_in(const char *path, const char *ending)
 {
@@ -235,6 +216,22 @@ static fst_status check_order(const char *path, const fst_table *table, fst_erro
     return FST_OK;
 }
 
+/* The map of the scene, where it was or beside the trajectory.  Most of what is made of a trajectory needs
+ * none: that it is not found is told by what does. */
+static void find_map(const char *path, fst_table *table)
+{
+    fst_params beside = table->params;
+    const char *slash = strrchr(path, '/'), *name = strrchr(table->params.magnet_file, '/');
+    if (fst_params_read_map(&table->params, NULL, &table->map, NULL) == FST_OK)
+        return;
+    const int length =
+        snprintf(beside.magnet_file, sizeof beside.magnet_file, "%.*s%s", slash ? (int)(slash + 1 - path) : 0,
+                 path, name ? name + 1 : table->params.magnet_file);
+    if (length > 0 && (size_t)length < sizeof beside.magnet_file &&
+        fst_params_read_map(&beside, NULL, &table->map, NULL) == FST_OK)
+        table->params.magnet_map = table->map;
+}
+
 fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *error)
 {
     *table = (fst_table){.params = fst_default_params()};
@@ -261,7 +258,9 @@ fst_status fst_trajectory_read(const char *path, fst_table *table, fst_error *er
     /* A disk that cannot be read says nothing about the file. */
     if (reason)
         status = fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason));
-    if (status != FST_OK)
+    if (status == FST_OK)
+        find_map(path, table);
+    else
         fst_table_free(table);
     return status;
 }
@@ -271,5 +270,6 @@ void fst_table_free(fst_table *table)
     for (int i = 0; table->columns && i < FST_COLUMN_COUNT; ++i)
         free(table->columns[i]);
     free(table->columns);
+    fst_field_map_free(table->map);
     *table = (fst_table){.rows = 0};
 }

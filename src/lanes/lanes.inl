@@ -153,6 +153,7 @@ static void load_pull(FN(pull) * to, int lane, const fst_flow *flow)
     to->gradient.xy[lane] = g.xy;
     to->gradient.xz[lane] = g.xz;
     to->gradient.yz[lane] = g.yz;
+    to->gradient.yx[lane] = g.yx;
 #endif
 }
 

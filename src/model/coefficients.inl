@@ -22,7 +22,7 @@ static inline FN(coefficients) FN(make_coefficients)(const fst_params *params, c
 {
     FN(coefficients) c;
     c.kinds.source = (int)g->shape;
-    fst_count_pieces(&c.kinds, params);
+    fst_count_pieces(&c.kinds, params, g);
     c.kinds.contact = fst_law_in_effect(params, g->friction);
     c.kinds.dry = c.kinds.contact == FST_FRICTION_COULOMB || c.kinds.contact == FST_FRICTION_ROLLING;
     c.kinds.paced = c.kinds.contact == FST_FRICTION_COULOMB;

@@ -61,6 +61,7 @@ static inline void FN(field)(const FN(coefficients) * c, REAL x, REAL y, REAL b[
     g->xy = gx[1];
     g->xz = gx[2];
     g->yz = gy[2];
+    g->yx = c->kinds.source == FST_MAGNET_GRID ? gy[0] : g->xy;
 }
 
 /* G u at the place (x, y) of a pull: of its gradient where that was kept, else by another pass. */

@@ -6,6 +6,8 @@
 
 #include <festoon/festoon.h>
 
+#include "model/field_map.h"
+
 /* The modes of dry friction (contact/coulomb.inl). */
 enum { FST_MODE_SLIP, FST_MODE_STICK, FST_MODE_ONSET, FST_MODE_FLIGHT, FST_MODES };
 
@@ -25,14 +27,18 @@ typedef struct fst_kinds {
     int paced;                /* the law has modes, and while the bead slips a step measures its own time */
     unsigned char part[FST_PARTS_MAX];        /* fst_part_kind of each part of the magnet */
     unsigned char part_turned[FST_PARTS_MAX]; /* whether its axes are not those of the magnet */
+    const fst_map_plane *plane; /* of a measured map: the plane in which the bead's centre moves */
 } fst_kinds;
 
-/* B0 in T of a real magnet unless magnet.b0 is given: there it is only a unit. */
+/* B0 in T of a real or measured magnet unless magnet.b0 is given: there it is only a unit. */
 #define FST_PARTS_FIELD_UNIT 0.01
 
 /* What the magnet is made of, which lanes of a batch share. */
-static inline void fst_count_pieces(fst_kinds *kinds, const fst_params *p)
+static inline void fst_count_pieces(fst_kinds *kinds, const fst_params *p, const fst_groups *g)
 {
+    kinds->plane = NULL;
+    if (kinds->source == FST_MAGNET_GRID && p->magnet_map)
+        kinds->plane = fst_map_plane_at(p->magnet_map, g->h * g->length_unit);
     memset(kinds->part, 0, sizeof kinds->part);
     memset(kinds->part_turned, 0, sizeof kinds->part_turned);
     kinds->pieces = kinds->source == FST_MAGNET_PARTS ? p->magnet_part_count : p->magnet_lines;
@@ -59,7 +65,7 @@ static inline int fst_kinds_equal(const fst_kinds *a, const fst_kinds *b)
            a->magnetisable == b->magnetisable && a->gyroscopic_term_lost == b->gyroscopic_term_lost &&
            a->dry == b->dry && a->patch == b->patch && a->flies == b->flies && a->resists == b->resists &&
            a->paced == b->paced && memcmp(a->part, b->part, sizeof a->part) == 0 &&
-           memcmp(a->part_turned, b->part_turned, sizeof a->part_turned) == 0;
+           memcmp(a->part_turned, b->part_turned, sizeof a->part_turned) == 0 && a->plane == b->plane;
 }
 
 /* Whether the contact law takes energy from a bead that slips.  A bead that rolls may lose some all the same.

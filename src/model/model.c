@@ -73,14 +73,14 @@ static void compare_with_image(const fst_coefficients_double *c, double x, doubl
 }
 
 /* Whether the field has the symmetry S2, which is asked of the field itself, at places that no other symmetry
- * maps onto each other, from the middle of the magnet to its surroundings, and beside each part, where a small
- * one is felt that the rest hides from afar.  Where the whole field is weak beside that of other places,
- * rounding decides: a difference counts against the strongest field that was seen. */
+ * maps onto each other, from the middle of the magnet to its surroundings (all within 1.7 scale), and beside
+ * each part, where a small one is felt that the rest hides from afar.  Where the whole field is weak beside
+ * that of other places, rounding decides: a difference counts against the strongest field that was seen. */
 static int field_has_s2(const fst_params *p, const fst_coefficients_double *c, const fst_groups *g)
 {
     static const double places[][2] = {{0.31, 0.17}, {0.83, -0.59}, {-0.44, 1.07}, {1.63, 0.26}};
     enum { PLACES = sizeof places / sizeof *places };
-    const double scale = magnet_reach(p, g->h), l = g->length_unit;
+    const double scale = fmin(magnet_reach(p, g->h), g->map_radius / 1.7), l = g->length_unit;
     double strongest = 0.0, most = 0.0;
     for (int i = 0; i < PLACES; ++i)
         compare_with_image(c, scale * places[i][0], scale * places[i][1], &most, &strongest);
@@ -90,6 +90,31 @@ static int field_has_s2(const fst_params *p, const fst_coefficients_double *c, c
                            &strongest);
     }
     return most <= 1e-9 * strongest;
+}
+
+/* A measured field is known on the plane of the map, and in the disc about the axis that the map covers: there
+ * the plate ends. */
+static fst_status use_map(const fst_params *p, fst_groups *g, fst_error *error)
+{
+    if (!p->magnet_map && !p->magnet_file[0])
+        return fst_fail(error, FST_BAD_INPUT, "magnet.file",
+                        "magnet.shape: grid needs the map of the field: give magnet.file");
+    if (!p->magnet_map)
+        return fst_fail(error, FST_BAD_INPUT, "magnet.file", "the map %s has not been read", p->magnet_file);
+    const double height = g->h * g->length_unit;
+    if (!fst_map_plane_at(p->magnet_map, height))
+        return fst_fail(
+            error, FST_BAD_INPUT, "magnet.file",
+            "the bead's centre moves %.7g mm over the magnet's reference plane, but the map was taken at "
+            "%.7g mm: take one there, or change magnet.depth",
+            1e3 * height, 1e3 * fst_map_nearest_height(p->magnet_map, height));
+    if (!isnan(p->impact_restitution) && p->friction_law == FST_FRICTION_COULOMB)
+        return fst_fail(error, FST_BAD_INPUT, "impact.restitution",
+                        "a bead that flies needs the field above the plate, and the map has one plane: leave "
+                        "impact.restitution out");
+    g->map_radius = fst_map_radius(p->magnet_map) / g->length_unit;
+    g->plate_radius = fmin(g->plate_radius, g->map_radius);
+    return FST_OK;
 }
 
 static fst_status make_model(const fst_params *params, double height, fst_model **model, fst_error *error)
@@ -104,6 +129,7 @@ static fst_status make_model(const fst_params *params, double height, fst_model 
     g.omega = isnan(params->drive_omega) ? FST_TWO_PI * params->drive_frequency / gamma : params->drive_omega;
     g.gravity = params->plate_gravity / (g.length_unit * (gamma * gamma));
     g.plate_radius = params->plate_radius / g.length_unit;
+    g.map_radius = INFINITY;
     g.shape = (fst_magnet_shape)params->magnet_shape;
     g.material = (fst_material)params->bead_material;
     g.friction = (fst_friction_law)params->friction_law;
@@ -114,6 +140,9 @@ static fst_status make_model(const fst_params *params, double height, fst_model 
         return fst_fail(error, FST_BAD_INPUT, "fst_model_new",
                         "the scaled groups are out of range: kappa = %g, omega = %g, h = %g", g.kappa, g.omega,
                         g.h);
+    const fst_status status = g.shape == FST_MAGNET_GRID ? use_map(params, &g, error) : FST_OK;
+    if (status != FST_OK)
+        return status;
     fst_model *made = malloc(sizeof *made);
     if (!made)
         return fst_fail(error, FST_NO_MEMORY, "fst_model_new", "out of memory");
@@ -121,6 +150,7 @@ static fst_status make_model(const fst_params *params, double height, fst_model 
     made->groups = g;
     made->coefficients = fst_make_coefficients_double(params, &g);
     made->has_s2 = field_has_s2(params, &made->coefficients, &g);
+    made->map = g.shape == FST_MAGNET_GRID ? fst_field_map_share(params->magnet_map) : NULL;
     *model = made;
     return FST_OK;
 }
@@ -141,6 +171,8 @@ fst_status fst_field_model_new(const fst_params *params, double height, fst_mode
 
 void fst_model_free(fst_model *model)
 {
+    if (model)
+        fst_field_map_free(model->map);
     free(model);
 }
 
@@ -149,11 +181,29 @@ fst_groups fst_model_groups(const fst_model *model)
     return model->groups;
 }
 
+/* Whether the samples of a measured field surround a place. */
+static int is_known(const fst_model *model, double x, double y)
+{
+    const fst_map_plane *plane = model->coefficients.kinds.plane;
+    const double place[2] = {x * model->groups.length_unit, y * model->groups.length_unit};
+    for (int axis = 0; plane && axis < 2; ++axis) {
+        const double cells = (place[axis] - plane->first[axis]) / plane->spacing[axis];
+        if (!(cells >= -1e-9 && cells <= plane->cells[axis] + 1e-9))
+            return 0;
+    }
+    return 1;
+}
+
 void fst_field(const fst_model *model, double x, double y, double b[3], double grad[3][3])
 {
+    if (!is_known(model, x, y)) {
+        for (int i = 0; i < 3; ++i)
+            b[i] = grad[i][0] = grad[i][1] = grad[i][2] = NAN;
+        return;
+    }
     fst_gradient_double g;
     fst_field_double(&model->coefficients, x, y, b, &g);
-    const double all[3][3] = {{g.xx, g.xy, g.xz}, {g.xy, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
+    const double all[3][3] = {{g.xx, g.xy, g.xz}, {g.yx, g.yy, g.yz}, {g.xz, g.yz, -(g.xx + g.yy)}};
     memcpy(grad, all, sizeof all);
 }
 

@@ -11,7 +11,8 @@ struct fst_model {
     fst_params params;
     fst_groups groups;
     fst_coefficients_double coefficients;
-    int has_s2; /* whether the magnet's field has the symmetry S2: B(-X, -Y) = (B_X, B_Y, -B_Z)(X, Y) */
+    fst_field_map *map; /* of a measured field, which the coefficients point into; else NULL */
+    int has_s2;         /* whether the magnet's field has the symmetry S2: B(-X, -Y) = (B_X, B_Y, -B_Z)(X, Y) */
 };
 
 /* The angle between n and B from gap2 = |n - B/|B||^2, rad. */

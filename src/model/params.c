@@ -44,10 +44,21 @@ static const fst_param_info rows[] = {
      0,                                                                                                        \
      doc,                                                                                                      \
      offsetof(fst_params, group##_##name)},
+#define FST_TEXT(group, name, room, doc)                                                                       \
+    {#group "." #name,                                                                                         \
+     FST_KIND_TEXT,                                                                                            \
+     FST_UNIT_NUMBER,                                                                                          \
+     NULL,                                                                                                     \
+     NAN,                                                                                                      \
+     0,                                                                                                        \
+     (room)-1,                                                                                                 \
+     doc,                                                                                                      \
+     offsetof(fst_params, group##_##name)},
 #include <festoon/params.def>
 #undef FST_REAL
 #undef FST_INT
 #undef FST_CHOICE
+#undef FST_TEXT
 };
 enum { ROW_COUNT = sizeof rows / sizeof rows[0] };
 
@@ -58,10 +69,12 @@ fst_params fst_default_params(void)
 #define FST_REAL(group, name, unit, initial, least, greatest, doc) .group##_##name = (initial),
 #define FST_INT(group, name, initial, least, greatest, doc) .group##_##name = (initial),
 #define FST_CHOICE(group, name, names, initial, doc) .group##_##name = (initial),
+#define FST_TEXT(group, name, room, doc) .group##_##name = "",
 #include <festoon/params.def>
 #undef FST_REAL
 #undef FST_INT
 #undef FST_CHOICE
+#undef FST_TEXT
     };
     return params;
 }
@@ -147,6 +160,11 @@ const char *fst_param_other_form(const char *key)
 static int moment_given(const fst_params *params)
 {
     return !isnan(params->bead_moment) || !isnan(params->bead_remanence);
+}
+
+int fst_magnet_in_tesla(const fst_params *p)
+{
+    return p->magnet_shape == FST_MAGNET_PARTS || p->magnet_shape == FST_MAGNET_GRID;
 }
 
 int fst_kappa_given(const fst_params *params)
@@ -300,6 +318,31 @@ static fst_status set_choice(fst_params *params, const fst_param_info *row, cons
                     row->key, fst_quote(text, quoted), nearest, row->names);
 }
 
+/* A text is one line, because it is written into scenes and heads of files. */
+static fst_status set_text(fst_params *params, const fst_param_info *row, const char *text, fst_error *error)
+{
+    size_t length;
+    char *field = (char *)params + row->offset;
+    const char *trimmed = fst_trim(text, &length);
+    if ((double)length > row->greatest)
+        return fst_fail(error, FST_BAD_INPUT, row->key, "%s: this text is longer than %g bytes", row->key,
+                        row->greatest);
+    char copy[FST_PARAM_TEXT_SIZE], tamed[FST_PARAM_TEXT_SIZE];
+    memcpy(copy, trimmed, length);
+    copy[length] = '\0';
+    memcpy(tamed, copy, length + 1);
+    fst_text_tame(tamed);
+    if (strcmp(copy, tamed) != 0)
+        return fst_fail(error, FST_BAD_INPUT, row->key,
+                        "%s: this is no text in UTF-8 without control characters: \"%s\"", row->key, tamed);
+    memcpy(field, copy, length + 1);
+    if (strcmp(row->key, "magnet.file") == 0) { /* another file has another content */
+        params->magnet_checksum[0] = '\0';
+        params->magnet_map = NULL;
+    }
+    return FST_OK;
+}
+
 fst_status fst_params_set(fst_params *params, const char *key, const char *text, fst_error *error)
 {
     if (params->cookie != FST_PARAMS_COOKIE)
@@ -312,6 +355,7 @@ fst_status fst_params_set(fst_params *params, const char *key, const char *text,
     fst_status status = index < ROW_COUNT ? FST_OK : fst_part_may_set(params, index - ROW_COUNT, error);
     if (status == FST_OK)
         status = row->kind == FST_KIND_CHOICE ? set_choice(params, row, text, error)
+                 : row->kind == FST_KIND_TEXT ? set_text(params, row, text, error)
                                               : set_number(params, row, text, error);
     if (status != FST_OK)
         return status;
@@ -332,6 +376,8 @@ int fst_params_get(const fst_params *params, int index, char *text, size_t size)
     const int part = fst_param_part(index);
     if (part >= 0 && !fst_part_has(params->magnet_parts[part].kind, index - ROW_COUNT))
         return 0;
+    if (row->kind == FST_KIND_TEXT)
+        return snprintf(text, size, "%s", (const char *)params + row->offset);
     if (row->kind == FST_KIND_INT)
         return snprintf(text, size, "%d", int_value(params, row));
     if (row->kind == FST_KIND_REAL) {
@@ -360,6 +406,11 @@ static int choice_count(const char *names)
 static fst_status validate_row(const fst_params *params, const fst_param_info *row, fst_error *error)
 {
     char shown[64];
+    if (row->kind == FST_KIND_TEXT) {
+        if (memchr((const char *)params + row->offset, '\0', (size_t)row->greatest + 1))
+            return FST_OK;
+        return fst_fail(error, FST_BAD_INPUT, row->key, "%s: this text has no end", row->key);
+    }
     if (row->kind == FST_KIND_CHOICE) {
         int value = int_value(params, row);
         if (value >= 0 && value < choice_count(row->names))

@@ -35,6 +35,12 @@ double fst_edge_function(const fst_flow *flow, const double *state, const fst_pu
     return edge - sqrt(state[FST_X] * state[FST_X] + state[FST_Y] * state[FST_Y]);
 }
 
+double fst_map_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    (void)p;
+    return flow->groups.map_radius - hypot(state[FST_X], state[FST_Y]);
+}
+
 double fst_load_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
     (void)state;

@@ -123,6 +123,19 @@ static void mark_end(round_trip *trip)
     fst_marks_offer(&trip->ends, &mark);
 }
 
+/* An orbit means nothing where the field is not known. */
+static fst_status stay_on_map(fst_flow *flow, fst_error *error)
+{
+    double x;
+    if (isinf(flow->groups.map_radius) || !fst_flow_first_negative(flow, fst_map_function, 0.0, &x))
+        return FST_OK;
+    return fst_fail(
+        error, FST_NO_CONVERGENCE, "orbit",
+        "the orbit leaves the map of magnet.file, which covers a disc of r = %.6g about the axis: the field "
+        "beyond is not known",
+        flow->groups.map_radius);
+}
+
 /* Follow the orbit once round; `extremes`: locate them too. */
 static fst_status go_round(round_trip *trip, const fst_family *family, double period, int extremes,
                            fst_description *out, fst_error *error)
@@ -138,6 +151,8 @@ static fst_status go_round(round_trip *trip, const fst_family *family, double pe
         status = fst_flow_step(trip->flow, end.high, error);
         if (status == FST_OK)
             status = fst_watch_count(family->watch, 2 * FST_FLOW_STEP_WORK, error);
+        if (status == FST_OK)
+            status = stay_on_map(trip->flow, error);
         if (status != FST_OK)
             return status;
         fst_quadrature_step(&window->quadrature, trip->flow, trip->flow->accepted == 1);

@@ -111,9 +111,9 @@ static void note(finder *f, const fst_solution *s, int count)
         f->found[f->count++] = (found_state){*s, count};
 }
 
-/* Whether the bead touches the plate there, as dry friction must know: without a load it would act no more, and
- * such states form continua. */
-static int touches(const finder *f, const fst_solution *s)
+/* Whether the field is known there, and whether the bead touches the plate, as dry friction must know: without
+ * a load it would act no more, and such states form continua. */
+static int is_possible(const finder *f, const fst_solution *s)
 {
     fst_setup setup;
     fst_error ignored;
@@ -121,6 +121,8 @@ static int touches(const finder *f, const fst_solution *s)
     if (fst_family_setup(f->family, s->value, &setup, &ignored) != FST_OK)
         return 0;
     const fst_coefficients_double *c = &setup.model.coefficients;
+    if (hypot(s->y[0][FST_X], s->y[0][FST_Y]) > setup.model.groups.map_radius)
+        return 0;
     fst_magnetic_pull_double(c, s->y[0], &pull);
     return !c->kinds.dry || fst_load_double(c, pull.force) > 0.0;
 }
@@ -130,7 +132,7 @@ static int settle(finder *f, fst_solution *s)
 {
     fst_error ignored;
     return fst_solution_correct(f->family, s, NULL, &ignored) == FST_OK &&
-           hypot(s->y[0][FST_X], s->y[0][FST_Y]) < 4.0 * FST_LARGEST_RADIUS && touches(f, s);
+           hypot(s->y[0][FST_X], s->y[0][FST_Y]) < 4.0 * FST_LARGEST_RADIUS && is_possible(f, s);
 }
 
 /* Every start, every state's image under S2 as well. */

@@ -173,6 +173,12 @@ static fst_status measure_piece(spectrum *s, double piece, fst_error *error)
     const fst_status status = go_on(s, piece, error);
     if (status != FST_OK)
         return status;
+    if (hypot(s->y[FST_X], s->y[FST_Y]) > s->setup.model.groups.map_radius)
+        return fst_fail(
+            error, FST_NO_CONVERGENCE, "lyapunov",
+            "the bead left the disc that the map of magnet.file covers (r = %.6g): the field beyond is not "
+            "known",
+            s->setup.model.groups.map_radius);
     fst_growth_pass(&s->clock, piece);
     fst_growth_add(&s->divergence, &s->clock, 0.5 * (before + divergence_at(s)) * piece);
     for (int c = 0; c < N; ++c) {

@@ -306,8 +306,10 @@ static fst_status went_elsewhere(search *s, fst_orbit_outcome outcome, fst_error
     return fst_fail(error, FST_NO_CONVERGENCE, "orbit",
                     "from this start the bead %s at omega = %.10g (after %.4g drive periods, at r = %.6g, "
                     "Phi = %.6g degrees): there is no orbit to polish",
-                    outcome == FST_ORBIT_EJECTED ? "flies away" : "locks to the magnet", s->model->groups.omega,
-                    s->flow->t.high / s->drive_period, hypot(y[FST_X], y[FST_Y]),
+                    outcome != FST_ORBIT_EJECTED         ? "locks to the magnet"
+                    : isinf(s->model->groups.map_radius) ? "flies away"
+                                                         : "leaves the map of magnet.file",
+                    s->model->groups.omega, s->flow->t.high / s->drive_period, hypot(y[FST_X], y[FST_Y]),
                     atan2(y[FST_Y], y[FST_X]) * 360.0 / FST_TWO_PI);
 }
 
@@ -381,7 +383,7 @@ static fst_status follow(search *s, double t_end, fst_solution *out, fst_error *
         if (status != FST_OK)
             return status;
         const double r = hypot(s->flow->step.end[FST_X], s->flow->step.end[FST_Y]);
-        if (r > 50.0)
+        if (r > fmin(50.0, s->model->groups.map_radius))
             return went_elsewhere(s, FST_ORBIT_EJECTED, error);
         fst_error ignored;
         note_unfollowed(s);

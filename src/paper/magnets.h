@@ -52,7 +52,11 @@ fst_status fst_magnet_params(const fst_paper_state *paper, int magnet, int law, 
 /* ------------------------------------------------------------------ facts: magnets_facts.c */
 
 /* What the paper tells of field and experiment, judged by the rules of the statements. */
-enum { FST_MAGNET_FIELD_FACTS = 4, FST_MAGNET_FACTS = FST_MAGNET_FIELD_FACTS + 6 };
+enum {
+    FST_MAGNET_STILL_FACTS = 2, /* of the field alone, into which no motion enters */
+    FST_MAGNET_FIELD_FACTS = 4, /* these and two more that are not in the chapter on dry friction */
+    FST_MAGNET_FACTS = FST_MAGNET_FIELD_FACTS + 6
+};
 const fst_statement *fst_magnet_fact_about(int fact);
 /* The fact with that magnet under that law, NAN where nothing tells it. */
 double fst_magnet_fact(const fst_paper_state *paper, int fact, int magnet, int law);

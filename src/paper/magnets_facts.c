@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { APART, SPREAD, REMANENCE, HALVING };
+enum { APART, REMANENCE, SPREAD, HALVING, BELL = FST_MAGNET_FACTS - 1 };
 
 /* What the field decides, and the halving of the period; then what is read off as in the chapter on dry
  * friction. */
@@ -19,15 +19,6 @@ static const fst_statement facts[FST_MAGNET_FACTS] = {
                .unit = "mm",
                .digits = 1,
                .rule = FST_RULE_NUMBER},
-    [SPREAD] = {.id = "magnet-spread",
-                .section = "V A (4-fold counter-rotation)",
-                .text = "Standard deviation of the field's strength along the path at 10.7 Hz (of the paper's "
-                        "simulation)",
-                .published = 13.0,
-                .scale = 1.0,
-                .unit = "%",
-                .digits = 1,
-                .rule = FST_RULE_AT_MOST},
     [REMANENCE] = {.id = "magnet-remanence",
                    .section = "IV B (numerical simulations)",
                    .text = "Remanence with which κ = 1.5 and a bead of 1.2 T give this greatest field",
@@ -36,9 +27,17 @@ static const fst_statement facts[FST_MAGNET_FACTS] = {
                    .unit = "T",
                    .digits = 3,
                    .rule = FST_RULE_NUMBER},
+    [SPREAD] = {.id = "magnet-spread",
+                .section = "V A (4-fold counter-rotation)",
+                .text = "Spread of the field's strength along the path, 10.7 Hz (the paper's simulation)",
+                .published = 13.0,
+                .scale = 1.0,
+                .unit = "%",
+                .digits = 1,
+                .rule = FST_RULE_AT_MOST},
     [HALVING] = {.id = "magnet-halving",
                  .section = "V C (order of the patterns)",
-                 .text = "The period halves, S1 to S2, at about (halfway between two runs)",
+                 .text = "The period halves at about (halfway between two runs)",
                  .published = 14.4,
                  .scale = 1.0,
                  .unit = "Hz",
@@ -84,14 +83,14 @@ static const fst_statement facts[FST_MAGNET_FACTS] = {
                                     .unit = "",
                                     .digits = 2,
                                     .rule = FST_RULE_NUMBER},
-    [FST_MAGNET_FIELD_FACTS + 5] = {.id = "bell",
-                                    .section = "III (experiments)",
-                                    .text = "Circles most slowly at",
-                                    .published = 16.0,
-                                    .scale = 1.0,
-                                    .unit = "Hz",
-                                    .digits = 1,
-                                    .rule = FST_RULE_NUMBER},
+    [BELL] = {.id = "bell",
+              .section = "III (experiments)",
+              .text = "Circles most slowly at",
+              .published = 16.0,
+              .scale = 1.0,
+              .unit = "Hz",
+              .digits = 1,
+              .rule = FST_RULE_NUMBER},
 };
 
 /* Of these, which fact of that chapter each is. */
@@ -117,7 +116,8 @@ static const fst_run_result *settled_at(const fst_paper_run *runs, double hertz)
     return NULL;
 }
 
-/* Halfway between the fastest drive with S1 and the next one, which has S2. */
+/* Halfway between the fastest drive with S1 and the next one, whose pattern has S2 or is still on its way
+ * there. */
 static double halving_of(const fst_paper_run *runs)
 {
     double above = NAN;
@@ -126,8 +126,7 @@ static double halving_of(const fst_paper_run *runs)
             continue;
         if (runs[i].result.symmetry == FST_SYMMETRY_S1)
             return 0.5 * (above + runs[i].params.drive_frequency); /* NAN where even the fastest is S1 */
-        if (runs[i].result.symmetry == FST_SYMMETRY_S2)
-            above = runs[i].params.drive_frequency;
+        above = runs[i].params.drive_frequency;
     }
     return NAN;
 }
@@ -135,6 +134,13 @@ static double halving_of(const fst_paper_run *runs)
 static double spread_of(const fst_run_result *result)
 {
     return result ? 100.0 * result->std_b / result->mean_b : NAN;
+}
+
+/* The slowest drive; NAN where it is the first or the last one, beyond which a slower one may lie. */
+static double bell_of(const fst_paper_run *runs)
+{
+    const double slowest = fst_dry_fact_of(runs, FST_MAGNET_RUNS, FST_FACT_BELL);
+    return slowest > 10.0 && slowest < fst_magnet_drive(FST_MAGNET_ROLLING - 1) ? slowest : NAN;
 }
 
 double fst_magnet_fact(const fst_paper_state *paper, int fact, int magnet, int law)
@@ -150,6 +156,8 @@ double fst_magnet_fact(const fst_paper_state *paper, int fact, int magnet, int l
         return spread_of(settled_at(runs, 10.7));
     case HALVING:
         return halving_of(runs);
+    case BELL:
+        return bell_of(runs);
     default:
         return fst_dry_fact_of(runs, FST_MAGNET_RUNS, of_motion[fact - FST_MAGNET_FIELD_FACTS]);
     }

@@ -3,11 +3,20 @@
 #include "paper/report_parts.h"
 #include "paper/runs.h"
 
-/* Whether any magnet and law of the column has runs: a reduced paper makes few. */
-static int column_is_known(const fst_paper_state *paper, int magnet, int law)
+/* Whether a magnet has runs under a law; a law of -1 stands for any. A reduced paper makes few. */
+static int is_known(const fst_paper_state *paper, int magnet, int law)
 {
-    for (int i = 0; i < FST_MAGNET_RUNS; ++i)
-        if (paper->magnets->of[magnet].runs[law][i].done)
+    for (int l = 0; l < FST_MAGNET_LAWS; ++l)
+        for (int i = 0; i < FST_MAGNET_RUNS; ++i)
+            if ((law < 0 || law == l) && paper->magnets->of[magnet].runs[l][i].done)
+                return 1;
+    return 0;
+}
+
+static int law_is_known(const fst_paper_state *paper, int law)
+{
+    for (int magnet = 0; magnet < FST_MAGNETS; ++magnet)
+        if (is_known(paper, magnet, law))
             return 1;
     return 0;
 }
@@ -21,40 +30,48 @@ static void write_value(FILE *out, const fst_paper_state *paper, int fact, int m
     const int judged = isfinite(value) && (isfinite(about->published) || about->rule != FST_RULE_NUMBER);
     char text[64];
     fst_statement_value(about, value, text, sizeof text);
-    fprintf(out, "<td class=\"n %s\"><span class=\"label\">%s, %s</span>%s&nbsp;%s</td>",
-            judged ? classes[verdict] : "", fst_shown_magnets[magnet].name, fst_magnet_law_name(law),
-            isfinite(value) ? text : "–", judged ? marks[verdict] : "");
+    fprintf(out, "<td class=\"n %s\"><span class=\"label\">%s</span>%s&nbsp;%s</td>",
+            judged ? classes[verdict] : "", fst_shown_magnets[magnet].name, isfinite(value) ? text : "–",
+            judged ? marks[verdict] : "");
 }
 
 static void write_head(FILE *out, const fst_paper_state *paper)
 {
     fputs("<table class=\"facts\"><thead><tr><th>the paper's words</th>", out);
     for (int magnet = 0; magnet < FST_MAGNETS; ++magnet)
-        for (int law = 0; law < FST_MAGNET_LAWS; ++law)
-            if (column_is_known(paper, magnet, law))
-                fprintf(out, "<th>%s, %s</th>", fst_shown_magnets[magnet].name, fst_magnet_law_name(law));
+        if (is_known(paper, magnet, -1))
+            fprintf(out, "<th>%s</th>", fst_shown_magnets[magnet].name);
     fputs("</tr></thead><tbody>\n", out);
 }
 
+/* The fact and the paper's number in the first of its rows, and the law in each. */
+static void write_words(FILE *out, int fact, int law, int first)
+{
+    const fst_statement *about = fst_magnet_fact_about(fact);
+    char published[64];
+    fputs("<tr><td>", out);
+    if (first) {
+        fst_report_text(out, about->text);
+        fst_statement_published(about, published, sizeof published);
+        fprintf(out, ": <strong>%s</strong>; ", isfinite(about->published) ? published : "most");
+    }
+    fprintf(out, "%s</td>", fst_magnet_law_name(law));
+}
+
+/* What no motion decides stands in the list of magnets. */
 static void write_facts(FILE *out, const fst_paper_state *paper)
 {
     write_head(out, paper);
-    for (int fact = 0; fact < FST_MAGNET_FACTS; ++fact) {
-        const fst_statement *about = fst_magnet_fact_about(fact);
-        char text[64];
-        fputs("<tr><td>", out);
-        fst_report_text(out, about->text);
-        fst_statement_published(about, text, sizeof text);
-        if (isfinite(about->published))
-            fprintf(out, ": <strong>%s</strong></td>", text);
-        else
-            fputs(about->rule == FST_RULE_MOSTLY ? ": <strong>most</strong></td>" : "</td>", out);
-        for (int magnet = 0; magnet < FST_MAGNETS; ++magnet)
-            for (int law = 0; law < FST_MAGNET_LAWS; ++law)
-                if (column_is_known(paper, magnet, law))
+    for (int fact = FST_MAGNET_STILL_FACTS; fact < FST_MAGNET_FACTS; ++fact)
+        for (int law = 0, rows = 0; law < FST_MAGNET_LAWS; ++law) {
+            if (!law_is_known(paper, law))
+                continue;
+            write_words(out, fact, law, rows++ == 0);
+            for (int magnet = 0; magnet < FST_MAGNETS; ++magnet)
+                if (is_known(paper, magnet, -1))
                     write_value(out, paper, fact, magnet, law);
-        fputs("</tr>\n", out);
-    }
+            fputs("</tr>\n", out);
+        }
     fputs("</tbody></table>\n", out);
 }
 

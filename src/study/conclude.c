@@ -72,17 +72,28 @@ static void fill_end(const fst_watched_run *run, int steady, fst_run_result *res
     result->rhs_calls += flow->rhs_calls;
 }
 
+fst_regime fst_regime_of_end(const fst_groups *groups, fst_regime end, const char **how)
+{
+    *how = "the normal load on the plate fell to zero";
+    if (end == FST_REGIME_LIFTED)
+        return end;
+    *how = "the bead passed the plate's edge";
+    if (groups->map_radius > groups->plate_radius)
+        return FST_REGIME_EJECTED;
+    *how = "the bead left the disc that the map of magnet.file covers, beyond which the field is not known,";
+    return FST_REGIME_UNDECIDED;
+}
+
 /* The bead left the plate: that is what is told of the run. */
 static void tell_of_end(const fst_watched_run *run, fst_run_result *result)
 {
-    result->regime = run->end.regime;
+    const char *how;
+    result->regime = fst_regime_of_end(&run->model->groups, run->end.regime, &how);
     const double r = sqrt(result->final_state[FST_X] * result->final_state[FST_X] +
                           result->final_state[FST_Y] * result->final_state[FST_Y]);
     (void)snprintf(result->reason, sizeof result->reason,
-                   "%s at t = %.10g, after %.6g drive periods, at r = %.6g",
-                   run->end.regime == FST_REGIME_EJECTED ? "the bead passed the plate's edge"
-                                                         : "the normal load on the plate fell to zero",
-                   result->end_time, result->periods, r);
+                   "%s at t = %.10g, after %.6g drive periods, at r = %.6g", how, result->end_time,
+                   result->periods, r);
 }
 
 /* Patterns and period of a turning bead. */

@@ -6,6 +6,10 @@
 #include "study/ramp.h"
 #include "study/watched_run.h"
 
+/* How a run ended that came to an end before its time.  A bead that leaves the map of magnet.file inside the
+ * plate is not ejected: nothing is known of the field there, so the regime is undecided. */
+fst_regime fst_regime_of_end(const fst_groups *groups, fst_regime end, const char **how);
+
 /* Every number of a result set to NAN, the rest to zero. */
 void fst_result_clear(fst_run_result *result);
 

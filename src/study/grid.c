@@ -189,6 +189,8 @@ static fst_status read_axis(fst_grid *grid, const char *text, fst_error *error)
         return FST_BAD_INPUT;
     }
     a->info = fst_param_at(a->param);
+    if (a->info->kind == FST_KIND_TEXT)
+        return fst_fail(error, FST_BAD_INPUT, AXES, "%s is a text, which a sweep does not vary", key);
     for (int i = 0; i + 1 < grid->axis_count; ++i) {
         const char *other = fst_param_other_form(grid->axes[i].info->key);
         if (grid->axes[i].param == a->param || (other && strcmp(other, key) == 0))

@@ -241,9 +241,10 @@ fst_status fst_splitting_conclude(const fst_splitting_run *run, const fst_splitt
                             result->end_time);
     if (o->end == FST_SPLITTING_EJECTED || o->end == FST_SPLITTING_LIFTED) {
         const int ejected = o->end == FST_SPLITTING_EJECTED;
-        result->regime = ejected ? FST_REGIME_EJECTED : FST_REGIME_LIFTED;
-        REASON("%s at t = %.6g, after %.6g drive periods, at r = %.6g (to within a step)",
-               ejected ? "the bead passed the plate's edge" : "the normal load on the plate fell to zero",
+        const char *how;
+        result->regime =
+            fst_regime_of_end(&run->model->groups, ejected ? FST_REGIME_EJECTED : FST_REGIME_LIFTED, &how);
+        REASON("%s at t = %.6g, after %.6g drive periods, at r = %.6g (to within a step)", how,
                result->end_time, result->periods, hypot(o->state[FST_X], o->state[FST_Y]));
         return FST_OK;
     }

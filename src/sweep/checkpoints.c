@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "sweep/checksum.h"
+#include "base/checksum.h"
 #include "sweep/database.h"
 
 struct fst_checkpoints {

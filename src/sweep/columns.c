@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sweep/checksum.h"
+#include "base/checksum.h"
 
 const char *const fst_state_names[FST_STATE_SIZE] = {"X", "Y", "vX", "vY", "nX", "nY", "nZ", "WX", "WY", "WZ"};
 

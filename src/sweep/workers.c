@@ -95,8 +95,8 @@ static int row_done(void *user, fst_row_job *row, fst_status status, const fst_r
     if (place == fst_chain_length(w->identity))
         return 0;
     row->point = fst_chain_point(w->identity, chain, place);
-    row->has_start =
-        status == FST_OK && result->regime != FST_REGIME_EJECTED && result->regime != FST_REGIME_LIFTED;
+    row->has_start = status == FST_OK && result->regime != FST_REGIME_EJECTED &&
+                     result->regime != FST_REGIME_LIFTED && result->periods >= row->params.run_periods;
     memcpy(row->start, result->final_state, sizeof row->start);
     (void)fst_grid_params(w->identity->grid, row->point, &row->params, NULL);
     return 1;

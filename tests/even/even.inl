@@ -19,8 +19,8 @@ FN(even_look)(const FN(even) * numbers, const fst_kinds *kinds, REAL x, REAL y, 
     (void)kinds, (void)x, (void)y;
     const REAL zero = R(0.0), one = R(1.0);
     const FN(local_field) here = {{zero, zero, numbers->field},
-                                  {zero, zero, zero, numbers->slope, zero},
-                                  {one, one, zero, zero, zero, zero, zero, zero, zero}};
+                                  {zero, zero, zero, numbers->slope, zero, zero},
+                                  {one, one, zero, zero, zero, zero, zero, zero, zero, zero, zero}};
     *at = here;
 }
 

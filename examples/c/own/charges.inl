@@ -47,8 +47,8 @@ FN(charges_look)(const FN(charges) * numbers, const fst_kinds *kinds, REAL x, RE
     (void)kinds;
     const REAL zero = R(0.0), one = R(1.0);
     const FN(local_field) nothing = {{zero, zero, zero},
-                                     {zero, zero, zero, zero, zero},
-                                     {one, one, zero, zero, zero, zero, zero, zero, zero}};
+                                     {zero, zero, zero, zero, zero, zero},
+                                     {one, one, zero, zero, zero, zero, zero, zero, zero, zero, zero}};
     *at = nothing;
     FN(add_charge)(numbers->charge, x - (numbers->shift + numbers->reach), y, numbers->height, at);
     FN(add_charge)(-numbers->charge, x - (numbers->shift - numbers->reach), y, numbers->height, at);

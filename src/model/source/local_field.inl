@@ -3,9 +3,16 @@
  * Where the bead is, the field has neither curl nor divergence.  So the gradient G_ij = dB_i/dx_j is symmetric
  * and traceless, and G's own derivatives T_ijk = dG_ij/dx_k are so in every pair of indices: 3 + 5 + 7 numbers.
  * The bead's centre stays at one height, and only its moves along x and y are ever asked for.
+ *
+ * A measured field has some curl, because it is not exact.  Its force keeps the energy all the same if it is
+ * the derivative of the energy -u.B by the place, that is G^T u with dB_x/dy and dB_y/dx told apart.  So these
+ * two have a number each (xy and yx), and their derivatives too; a source without curl leaves the second ones
+ * to no_curl().  Derivatives along z are those of a field without curl and divergence: they enter the load
+ * alone.
  */
 typedef struct FN(gradient) {
     REAL xx, yy, xy, xz, yz; /* zz = -(xx + yy) */
+    REAL yx;                 /* dB_y/dx; xy is dB_x/dy */
 } FN(gradient);
 
 /* How G changes from place to place: T_xxx = scale * xxx, ..., T_xxz = scale * vertical * xxz, ...  Factors
@@ -14,6 +21,7 @@ typedef struct FN(gradient) {
 typedef struct FN(bend) {
     REAL scale, vertical;
     REAL xxx, xxy, xyy, yyy, xxz, xyz, yyz;
+    REAL yxx, yxy; /* derivatives of B_y where xxy and xyy are those of B_x */
 } FN(bend);
 
 typedef struct FN(local_field) {
@@ -22,10 +30,23 @@ typedef struct FN(local_field) {
     FN(bend) bend;
 } FN(local_field);
 
-/* G u */
+/* Fill in what a field without curl has twice. */
+static inline __attribute__((always_inline)) void FN(no_curl)(FN(gradient) * g)
+{
+    g->yx = g->xy;
+}
+
+static inline __attribute__((always_inline)) void FN(no_curl_anywhere)(FN(local_field) * at)
+{
+    FN(no_curl)(&at->gradient);
+    at->bend.yxx = at->bend.xxy;
+    at->bend.yxy = at->bend.xyy;
+}
+
+/* G^T u, which is G u in a field without curl. */
 static inline void FN(times_gradient)(const FN(gradient) * g, const REAL u[3], REAL gu[3])
 {
-    gu[0] = REAL_MULADD(g->xz, u[2], REAL_MULADD(g->xy, u[1], g->xx * u[0]));
+    gu[0] = REAL_MULADD(g->xz, u[2], REAL_MULADD(g->yx, u[1], g->xx * u[0]));
     gu[1] = REAL_MULADD(g->yz, u[2], REAL_MULADD(g->yy, u[1], g->xy * u[0]));
     gu[2] = REAL_NEGMULADD(g->xx + g->yy, u[2], REAL_MULADD(g->yz, u[1], g->xz * u[0]));
 }
@@ -34,7 +55,7 @@ static inline void FN(times_gradient)(const FN(gradient) * g, const REAL u[3], R
 static inline void FN(field_change)(const FN(gradient) * g, REAL ex, REAL ey, REAL db[3])
 {
     db[0] = REAL_MULADD(g->xx, ex, g->xy * ey);
-    db[1] = REAL_MULADD(g->xy, ex, g->yy * ey);
+    db[1] = REAL_MULADD(g->yx, ex, g->yy * ey);
     db[2] = REAL_MULADD(g->xz, ex, g->yz * ey);
 }
 
@@ -44,7 +65,8 @@ static inline void FN(gradient_change)(const FN(bend) * t, REAL ex, REAL ey, FN(
     const REAL x = t->scale * ex, y = t->scale * ey, zx = t->vertical * x, zy = t->vertical * y;
     dg->xx = REAL_MULADD(x, t->xxx, y * t->xxy);
     dg->xy = REAL_MULADD(x, t->xxy, y * t->xyy);
-    dg->yy = REAL_MULADD(x, t->xyy, y * t->yyy);
+    dg->yx = REAL_MULADD(x, t->yxx, y * t->yxy);
+    dg->yy = REAL_MULADD(x, t->yxy, y * t->yyy);
     dg->xz = REAL_MULADD(zx, t->xxz, zy * t->xyz);
     dg->yz = REAL_MULADD(zx, t->xyz, zy * t->yyz);
 }
@@ -69,6 +91,7 @@ static inline void FN(gradient_change)(const FN(bend) * t, REAL ex, REAL ey, FN(
     {                                                                                                          \
         FN(gradient) g;                                                                                        \
         FN(name##_field)(source, kinds, x, y, b, &g);                                                          \
+        FN(no_curl)(&g);                                                                                       \
         FN(times_gradient)(&g, u, gu);                                                                         \
     }
 

@@ -93,7 +93,7 @@ static inline __attribute__((always_inline)) void
 FN(parts_field)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y, REAL b[3], FN(gradient) * sum)
 {
     const REAL zero = R(0.0);
-    const FN(gradient) flat = {zero, zero, zero, zero, zero};
+    const FN(gradient) flat = {zero, zero, zero, zero, zero, zero};
     b[0] = b[1] = b[2] = zero;
     *sum = flat;
     for (int i = 0; i < kinds->pieces; ++i) {
@@ -113,8 +113,8 @@ static inline __attribute__((always_inline)) void
 FN(parts_look)(const FN(parts) * parts, const fst_kinds *kinds, REAL x, REAL y, FN(local_field) * sum)
 {
     const REAL zero = R(0.0), one = R(1.0);
-    const FN(gradient) flat = {zero, zero, zero, zero, zero};
-    const FN(bend) straight = {one, one, zero, zero, zero, zero, zero, zero, zero};
+    const FN(gradient) flat = {zero, zero, zero, zero, zero, zero};
+    const FN(bend) straight = {one, one, zero, zero, zero, zero, zero, zero, zero, zero, zero};
     sum->b[0] = sum->b[1] = sum->b[2] = zero;
     sum->gradient = flat;
     sum->bend = straight;

@@ -12,6 +12,8 @@
  *     NAME_along()  B and G u.
  *
  * SOURCE_ALONG_BY_LOOK(NAME) makes the last two of NAME_look(), for a source without a quicker way.
+ *
+ * A field that has no curl needs not say so: what it has twice is filled in here.
  */
 /* clang-format on */
 /*
@@ -29,6 +31,7 @@
 
 #include "model/source/lines.inl"
 #include "model/source/parts.inl"
+#include "model/source/grid.inl"
 #ifdef FST_OWN_SOURCE_BODIES
 #include FST_OWN_SOURCE_BODIES
 #endif
@@ -60,6 +63,8 @@ FN(source_look)(const FN(source_numbers) * source, const fst_kinds *kinds, REAL 
 #define LOOK(NAME, name, doc)                                                                                  \
     if (kinds->source == FST_MAGNET_##NAME) {                                                                  \
         FN(name##_look)(&source->name, kinds, x, y, at);                                                       \
+        if (FST_MAGNET_##NAME != FST_MAGNET_GRID)                                                              \
+            FN(no_curl_anywhere)(at);                                                                          \
         return;                                                                                                \
     }
     FST_SOURCES(LOOK)
@@ -75,6 +80,8 @@ static inline __attribute__((always_inline)) void FN(source_field)(const FN(sour
 #define FIELD(NAME, name, doc)                                                                                 \
     if (kinds->source == FST_MAGNET_##NAME) {                                                                  \
         FN(name##_field)(&source->name, kinds, x, y, b, g);                                                    \
+        if (FST_MAGNET_##NAME != FST_MAGNET_GRID)                                                              \
+            FN(no_curl)(g);                                                                                    \
         return;                                                                                                \
     }
     FST_SOURCES(FIELD)

@@ -1,11 +1,11 @@
-/* checksum.h - the checksum of rows, images and the identity in a sweep's database.
+/* checksum.h - the checksum of maps of a field, and of rows, images and the identity in a sweep's database.
  *
  * It is a chain of 64-bit words.  Each step is a bijection of the sum so far, so a change of a single word
  * always changes the result; a change of several words is missed once in 2^64.  The checksum guards against
  * faults of disks and against mixed-up files, not against forgery.
  */
-#ifndef FST_SWEEP_CHECKSUM_H
-#define FST_SWEEP_CHECKSUM_H
+#ifndef FST_BASE_CHECKSUM_H
+#define FST_BASE_CHECKSUM_H
 
 #include <stddef.h>
 #include <stdint.h>

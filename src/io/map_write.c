@@ -1,0 +1,67 @@
+/* map_write.c - writing a map of a model's field, as map_csv.c reads it. */
+#include <festoon/festoon_tools.h>
+
+#include <stdio.h>
+
+#include "base/error.h"
+#include "base/number.h"
+#include "base/watch.h"
+#include "host/whole_file.h"
+
+/* A value in SI in thousandths of its unit.  The digits are shifted, so that 0.009 m are 9 mm and not
+ * 9.000000000000002. */
+static double milli(double value)
+{
+    char text[40];
+    (void)fst_number_write(text, sizeof text, value);
+    return fst_number_read(text, fst_number_length(text), 3);
+}
+
+static void write_number(FILE *out, double value, char behind)
+{
+    char text[40];
+    (void)fst_number_write(text, sizeof text, value);
+    (void)fprintf(out, "%s%c", text, behind);
+}
+
+fst_status fst_field_map_write(const char *path, const fst_model *model, double radius, double spacing,
+                               const fst_progress *progress, fst_error *error)
+{
+    const fst_groups g = fst_model_groups(model);
+    const double steps = floor(radius / spacing * (1.0 + 1e-12));
+    fst_whole_file file;
+    if (!(spacing > 0) || !(steps >= 4 && steps <= 2000))
+        return fst_fail(
+            error, FST_BAD_INPUT, path,
+            "a map of %.6g mm about the axis in steps of %.6g mm has %.0f steps each way: 4 to 2000 are "
+            "possible",
+            1e3 * radius, 1e3 * spacing, steps);
+    if (!isfinite(g.field_unit))
+        return fst_fail(error, FST_BAD_INPUT, path, "B0 is not known in tesla: give bead.moment or magnet.b0");
+    if (steps * spacing > g.map_radius * g.length_unit * (1.0 + 1e-9))
+        return fst_fail(error, FST_BAD_INPUT, path, "the magnet's own map ends %.6g mm from the axis",
+                        1e3 * g.map_radius * g.length_unit);
+    fst_status status = fst_whole_file_open(&file, path, error);
+    if (status != FST_OK)
+        return status;
+    const int most = (int)steps;
+    const double height = g.h * g.length_unit;
+    (void)fprintf(file.stream, "# The field of a magnet in its own frame, z over its reference plane\n"
+                               "x [mm],y [mm],z [mm],Bx [mT],By [mT],Bz [mT]\n");
+    for (int j = -most; j <= most && status == FST_OK; ++j) {
+        for (int i = -most; i <= most; ++i) {
+            double b[3], grad[3][3];
+            const double place[3] = {i * milli(spacing), j * milli(spacing), milli(height)};
+            fst_field(model, i * spacing / g.length_unit, j * spacing / g.length_unit, b, grad);
+            for (int k = 0; k < 3; ++k)
+                write_number(file.stream, place[k], ',');
+            for (int k = 0; k < 3; ++k)
+                write_number(file.stream, milli(b[k] * g.field_unit), k < 2 ? ',' : '\n');
+        }
+        status = fst_tell(progress, (j + most) / (2.0 * most + 1.0), "writing the map", error);
+    }
+    if (status == FST_OK)
+        return fst_whole_file_commit(&file, error);
+    fst_whole_file_discard(&file);
+    return status;
+}
