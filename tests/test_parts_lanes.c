@@ -1,6 +1,7 @@
 /* Real magnets in lanes: neighbouring lanes see a part from places where its field is computed in other ways,
  * and each has what it would have alone.  Runs over blocks, turned blocks, dipoles and blocks seen from afar
  * have the bits of single runs in the portable form; the fast forms make the same motion. */
+#include "few_rows.h"
 #include "physics.h"
 
 #include <stdlib.h>
@@ -130,51 +131,20 @@ static fst_params job_params(int i)
     return p;
 }
 
-typedef struct store {
-    int next;
-    fst_run_result results[JOBS];
-    fst_status statuses[JOBS];
-} store;
-
-static int next_job(void *user, fst_row_job *job)
+static void fill(const void *unused, int row, fst_row_job *job)
 {
-    store *s = user;
-    if (s->next == JOBS)
-        return 0;
-    memset(job, 0, sizeof *job);
-    job->point = s->next++;
-    job->params = job_params((int)job->point);
-    return 1;
+    (void)unused;
+    job->params = job_params(row);
 }
 
-static int job_done(void *user, fst_row_job *job, fst_status status, const fst_run_result *result,
-                    const fst_error *error)
-{
-    (void)error;
-    store *s = user;
-    s->results[job->point] = *result;
-    s->statuses[job->point] = status;
-    return 0;
-}
-
-static void do_all(store *s, fst_arithmetic arithmetic, int lanes)
-{
-    memset(s, 0, sizeof *s);
-    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, NULL};
-    fst_error error = {FST_OK, "", ""};
-    if (fst_rows(&work, &error) != FST_OK)
-        fail_msg("fst_rows: %s", error.sentence);
-}
-
-static void single_runs(store *s)
+static void single_runs(fst_run_result results[JOBS])
 {
     int moved = 0;
     for (int i = 0; i < JOBS; ++i) {
         const fst_params p = job_params(i);
         const fst_run_options options = fst_default_run_options();
-        s->statuses[i] = fst_run(&p, &options, &s->results[i], NULL);
-        assert_int_equal(s->statuses[i], FST_OK);
-        moved += s->results[i].accepted > 10;
+        assert_int_equal(fst_run(&p, &options, &results[i], NULL), FST_OK);
+        moved += results[i].accepted > 10;
     }
     assert_true(moved > JOBS / 2);
 }
@@ -182,16 +152,16 @@ static void single_runs(store *s)
 static void test_portable_lanes(void **unused)
 {
     (void)unused;
-    static store alone, beside;
-    single_runs(&alone);
+    static fst_run_result alone[JOBS];
+    static few_rows beside = {.count = JOBS, .fill = fill};
+    single_runs(alone);
     for (int lanes = 4; lanes <= 8; lanes += 4) {
         if (!fst_lane_engine_of(FST_ARITHMETIC_PORTABLE, lanes))
             continue;
-        do_all(&beside, FST_ARITHMETIC_PORTABLE, lanes);
+        do_few_rows(&beside, FST_ARITHMETIC_PORTABLE, lanes);
         for (int i = 0; i < JOBS; ++i) {
-            assert_int_equal(beside.statuses[i], FST_OK);
-            assert_memory_equal(beside.results[i].final_state, alone.results[i].final_state,
-                                sizeof alone.results[i].final_state);
+            assert_memory_equal(beside.results[i].final_state, alone[i].final_state,
+                                sizeof alone[i].final_state);
         }
     }
 }
@@ -199,16 +169,17 @@ static void test_portable_lanes(void **unused)
 static void test_fast_lanes(void **unused)
 {
     (void)unused;
-    static store alone, fast;
-    single_runs(&alone);
+    static fst_run_result alone[JOBS];
+    static few_rows fast = {.count = JOBS, .fill = fill};
+    single_runs(alone);
     for (int form = FST_ARITHMETIC_AVX2; form <= FST_ARITHMETIC_AVX512; ++form) {
         if (!fst_lane_engine_of((fst_arithmetic)form, 0))
             continue;
-        do_all(&fast, (fst_arithmetic)form, 0);
+        do_few_rows(&fast, (fst_arithmetic)form, 0);
         for (int i = 0; i < JOBS; ++i) {
-            assert_int_equal(fast.results[i].regime, alone.results[i].regime);
+            assert_int_equal(fast.results[i].regime, alone[i].regime);
             for (int k = 0; k < FST_STATE_SIZE; ++k)
-                CHECK_CLOSE(fast.results[i].final_state[k], alone.results[i].final_state[k], 1e-6);
+                CHECK_CLOSE(fast.results[i].final_state[k], alone[i].final_state[k], 1e-6);
         }
     }
 }

@@ -99,10 +99,7 @@ static char *read_text(hid_t object, const char *name)
         free(text);
         text = NULL;
     }
-    if (type >= 0)
-        (void)H5Tclose(type);
-    if (space >= 0)
-        (void)H5Sclose(space);
+    fst_hdf5_close(type, space);
     (void)H5Aclose(attribute);
     return text;
 }
@@ -332,10 +329,7 @@ static fst_status read_column(hid_t file, const char *path, const char *name, in
     if (problem)
         status = fst_fail(error, FST_BAD_INPUT, path, "the column %s %s", name, problem);
     *rows = (size_t)length;
-    if (type >= 0)
-        (void)H5Tclose(type);
-    if (space >= 0)
-        (void)H5Sclose(space);
+    fst_hdf5_close(type, space);
     (void)H5Dclose(set);
     return status;
 }

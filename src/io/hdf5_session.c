@@ -22,6 +22,14 @@ void fst_hdf5_as_before(fst_hdf5_told before)
     (void)H5Eset_auto2(H5E_DEFAULT, before.function, before.data);
 }
 
+void fst_hdf5_close(hid_t type, hid_t space)
+{
+    if (type >= 0)
+        (void)H5Tclose(type);
+    if (space >= 0)
+        (void)H5Sclose(space);
+}
+
 /* The whole file in memory. */
 static fst_status load(const char *path, fst_hdf5_disk *disk, fst_error *error)
 {

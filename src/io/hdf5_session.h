@@ -17,6 +17,9 @@ typedef struct fst_hdf5_told {
 fst_hdf5_told fst_hdf5_quiet(void);
 void fst_hdf5_as_before(fst_hdf5_told before);
 
+/* Close a type and a space of data, as far as they could be opened. */
+void fst_hdf5_close(hid_t type, hid_t space);
+
 typedef struct fst_hdf5_session {
     fst_hdf5_disk disk;
     hid_t access, file; /* file < 0: HDF5 cannot open it */

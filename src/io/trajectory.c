@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "host/regular_file.h"
 #include "host/whole_file.h"
 #include "io/columns.h"
@@ -26,12 +27,6 @@ struct fst_trajectory {
     double factors[FST_COLUMN_COUNT];
     const char *units[FST_COLUMN_COUNT];
 };
-
-static int ends_in(const char *path, const char *ending)
-{
-    size_t length = strlen(path), wanted = strlen(ending);
-    return length > wanted && strcmp(path + length - wanted, ending) == 0;
-}
 
 static void list_columns(const fst_column_info *columns[FST_COLUMN_COUNT])
 {
@@ -83,10 +78,10 @@ fst_status fst_trajectory_create_in(const char *path, const fst_params *params, 
                                     fst_trajectory **out, fst_error *error)
 {
     *out = NULL;
-    int hdf5 = ends_in(path, ".h5") || ends_in(path, ".hdf5");
+    int hdf5 = fst_ends_in(path, ".h5") || fst_ends_in(path, ".hdf5");
     if (hdf5 && (units == FST_SHOWN_LAB || units == FST_SHOWN_SI))
         return fst_fail(error, FST_BAD_INPUT, path, "a trajectory in other than scaled units is a .csv");
-    if (!hdf5 && !ends_in(path, ".csv"))
+    if (!hdf5 && !fst_ends_in(path, ".csv"))
         return fst_fail(error, FST_BAD_INPUT, path, "the name of a trajectory ends in .h5 or .csv");
     fst_trajectory *trajectory = calloc(1, sizeof *trajectory);
     if (!trajectory)

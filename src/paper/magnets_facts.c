@@ -159,6 +159,6 @@ double fst_magnet_fact(const fst_paper_state *paper, int fact, int magnet, int l
     case BELL:
         return bell_of(runs);
     default:
-        return fst_dry_fact_of(runs, FST_MAGNET_RUNS, of_motion[fact - FST_MAGNET_FIELD_FACTS]);
+        return fst_dry_fact_of(runs, FST_MAGNET_RUNS, (int)of_motion[fact - FST_MAGNET_FIELD_FACTS]);
     }
 }
