@@ -165,12 +165,12 @@ static fst_status tell_hole(const fst_map_points *p, const map_axis axes[3], con
     char height[48] = "";
     if (axes[2].count > 1)
         (void)snprintf(height, sizeof height, ", z = %.7g mm", 1e3 * at[2]);
-    return fst_fail(
-        p->error, FST_BAD_INPUT, p->path,
-        "the map has a hole: the %zu samples fill a grid of %d x %d x %d but for %zu places, and there is "
-        "none at x = %.7g mm, y = %.7g mm%s",
-        p->count, axes[0].count, axes[1].count, axes[2].count, places - p->count, 1e3 * at[0], 1e3 * at[1],
-        height);
+    return fst_fail(p->error, FST_BAD_INPUT, p->path,
+                    "the map has a hole: the %zu samples fill a grid of %d x %d x %d but for %zu of its "
+                    "places, and there is "
+                    "none at x = %.7g mm, y = %.7g mm%s",
+                    p->count, axes[0].count, axes[1].count, axes[2].count, places - p->count, 1e3 * at[0],
+                    1e3 * at[1], height);
 }
 
 /* Put the samples in order, and make the map. */

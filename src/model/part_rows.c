@@ -228,14 +228,13 @@ static fst_status lies_below(const fst_params *params, int part, fst_error *erro
     const double top = fst_part_seen(p).high, plate = plate_height(params);
     if (top < plate)
         return FST_OK;
-    char highest[64], limit[64], where[48];
-    (void)fst_value_write(highest, sizeof highest, top, FST_UNIT_LENGTH);
-    (void)fst_value_write(limit, sizeof limit, plate, FST_UNIT_LENGTH);
+    char where[48];
     (void)snprintf(where, sizeof where, "magnet.parts[%d]", part);
-    return fst_fail(error, FST_BAD_INPUT, where,
-                    "%s, a %s, reaches %s above the magnet's reference plane, but the plate lies at %s "
-                    "(magnet.depth): a part must end below the plate",
-                    where, kinds[p->kind].name, highest, limit);
+    return fst_fail(
+        error, FST_BAD_INPUT, where,
+        "%s, a %s, reaches %.6g mm above the magnet's reference plane, but the plate lies at %.6g mm "
+        "(magnet.depth): a part must end below the plate",
+        where, kinds[p->kind].name, 1e3 * top, 1e3 * plate);
 }
 
 fst_status fst_params_check_part(const fst_params *params, int part, fst_error *error)
