@@ -64,7 +64,6 @@ CALLS = {
         "flow = bead.flow(progress=tell); flow.advance(t=1e9)",
         "assert 0 < flow.t < 1e9 and flow.stop == ''",
     ),
-    "field": ("print('going', flush=True); bead.field(np.zeros(10**8), 0.0)", "assert partial is None"),
     "lyapunov": ("bead.lyapunov(progress=tell)", "assert partial is None"),
 }
 

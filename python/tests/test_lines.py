@@ -317,6 +317,26 @@ def test_field_broadcasts(bead):
     assert np.array_equal(bead.field(many, 0.3)[1][::100], bead.field(many[::100], 0.3)[1])
 
 
+def test_a_field_of_many_points_obeys_ctrl_c(bead, monkeypatch):
+    """It is computed piece by piece, and the signal is seen between them."""
+    from types import SimpleNamespace
+
+    from festoon import fields
+
+    sizes = []
+
+    def piece(model, count, *arrays):
+        sizes.append(count)
+        if len(sizes) == 3:
+            raise KeyboardInterrupt
+
+    groups = fields.lib.fst_model_groups
+    monkeypatch.setattr(fields, "lib", SimpleNamespace(pyf_field=piece, fst_model_groups=groups))
+    with pytest.raises(fs.Interrupted):
+        bead.field(np.zeros(10**5), 0.0)
+    assert sizes == [fields.PIECE] * 3
+
+
 def test_flow(bead):
     flow = bead.flow()
     t, y = flow.advance(until="section")
