@@ -31,7 +31,7 @@ const plain = (value) => String(Number(value.toPrecision(8)));
 /* What the library says, without the names of C. */
 export function sentence(error) {
     const words = (error.message || String(error)).replace(/\s*\((?:fst_\w+\(\)|festoon schema)[^)]*\)/g, "");
-    return error.where ? `${error.where}: ${words}` : words;
+    return error.where && !words.startsWith(`${error.where}: `) ? `${error.where}: ${words}` : words;
 }
 
 export class Controls {

@@ -26,3 +26,13 @@ export function bodiesOf(groups, north, parts = [], depth = 0) {
         size: [2 * BAR_OVER_LINES, Math.max(width, 0.08), Math.min(BAR_THICKNESS / groups.length_unit_m, 1.6 * below)],
     }];
 }
+
+/* The direction in which a body is magnetised, in the magnet's frame: its axis turned as the body is. */
+export function magnetisation({ axis, turn }) {
+    if (!turn)
+        return axis;
+    const [degrees, ...about] = turn, size = Math.hypot(...about) || 1, [x, y, z] = about.map((v) => v / size);
+    const c = Math.cos((degrees * Math.PI) / 180), s = Math.sin((degrees * Math.PI) / 180), [a, b, d] = axis;
+    const along = (1 - c) * (x * a + y * b + z * d);
+    return [c * a + s * (y * d - z * b) + along * x, c * b + s * (z * a - x * d) + along * y, c * d + s * (x * b - y * a) + along * z];
+}

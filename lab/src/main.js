@@ -10,11 +10,14 @@ import { Panels } from "./panels.js";
 import { Pool } from "./pool.js";
 import { readAddress, writeAddress } from "./state.js";
 import { PRESETS, T } from "./texts.js";
-import { QUANTITIES, Trail, unitsOf } from "./trail.js";
+import { QUANTITIES, SPACING, Trail, unitsOf } from "./trail.js";
 import { View2D } from "./view2d.js";
 import { View3D } from "./view3d.js";
 
 const ROOM = 6000, RAMP_SECONDS = 5, RUN_DELAY = 350, TURNS = 7;
+/* What a motion on the page may take, so that a scene from outside leaves its buttons alive: ms of a frame, ms of the
+ * turns that are not shown; rows, or seconds of the bead, between two looks at the clock. */
+const FRAME_MS = 60, SETTLE_MS = 4000, PIECE_ROWS = 16, PIECE_SECONDS = 0.05, MOST_ROWS = 4000, ROWS_A_TURN = 2 / SPACING;
 const SLOWS = [1, 1.5, 2, 3, 4, 5, 7, 10, 13, 16, 20, 25, 30, 40, 50, 60, 70, 80, 100, 120, 140, 160, 180, 200];
 const $ = (id) => document.getElementById(id);
 
@@ -144,11 +147,8 @@ class Lab {
             this.furnish();
             if (this.settings.settle > 0) {
                 const shown = this.hideTrail ? 0 : Math.min(this.settings.turns, this.settings.settle / 2);
-                const done = this.core.go((this.settings.settle - shown) / this.driveFrequency(), 1);
-                this.row = Float64Array.from(done.rows.subarray(0, COLUMNS));
-                this.leave(done.stop);
-                if (shown)
-                    this.advance(shown / this.driveFrequency());
+                if (this.settleFor((this.settings.settle - shown) / this.driveFrequency()) && shown)
+                    this.advance(shown / this.driveFrequency(), SETTLE_MS);
             }
             if (this.settings.ramp)
                 this.beginRamp();
@@ -156,6 +156,21 @@ class Lab {
             this.tell(sentence(error), true);
         }
         this.draw();
+    }
+
+    /* Go on without a trail.  Returns whether all of it was done. */
+    settleFor(seconds) {
+        const begun = performance.now(), pieces = Math.max(1, Math.ceil(seconds / PIECE_SECONDS));
+        for (let i = 0; i < pieces && this.left === STOP.TIME; ++i) {
+            if (performance.now() - begun > SETTLE_MS) {
+                this.tell(T.settledLess);
+                return false;
+            }
+            const done = this.core.go(seconds / pieces, 1);
+            this.row.set(done.rows.subarray(0, COLUMNS));
+            this.leave(done.stop);
+        }
+        return true;
     }
 
     driveFrequency() {
@@ -183,17 +198,17 @@ class Lab {
         }
     }
 
-    advance(seconds) {
+    /* Go on by `seconds`, or by what `most` milliseconds of work are enough for. */
+    advance(seconds, most = Infinity) {
         if (this.left !== STOP.TIME)
             return;
-        const count = Math.max(1, Math.min(4000, Math.ceil(seconds * this.frequency() * 110)));
-        const quantity = QUANTITIES[this.settings.colour];
+        const count = Math.max(1, Math.min(MOST_ROWS, Math.ceil(seconds * this.frequency() * ROWS_A_TURN)));
+        const begun = performance.now();
         try {
-            const done = this.core.go(seconds, count);
-            for (let i = 0; i < done.count; ++i)
-                this.trail.take(done.rows.subarray(i * COLUMNS, (i + 1) * COLUMNS), quantity, this.units, this.settings.turns);
-            this.row.set(done.rows.subarray((done.count - 1) * COLUMNS, done.count * COLUMNS));
-            this.leave(done.stop);
+            for (let from = 0; from < count && this.left === STOP.TIME && performance.now() - begun < most; from += PIECE_ROWS) {
+                const rows = Math.min(PIECE_ROWS, count - from);
+                this.take(this.core.go((seconds * rows) / count, rows));
+            }
         } catch (error) {
             this.tell(sentence(error), true);
             this.play(false);
@@ -206,12 +221,20 @@ class Lab {
         }
     }
 
+    take(done) {
+        const quantity = QUANTITIES[this.settings.colour];
+        for (let i = 0; i < done.count; ++i)
+            this.trail.take(done.rows.subarray(i * COLUMNS, (i + 1) * COLUMNS), quantity, this.units, this.settings.turns);
+        this.row.set(done.rows.subarray((done.count - 1) * COLUMNS, done.count * COLUMNS));
+        this.leave(done.stop);
+    }
+
     frame(now) {
         const passed = Math.min(0.1, (now - (this.before ?? now)) / 1e3);
         this.before = now;
         if (this.playing) {
             const begun = performance.now();
-            this.advance((this.share * passed) / this.settings.slow);
+            this.advance((this.share * passed) / this.settings.slow, FRAME_MS);
             const took = performance.now() - begun;
             this.share = Math.max(0.05, Math.min(1, took > 24 ? this.share * 24 / took : this.share * 1.05));
             this.draw();
@@ -251,7 +274,9 @@ class Lab {
 
     async runNow() {
         try {
-            this.panels.showRun(await this.pool.runLatest({ ...this.scene }));
+            this.panels.showRun(await this.pool.runLatest({ ...this.scene }, (share) => {
+                $("regime").textContent = T.waitShare(Math.floor(100 * share));
+            }));
         } catch (error) {
             if (error.status !== 8)
                 $("regime").textContent = sentence(error);
@@ -290,10 +315,10 @@ class Lab {
         if ("ui.slow" in view)
             s.slow = near(SLOWS, number("ui.slow"));
         if (CAMERAS.includes(view["ui.camera"]) && view["ui.camera"] !== this.camera.mode)
-            this.camera.choose(view["ui.camera"]);
-        s.colour = view["ui.colour"] in QUANTITIES ? view["ui.colour"] : "nz";
+            this.camera.choose(this.flat && view["ui.camera"] === "free" ? "above" : view["ui.camera"]);
+        s.colour = Object.hasOwn(QUANTITIES, view["ui.colour"] ?? "") ? view["ui.colour"] : "nz";
         s.turns = Math.max(1, Math.min(60, number("ui.trail") || TURNS));
-        s.arrows = new Set((view["ui.arrows"] || "").split(",").filter((name) => name in ARROWS));
+        s.arrows = new Set((view["ui.arrows"] || "").split(",").filter((name) => Object.hasOwn(ARROWS, name)));
         s.ramp = number("ui.ramp") > 0 ? number("ui.ramp") : null;
         s.settle = Math.max(0, Math.min(1000, number("ui.settle")));
         this.panels.showView();

@@ -167,13 +167,15 @@ export class Panels {
         const { lab } = this, [from, to, count] = ["sweep-from", "sweep-to", "sweep-points"].map((id) => Number($(id).value));
         const scene = { ...lab.scene };
         delete scene["drive.omega"];
+        lab.pool.stopSweep();
         this.points.clear();
-        this.sweepOf = this.setup;
-        this.sweeping = true;
+        const mine = (this.sweeping = {});
         this.go.textContent = T.sweepStop;
         this.span = [Math.min(from, to), Math.max(from, to)];
         try {
             await window.festoonLab.sweep(scene, `drive.frequency=${from}:${to}:${count}`, (point, value, result) => {
+                if (this.sweeping !== mine)
+                    return;
                 if (!(result instanceof Error))
                     this.points.set(point, result);
                 this.progress.textContent = T.sweepDone(this.points.size, count);
@@ -183,8 +185,10 @@ export class Panels {
             if (error.status !== 8)
                 this.progress.textContent = error.message;
         } finally {
-            this.sweeping = false;
-            this.go.textContent = T.sweep;
+            if (this.sweeping === mine) {
+                this.sweeping = null;
+                this.go.textContent = T.sweep;
+            }
         }
     }
 

@@ -101,12 +101,12 @@ export class Pool {
     }
 
     /* A run that a later one replaces. */
-    async runLatest(scene) {
+    async runLatest(scene, onFraction) {
         this.latest?.end();
         return this.with(async (runner) => {
             this.latest = runner;
             try {
-                return await runner.ask({ kind: "run", scene });
+                return await runner.ask({ kind: "run", scene }, onFraction);
             } finally {
                 if (this.latest === runner)
                     this.latest = null;

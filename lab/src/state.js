@@ -2,7 +2,8 @@
  * becomes values and plain text, never markup. */
 
 export const VIEW_KEYS = ["ui.slow", "ui.camera", "ui.colour", "ui.trail", "ui.arrows", "ui.ramp", "ui.settle", "ui.step"];
-const LONGEST = 200;
+const LONGEST = 200, FARTHEST = 1e9;
+const MILLIMETRES = new Map([["mm", 1], ["cm", 10], ["m", 1000], ["px", null]]);
 
 /* The part of an address behind "#": scene and view, and the keys that nobody knows. */
 export function readAddress(text, known) {
@@ -51,7 +52,7 @@ export function writeScene(scene, comment) {
 
 /* Read such a file: the plain part of YAML that scenes consist of.  A line that is none of it is an error. */
 export function readScene(text) {
-    const scene = {};
+    const scene = Object.create(null); /* no key is there before it is given, whatever its name */
     let group = "", list = null;
     const give = (key, value, line) => {
         if (key in scene)
@@ -82,33 +83,36 @@ export function readScene(text) {
             give(indent ? `${group}.${name}` : name, value, index + 1);
         }
     });
-    return scene;
+    return { ...scene };
 }
 
 /* A track as `festoon track` writes it, or any table with columns x and y: places in mm about their centre. */
 export function readTrack(text) {
-    const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).filter((line) => line.trim() && !line.startsWith("#"));
+    const lines = text.replace(/^\uFEFF/, "").split(/\r?\n/).map((line, index) => ({ line, number: index + 1 }))
+        .filter(({ line }) => line.trim() && !line.startsWith("#"));
     const cells = (line) => line.split(/[,;\t]/).map((cell) => cell.trim().replace(/^"(.*)"$/, "$1"));
-    const heads = cells(lines[0] || "").map((head) => /^(.*?)\s*(?:\[(.*)\])?$/.exec(head));
+    const heads = cells(lines[0]?.line || "").map((head) => /^(.*?)\s*(?:\[(.*)\])?$/.exec(head.slice(0, LONGEST)));
     const column = (name) => heads.findIndex((head) => head && head[1].toLowerCase() === name);
     const x = column("x"), y = column("y");
     if (x < 0 || y < 0)
-        throw new Error("line 1: expected columns named x and y, as in: frame,t [s],x [mm],y [mm]");
-    const unit = heads[x][2] || "px", factor = { mm: 1, cm: 10, m: 1000, px: null }[unit];
+        throw new Error(`line ${lines[0]?.number || 1}: expected columns named x and y, as in: frame,t [s],x [mm],y [mm]`);
+    const unit = heads[x][2] || "px", factor = MILLIMETRES.get(unit);
     if (factor === undefined)
-        throw new Error(`line 1: "${unit.slice(0, 20)}" must be mm, cm, m or px`);
+        throw new Error(`line ${lines[0].number}: "${unit.slice(0, 20)}" must be mm, cm, m or px`);
     const points = [];
-    lines.slice(1).forEach((line, index) => {
+    lines.slice(1).forEach(({ line, number }) => {
         const row = cells(line);
         if (!row[x] || !row[y])
             return;
         const point = [Number(row[x]), Number(row[y])];
-        if (!point.every(Number.isFinite))
-            throw new Error(`line ${index + 2}: x and y must be numbers`);
+        if (!point.every((value) => Math.abs(value) <= FARTHEST))
+            throw new Error(`line ${number}: x and y must be numbers below ${FARTHEST}`);
         points.push(point);
     });
     if (points.length < 3)
         throw new Error("a track needs three places at least");
+    if (points.every((p) => p[0] === points[0][0] && p[1] === points[0][1]))
+        throw new Error("all places of the track are the same");
     return { points: centred(points, factor || 1), unit: factor ? "mm" : "px" };
 }
 

@@ -89,7 +89,8 @@ export class Trail {
             least = Math.min(least, value);
             most = Math.max(most, value);
         }
-        return least < most ? [least, most] : [least - 0.5, least + 0.5];
+        const spare = least < most ? 0 : 1e-3 * (Math.abs(least) || 1); /* a bead at rest has one value */
+        return [least - spare, most + spare];
     }
 }
 

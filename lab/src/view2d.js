@@ -1,5 +1,6 @@
 /* view2d.js - the stirrer from above on a plain canvas, for browsers without WebGL. */
 import { COLUMN } from "./core.js";
+import { magnetisation } from "./magnet.js";
 import { PALETTE } from "./trail.js";
 import { ARROWS, FRICTION, NORTH, SOUTH } from "./colours.js";
 
@@ -74,17 +75,19 @@ export class View2D {
         return this.pen;
     }
 
-    body({ kind, centre, size, axis }) {
-        const { pen } = this;
+    /* A body's outline, as if it stood straight, and its poles: both halves where they lie side by side, the upper one
+     * where one lies on the other. */
+    body(body) {
+        const { pen } = this, { kind, centre, size } = body, axis = magnetisation(body);
         const [w, h] = kind === "cuboid" ? size : [size[0], size[0]];
-        const main = Math.abs(axis[0]) >= Math.abs(axis[1]) ? 0 : 1, sign = Math.sign(axis[main]) || 1;
-        for (const half of [1, -1]) {
+        const main = axis.reduce((best, v, i) => (Math.abs(v) > Math.abs(axis[best]) * (1 + 1e-9) ? i : best), 0), sign = Math.sign(axis[main]) || 1;
+        for (const half of main === 2 ? [sign] : [1, -1]) {
             pen.save();
             pen.beginPath();
             pen.rect(centre[0] + (main === 0 ? (half - 1) * w / 4 : -w / 2), centre[1] + (main === 1 ? (half - 1) * h / 4 : -h / 2),
                 main === 0 ? w / 2 : w, main === 1 ? h / 2 : h);
             pen.clip();
-            pen.fillStyle = half === sign ? NORTH : SOUTH;
+            pen.fillStyle = (main === 2 ? sign > 0 : half === sign) ? NORTH : SOUTH;
             if (kind === "cuboid")
                 pen.fillRect(centre[0] - w / 2, centre[1] - h / 2, w, h);
             else

@@ -8,7 +8,7 @@ import { COLUMN } from "./core.js";
 import { ARROWS, FRICTION, LOAD, NORTH, SOUTH } from "./colours.js";
 import { PALETTE } from "./trail.js";
 
-const FOV = 34, OLD = 0.75, BACK = [0.2, 0.23, 0.28];
+const TRACK_ROOM = 20000, FOV = 34, OLD = 0.75, BACK = [0.2, 0.23, 0.28];
 
 /* The bead's skin: a red half about its north pole, a blue one about the other, and marks that show every turn. */
 function beadTexture() {
@@ -170,7 +170,7 @@ export class View3D {
         this.ribbon = new Ribbon(room + 1);
         this.ribbon.mesh.renderOrder = 2;
         this.scene.add(this.ribbon.mesh);
-        this.track = new Ribbon(20000);
+        this.track = new Ribbon(TRACK_ROOM);
         this.track.mesh.visible = false;
         this.track.mesh.renderOrder = 2;
         this.scene.add(this.track.mesh);
@@ -208,8 +208,10 @@ export class View3D {
 
     showTrack(points) {
         this.track.mesh.visible = Boolean(points);
-        if (points)
-            this.track.fill(Math.min(points.length, 20000), (i) => points[i], () => [1, 1, 1], 0.006);
+        if (!points)
+            return;
+        const every = Math.ceil(points.length / TRACK_ROOM); /* a long track is drawn by fewer of its places */
+        this.track.fill(Math.ceil(points.length / every), (i) => points[i * every], () => [1, 1, 1], 0.006);
     }
 
     resize(width, height, ratio) {

@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Camera } from "../src/camera.js";
 import { COLUMN, COLUMNS, Core } from "../src/core.js";
-import { bodiesOf } from "../src/magnet.js";
+import { bodiesOf, magnetisation } from "../src/magnet.js";
 import { ticks } from "../src/plots.js";
 import { coarseFirst } from "../src/pool.js";
 import { readAddress, readScene, readTrack, writeAddress, writeScene } from "../src/state.js";
@@ -155,6 +155,8 @@ const tests = {
         }
         assert.throws(() => readScene("drive:\n  - 1\n"), /line 2/);
         assert.throws(() => readScene("drive:\n  omega: 1\n  omega: 2\n"), /line 3/);
+        for (const name of ["constructor", "__proto__"])
+            assert.throws(() => core.setScene(readScene(`${name}: 1\n`)), (error) => error.where === name, "no key is known for what JavaScript calls so");
     },
     "a track is read about the centre of its circle, and a bad one is refused by line"() {
         const places = Array.from({ length: 50 }, (_, i) => [7 + 20 * Math.cos(i), -3 + 20 * Math.sin(i)]);
@@ -164,6 +166,11 @@ const tests = {
         assert.throws(() => readTrack("a,b\n1,2\n"), /line 1/);
         assert.throws(() => readTrack("x [mm],y [mm]\n1,2\n3,oops\n"), /line 3/);
         assert.throws(() => readTrack("x [furlong],y\n1,2\n"), /furlong/);
+        assert.throws(() => readTrack("x [constructor],y\n1,2\n"), /line 1: "constructor"/);
+        assert.throws(() => readTrack("# a film\n\nx,y\n1,1\n1,oops\n"), /line 5/);
+        assert.throws(() => readTrack("x,y\n1e300,1\n2,3\n4,-1e300\n"), /line 2/);
+        assert.throws(() => readTrack("x,y\n1,1\n1,1\n1,1\n"), /the same/);
+        assert.throws(() => readTrack(`x${" ".repeat(1e6)}z,y\n1,1\n`), /three places/, "and at once");
     },
     "points of a sweep are done once each, coarse ones first"() {
         for (const count of [1, 2, 3, 57, 64])
@@ -195,6 +202,9 @@ const tests = {
         assert.deepEqual(bodies.map((body) => body.kind), ["cuboid", "cylinder"]);
         assert.ok(Math.abs(bodies[1].centre[1] * 23 - 30) < 1e-9 && Math.abs(bodies[1].centre[2] * 23 + 18.2) < 1e-9);
         assert.deepEqual(bodies[1].turn, [90, 1, 0, 0]);
+        const lying = magnetisation(bodies[1]);
+        assert.ok(lying[1] < -1 && Math.abs(lying[2]) < 1e-12, "counter-clockwise about X, what stood along Z lies against Y");
+        assert.deepEqual(magnetisation(bodies[0]), bodies[0].axis);
     },
     "presets and lesson say what runs say"() {
         const regimes = { locked: "locked", four: "counter-rotating", twelve: "counter-rotating", many: "counter-rotating", dry: "counter-rotating", discs: "counter-rotating" };
