@@ -45,7 +45,10 @@ def take_text(pointer: Any) -> str:
 
 def path_bytes(path: Any) -> bytes:
     """A path as C wants it."""
-    return os.fsencode(path)
+    found = os.fsencode(path)
+    if b"\0" in found:
+        raise ValueError(f"{path!r}: a path has no null character")
+    return found
 
 
 # ---------------------------------------------------------------------------------------- errors

@@ -136,7 +136,7 @@ def sweep(
 
 
 def _about_sweep(s: Any) -> str:
-    base = Bead._of(lib.fst_grid_base(s._grid)[0])
+    base = Bead._of(lib.fst_grid_base(s._grid)[0], s._map)
     varied = [axis.key for axis in s.axes]
     words = "" if "model.dynamics" in varied else f"dynamics {base.model__dynamics}, "
     return f"{words}{s.size} runs of {base.run__periods:g} turns of the magnet"

@@ -1,7 +1,8 @@
 """Values with units: what parameters are given as, and the units in which numbers leave."""
 
-from typing import Any, Dict, Tuple, Union
+from typing import Any, Dict, SupportsFloat, Tuple, Union
 
+from ._errors import BadInput
 from ._native import call, ffi, lib, text_of
 
 #: A number in SI (scaled where the parameter is), a text with a unit ("10.7 Hz"), or the name of a choice.
@@ -16,33 +17,35 @@ UNITS = {
 }
 
 
-def value_text(value: Any) -> str:
+def value_text(value: Any, where: str) -> str:
     """A value as a scene would say it; a number with all its digits."""
-    if isinstance(value, str):
-        return value
-    if isinstance(value, bool):
-        raise TypeError(f"{value} is neither a number nor a text with a unit")
-    if hasattr(value, "item"):
+    if getattr(value, "size", None) == 1:
         value = value.item()
+    if isinstance(value, str) and "\0" not in value:
+        return str(value)
+    if isinstance(value, (str, bool)) or not isinstance(value, SupportsFloat) or hasattr(value, "size"):
+        raise BadInput(where, f"{value!r} is neither a number nor a text with a unit")
     if isinstance(value, int):
         return str(value)
     return repr(float(value))
 
 
-def quantity(value: Any, unit: int) -> float:
+def quantity(value: Any, unit: int, where: str = "value") -> float:
     """A number, or a text with a unit of this kind, in SI."""
+    text = value_text(value, where)
     if not isinstance(value, str):
-        return float(value)
+        return float(text)
     number = ffi.new("double *")
-    call(lib.fst_parse_value, value.encode(), unit, number)
+    try:
+        call(lib.fst_parse_value, value.encode(), unit, number)
+    except BadInput as error:
+        raise BadInput(where, error.sentence) from None
     return float(number[0])
 
 
 def units_of(name: str) -> int:
     """The units of numbers that leave: "given", "lab", "scaled" or "si"."""
     if name not in UNITS:
-        from ._errors import BadInput
-
         raise BadInput("units", f'unknown units "{name}"; there are {", ".join(UNITS)}')
     return int(UNITS[name])
 

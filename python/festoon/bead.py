@@ -50,6 +50,14 @@ def keyword_of(key: str) -> str:
     return key.replace(".", "__")
 
 
+def _fitting(file: bytes) -> bytes:
+    """A path that fits into magnet.file."""
+    size = ffi.sizeof(dict(ffi.typeof("fst_params").fields)["magnet_file"].type)
+    if len(file) >= size:
+        raise BadInput("magnet.file", f"the path of the map has more than {size - 1} bytes: move the file")
+    return file
+
+
 class Groups:
     """The scaled groups on which the motion depends, and the units behind them (``lambda`` is ``lambda_``)."""
 
@@ -95,7 +103,8 @@ class Bead(Parameters):
     """
 
     _params: Any
-    _model: Any
+    _map: Any = None
+    _made: Any = None
 
     # Type checkers take the signatures with all keywords from Parameters.
     if not TYPE_CHECKING:
@@ -103,7 +112,7 @@ class Bead(Parameters):
         def __init__(self, scene: Any = None, **keywords: Any) -> None:
             self._params = ffi.new("fst_params *", lib.fst_default_params())
             if isinstance(scene, Bead):
-                self._params[0] = scene._params[0]
+                self._params[0], self._map = scene._params[0], scene._map
             elif isinstance(scene, str) and "\n" in scene:
                 data = scene.encode()
                 call(lib.fst_scene_parse, data, len(data), b"scene", self._params)
@@ -124,13 +133,32 @@ class Bead(Parameters):
             if key == "magnet.parts":
                 self._set_parts(value)
             else:
-                call(lib.fst_params_set, self._params, key.encode(), value_text(value).encode())
-        field_map = ffi.new("fst_field_map **")  # of magnet.file
-        call(lib.fst_params_read_map, self._params, ffi.NULL, field_map)
-        self._map = ffi.gc(field_map[0], lib.fst_field_map_free) if field_map[0] else None
+                call(lib.fst_params_set, self._params, key.encode(), value_text(value, key).encode())
+        if "magnet.checksum" in given:
+            self._params.magnet_map = ffi.NULL
+        self._make()
+
+    def _make(self) -> None:
+        """Make the model; a map of the field is read once, and shared by the beads that follow from this one."""
+        if not self._params.magnet_map:
+            field_map = ffi.new("fst_field_map **")
+            call(lib.fst_params_read_map, self._params, ffi.NULL, field_map)
+            self._map = ffi.gc(field_map[0], lib.fst_field_map_free) if field_map[0] else None
         model = ffi.new("fst_model **")
         call(lib.fst_model_new, self._params, model)
-        self._model = ffi.gc(model[0], lib.fst_model_free)
+        self._made = ffi.gc(model[0], lib.fst_model_free)
+
+    @property
+    def _model(self) -> Any:
+        """The model; a bead out of a file whose map was not found fails here, for most uses need none."""
+        if self._made is None:
+            self._make()
+        return self._made
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            raise AttributeError(f"a Bead never changes: bead.replace({name}=...) is another one")
+        super().__setattr__(name, value)
 
     def _set_parts(self, parts: Iterable[Mapping[str, Any]]) -> None:
         """The parts of a real magnet, each a dictionary as in a scene: kind, centre, size, remanence, ..."""
@@ -145,7 +173,7 @@ class Bead(Parameters):
                     continue
                 single = isinstance(value, str) or np.ndim(value) == 0
                 for k, number in enumerate([value] if single else value):
-                    call(lib.fst_params_set, self._params, f"{key}[{k}]".encode(), value_text(number).encode())
+                    call(lib.fst_params_set, self._params, f"{key}[{k}]".encode(), value_text(number, key).encode())
 
     @property
     def magnet__parts(self) -> List[Dict[str, Any]]:
@@ -165,11 +193,22 @@ class Bead(Parameters):
         return parts
 
     @classmethod
-    def _of(cls, params: Any) -> "Bead":
-        """The bead of parameters in C, which are copied."""
+    def _of(cls, params: Any, field_map: Any = None) -> "Bead":
+        """The bead of parameters in C, which are copied; they may use `field_map`, and no other map."""
         made = cls.__new__(cls)
         made._params = ffi.new("fst_params *", params)
-        made._set({})
+        made._map = field_map
+        made._params.magnet_map = field_map or ffi.NULL
+        made._make()
+        return made
+
+    @classmethod
+    def _out_of_file(cls, params: Any, field_map: Any) -> "Bead":
+        """The same of a file that was read; where its map was not found, what needs it says so."""
+        if field_map is not None or params.magnet_file[0] == b"\0":
+            return cls._of(params, field_map)
+        made = cls.__new__(cls)
+        made._params = ffi.new("fst_params *", params)
         return made
 
     @classmethod
@@ -179,7 +218,11 @@ class Bead(Parameters):
 
     def save(self, path: Path, comments: bool = True, overwrite: bool = True) -> None:
         """Write the bead as a YAML scene, with docs and units as comments."""
-        call(lib.fst_scene_write, path_bytes(path), self._params, comments, overwrite)
+        folder = os.path.dirname(os.fsdecode(path))
+        params, file = ffi.new("fst_params *", self._params[0]), ffi.string(self._params.magnet_file)
+        if folder and file and not os.path.isabs(file):  # a path in a scene begins at the scene's folder
+            params.magnet_file = _fitting(os.path.relpath(file, os.fsencode(folder)))
+        call(lib.fst_scene_write, path_bytes(path), params, comments, overwrite)
 
     def scene(self, comments: bool = False) -> str:
         """The bead as YAML text; Bead(text) is the same bead, bit by bit."""
@@ -194,7 +237,7 @@ class Bead(Parameters):
             1.2
             """
             made = type(self).__new__(type(self))
-            made._params = ffi.new("fst_params *", self._params[0])
+            made._params, made._map = ffi.new("fst_params *", self._params[0]), self._map
             made._set(keywords)
             return made
 
@@ -267,14 +310,26 @@ class Bead(Parameters):
                 texts[text_of(row.key)] = text_of(ours)
         return texts
 
+    def _scene_with(self, file: bytes) -> str:
+        params = ffi.new("fst_params *", self._params[0])
+        params.magnet_file = file
+        return take_text(lib.fst_scene_text(params, False))
+
+    def _identity(self) -> str:
+        """What equal beads have in common: the scene; of a map its content, and not where it lies."""
+        return self.scene() if self._params.magnet_checksum[0] == b"\0" else self._scene_with(b"")
+
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Bead) and self.scene() == other.scene()
+        return isinstance(other, Bead) and self._identity() == other._identity()
 
     def __hash__(self) -> int:
-        return hash(self.scene())
+        return hash(self._identity())
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        return type(self), (self.scene() + "\n",)
+        """Another process may work in another folder, where a path to a map leads nowhere."""
+        file = ffi.string(self._params.magnet_file)
+        scene = self._scene_with(_fitting(os.path.abspath(file))) if file else self.scene()
+        return type(self), (scene + "\n",)
 
     def __repr__(self) -> str:
         words = []

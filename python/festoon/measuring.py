@@ -103,7 +103,7 @@ def read_track(
     if fps is not None:
         options.fps = fps
     if scale is not None:
-        options.scale = quantity(scale, lib.FST_UNIT_LENGTH)
+        options.scale = quantity(scale, lib.FST_UNIT_LENGTH, "scale")
     track = ffi.gc(ffi.new("fst_track *"), lib.fst_track_free)
     understood = ffi.new("char **")
     call(lib.fst_track_read, path_bytes(path), options, track, understood)
@@ -179,7 +179,7 @@ def measure(
         raise TypeError("format, name, fps and scale belong to the reading of a file")
     options = options_of(lib.fst_default_measure_options())
     if drive is not None:
-        options.drive = quantity(drive, lib.FST_UNIT_FREQUENCY)
+        options.drive = quantity(drive, lib.FST_UNIT_FREQUENCY, "drive")
     if exposure is not None:
         options.exposure = _seconds(exposure)
     found = ffi.new("fst_measurement *")
@@ -216,7 +216,7 @@ def save_points(
     points = ffi.new("fst_points *")
     rows = ffi.new("fst_point[]", max(1, len(measured)))
     for i, (one, drive) in enumerate(zip(measured, given)):
-        call(lib.fst_point_of, one._found, quantity(drive, lib.FST_UNIT_FREQUENCY), ffi.addressof(rows, i))
+        call(lib.fst_point_of, one._found, quantity(drive, lib.FST_UNIT_FREQUENCY, "drives"), ffi.addressof(rows, i))
     points.rows, points.count = rows, len(measured)
     call(lib.fst_points_write, path_bytes(path), points)
 
@@ -246,7 +246,7 @@ class Fit:
     def __init__(self, fit: Any, points: Any, begun: Bead) -> None:
         self._fit, self._points, self._begun = fit, points, begun
         #: The bead with the values that were found.
-        self.bead = Bead._of(fit.params)
+        self.bead = Bead._of(fit.params, begun._map)
         self.parameters = [FitParameter(fit.parameters[i]) for i in range(fit.free_count)]
         #: A matrix in the order of the parameters.
         self.correlation = np.array([list(row)[: fit.count] for row in fit.correlation[0 : fit.count]])[
@@ -290,8 +290,8 @@ class Fit:
 
 def fit(
     points: Optional[Path] = None,
-    free: Iterable[str] = (),
-    given: Iterable[str] = (),
+    free: Union[str, Iterable[str]] = (),
+    given: Union[str, Iterable[str]] = (),
     *,
     track: Union[None, Track, Path] = None,
     bead: Optional[Bead] = None,
@@ -312,14 +312,14 @@ def fit(
         raise BadInput("fit", "give a table of points, or a track")
     bead = (bead or Bead())._asked()
     options = options_of(lib.fst_default_fit_options())
-    free_words, kept_free = strings([key_of(word) for word in free])
-    given_words, kept_given = strings(list(given))
+    free_words, kept_free = strings([key_of(word) for word in ([free] if isinstance(free, str) else free)])
+    given_words, kept_given = strings([given] if isinstance(given, str) else list(given))
     options.free, options.free_count = free_words, len(kept_free)
     options.given, options.given_count = given_words, len(kept_given)
     options.rivals, options.bootstrap, options.seed = rivals, bootstrap, seed
     options.curve_points = curve_points
     if drive is not None:
-        options.drive = quantity(drive, lib.FST_UNIT_FREQUENCY)
+        options.drive = quantity(drive, lib.FST_UNIT_FREQUENCY, "drive")
     if exposure is not None:
         options.exposure = _seconds(exposure)
     found = ffi.gc(ffi.new("fst_fit *"), lib.fst_fit_free)

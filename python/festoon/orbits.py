@@ -423,7 +423,7 @@ def _range(key: str, value: Any) -> Tuple[float, float]:
     except (TypeError, ValueError):
         raise BadInput("branch", f"{keyword_of(key)} must be a range (LO, HI)") from None
     unit = lib.fst_param_at(place).unit
-    return quantity(low, unit), quantity(high, unit)
+    return quantity(low, unit, key), quantity(high, unit, key)
 
 
 def branch(bead: Bead, kind: str, progress: Progress, keywords: Mapping[str, Any]) -> Branch:

@@ -158,7 +158,7 @@ def _again(bead: Bead, data: bytes, trajectory: Any, ramp: Any, complete: bool) 
 def _ramp_ends(bead: Bead, ramp: Any, options: Any) -> None:
     factor = 2 * math.pi / bead.gamma
     try:
-        ends = [quantity(end, lib.FST_UNIT_FREQUENCY) * factor for end in ramp]
+        ends = [quantity(end, lib.FST_UNIT_FREQUENCY, "ramp") * factor for end in ramp]
     except TypeError:
         ends = []
     if len(ends) != 2:
@@ -216,9 +216,14 @@ def run(
     options.sink.ramp_point = ffi.addressof(lib, "pyf_take_ramp_point")
     if trajectory is not False:
         options.sink.sample = ffi.addressof(lib, "pyf_take_sample")
+    if not sample_from >= 0:
+        raise BadInput("sample_from", f"{sample_from} is no number of drive periods before the first sample")
     options.sample_from = sample_from
     if fps is not None:
-        options.sample_spacing = bead.gamma / fps
+        rate = quantity(fps, lib.FST_UNIT_FREQUENCY, "fps")
+        if not 0 < rate < math.inf:
+            raise BadInput("fps", f"{fps} is no number of samples a second")
+        options.sample_spacing = bead.gamma / rate
     if start is not None:
         state = ffi.new("double[]", [float(x) for x in start])
         if len(state) != lib.FST_STATE_SIZE:

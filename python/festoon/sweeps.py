@@ -83,8 +83,8 @@ class Sweep(SweepNumbers):
     An index gives a run, a slice or a mask a smaller sweep: ``s[0, 1]``, ``s[:, 1]``, ``s[s.failed]``.
     """
 
-    def __init__(self, rows: Any, grid: Any, owner: Any) -> None:
-        self._rows, self._grid, self._owner = rows, grid, owner
+    def __init__(self, rows: Any, grid: Any, owner: Any, field_map: Any = None) -> None:
+        self._rows, self._grid, self._owner, self._map = rows, grid, owner, field_map
         self.axes = [Axis(grid, i) for i in range(lib.fst_grid_axis_count(grid))]
         #: The name and the length of each dimension.
         self.dims: Tuple[str, ...] = ()
@@ -123,7 +123,7 @@ class Sweep(SweepNumbers):
     def _bead(self, point: int) -> Bead:
         params = ffi.new("fst_params *")
         call(lib.fst_grid_params, self._grid, point, params)
-        return Bead._of(params[0])
+        return Bead._of(params[0], self._map)
 
     def bead(self, *index: int) -> Bead:
         """The bead of a point."""
@@ -142,6 +142,10 @@ class Sweep(SweepNumbers):
     def _dims_of(self, index: Any, count: int) -> Tuple[str, ...]:
         """Names of the dimensions that remain; a mask leaves one of points."""
         parts = index if isinstance(index, tuple) else (index,)
+        for i, part in enumerate(parts):
+            if part is Ellipsis:
+                parts = (*parts[:i], *[slice(None)] * (len(self.dims) + 1 - len(parts)), *parts[i + 1 :])
+                break
         if all(isinstance(part, (int, np.integer, slice)) for part in parts):
             kept = [
                 name
@@ -309,7 +313,7 @@ def axis_text(keyword: str, values: Any) -> str:
     """An axis as the library reads it: KEY=A,B,C; a text is taken as it is ("8:20:13", "8 Hz:20 Hz:5:log")."""
     if isinstance(values, str):
         return f"{key_of(keyword)}={values}"
-    words = [value_text(value) for value in np.atleast_1d(np.asarray(values, object)).ravel()]
+    words = [value_text(value, key_of(keyword)) for value in np.atleast_1d(np.asarray(values, object)).ravel()]
     return f"{key_of(keyword)}={','.join(words)}"
 
 
@@ -320,7 +324,7 @@ def _new_grid(bead: Bead, axes: List[str], seed: int) -> Any:
     return ffi.gc(grid[0], lib.fst_grid_free)
 
 
-def _sweep_of(batch: Any, grid: Any) -> Sweep:
+def _sweep_of(batch: Any, grid: Any, field_map: Any = None) -> Sweep:
     """The rows of a batch as a sweep; what is not there becomes NaN."""
     owner = (batch, grid)
     count = int(lib.fst_grid_points(grid))
@@ -329,10 +333,12 @@ def _sweep_of(batch: Any, grid: Any) -> Sweep:
     if lacking.any():
         for name in RESULTS:
             rows["result"][name][lacking] = np.nan
-    return Sweep(rows, grid, owner)
+    return Sweep(rows, grid, owner, field_map)
 
 
-def _workers(batch: Any, count: int, failures: List[BaseException]) -> List[threading.Thread]:
+def _work(batch: Any, threads: List[threading.Thread], count: int, failures: List[BaseException]) -> None:
+    """Let so many threads do the batch; they are in `threads` before they begin, so that none is left behind."""
+
     def work() -> None:
         error = new_error()
         status = lib.pyf_batch_work(batch, error)
@@ -340,10 +346,9 @@ def _workers(batch: Any, count: int, failures: List[BaseException]) -> List[thre
             failures.append(error_of(error))
             lib.pyf_batch_stop(batch)
 
-    threads = [threading.Thread(target=work, name=f"festoon-{i}", daemon=True) for i in range(count)]
-    for thread in threads:
-        thread.start()
-    return threads
+    for i in range(count):
+        threads.append(threading.Thread(target=work, name=f"festoon-{i}", daemon=True))
+        threads[-1].start()
 
 
 def _join(threads: List[threading.Thread]) -> None:
@@ -356,7 +361,9 @@ def _join(threads: List[threading.Thread]) -> None:
                 pass
 
 
-def _in_memory(grid: Any, threads: int, lanes: int, portable: bool, progress: Progress) -> Sweep:
+def _in_memory(
+    grid: Any, field_map: Any, threads: int, lanes: int, portable: bool, progress: Progress
+) -> Sweep:
     arithmetic = lib.FST_ARITHMETIC_PORTABLE if portable else lib.fst_best_arithmetic()
     made = lib.pyf_batch_new(grid, arithmetic, lanes)
     if not made:
@@ -368,7 +375,7 @@ def _in_memory(grid: Any, threads: int, lanes: int, portable: bool, progress: Pr
     bar = bar_for(progress, "sweep")
     whole = False
     try:
-        workers = _workers(batch, max(1, min(threads, points)), failures)
+        _work(batch, workers, max(1, min(threads, points)), failures)
         for worker in workers:
             while worker.is_alive():
                 worker.join(0.05)
@@ -378,14 +385,14 @@ def _in_memory(grid: Any, threads: int, lanes: int, portable: bool, progress: Pr
     except KeyboardInterrupt:
         lib.pyf_batch_stop(batch)
         _join(workers)
-        raise Interrupted(_sweep_of(batch, grid)) from None
+        raise Interrupted(_sweep_of(batch, grid, field_map)) from None
     finally:
         bar.end(whole)
         lib.pyf_batch_stop(batch)
         _join(workers)
     if failures:
         raise failures[0]
-    return _sweep_of(batch, grid)
+    return _sweep_of(batch, grid, field_map)
 
 
 def _into_file(
@@ -461,7 +468,7 @@ def sweep(
         with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
             path = os.path.join(folder, "sweep.db")
             return _into_file(bead, texts, path, seed, carry, count, lanes, portable, progress)
-    return _in_memory(grid, count, lanes, portable, progress)
+    return _in_memory(grid, bead._map, count, lanes, portable, progress)
 
 
 # ---------------------------------------------------------------------------------------- reading one

@@ -140,6 +140,8 @@ def read(path: Path) -> Trajectory:
     for i, name in enumerate(COLUMNS):
         if table.rows:
             rows[name] = np.frombuffer(ffi.buffer(table.columns[i], 8 * table.rows), "f8")
-    return Trajectory._of(rows, Bead._of(table.params), bool(table.complete))
+    found, table.map = table.map, ffi.NULL
+    bead = Bead._out_of_file(table.params, ffi.gc(found, lib.fst_field_map_free) if found else None)
+    return Trajectory._of(rows, bead, bool(table.complete))
 
 

@@ -178,6 +178,8 @@ def test_sweep_has_a_row_for_each_point():
     part = s[:, 1]
     assert part.shape == (3, 2) and part.dims == ("frequency", "model__dynamics")
     assert np.array_equal(part.mean_r, s.mean_r[:, 1])
+    assert s[..., 0].dims == ("frequency", "kappa") and np.array_equal(s[..., 0].mean_r, s.mean_r[..., 0])
+    assert s[..., :, :, :].dims == s.dims
     assert np.array_equal(s.si.mean_r, s.mean_r * 0.023)
     assert np.shares_memory(s.mean_r, s._rows)
 
@@ -311,6 +313,28 @@ def test_field_broadcasts(bead):
     assert np.array_equal(bead.field("10 mm", 0.0)[0], bead.field(10e-3 / 0.023, 0.0)[0])
     with pytest.raises(fs.BadInput, match="tesla"):
         bead.field(0, 0, units="si")
+    many = np.linspace(-1, 1, 5001)  # more than one call takes
+    assert np.array_equal(bead.field(many, 0.3)[1][::100], bead.field(many[::100], 0.3)[1])
+
+
+def test_a_field_of_many_points_obeys_ctrl_c(bead, monkeypatch):
+    """It is computed piece by piece, and the signal is seen between them."""
+    from types import SimpleNamespace
+
+    from festoon import fields
+
+    sizes = []
+
+    def piece(model, count, *arrays):
+        sizes.append(count)
+        if len(sizes) == 3:
+            raise KeyboardInterrupt
+
+    groups = fields.lib.fst_model_groups
+    monkeypatch.setattr(fields, "lib", SimpleNamespace(pyf_field=piece, fst_model_groups=groups))
+    with pytest.raises(fs.Interrupted):
+        bead.field(np.zeros(10**5), 0.0)
+    assert sizes == [fields.PIECE] * 3
 
 
 def test_flow(bead):
@@ -448,3 +472,78 @@ def test_sweep_over_a_part():
     s = fs.sweep(bead, **{"magnet.parts[0].centre[2]": ["-6 mm", -0.005]})
     assert s.shape == (2,) and s.bead(0).magnet__parts[0]["centre"][2] == -0.006
     assert s.parameter("magnet.parts[0].centre[2]").tolist() == [-0.006, -0.005]
+
+
+# ---------------------------------------------------------------------------------------- what is refused
+
+
+def test_a_bead_never_changes():
+    bead = fs.Bead()
+    for name in ("kappa", "frequncy"):
+        with pytest.raises(AttributeError, match="never changes"):
+            setattr(bead, name, 1.2)
+
+
+@pytest.mark.parametrize("value", [[1, 2], np.array([1.0, 2.0]), 1j, True, b"1", {}, "1\0", float("nan")])
+def test_what_is_no_number_is_bad_input(value):
+    with pytest.raises(fs.BadInput) as caught:
+        fs.Bead(kappa=value)
+    assert caught.value.where == "model.kappa"
+
+
+@pytest.mark.parametrize("keywords", [{"fps": 0}, {"fps": -3}, {"fps": math.nan}, {"fps": "60 mm"},
+                                      {"sample_from": math.nan}, {"sample_from": -1}])
+def test_samples_that_cannot_be_are_refused(keywords):
+    with pytest.raises(fs.BadInput) as caught:
+        fs.Bead().run(periods=10, trajectory=True, **keywords)
+    assert caught.value.where == next(iter(keywords))
+
+
+def test_a_path_is_not_cut_off(tmp_path):
+    with pytest.raises(ValueError, match="null"):
+        fs.Bead().save(str(tmp_path / "bead\0.yaml"))
+    assert not list(tmp_path.iterdir())
+
+
+# ---------------------------------------------------------------------------------------- a map of the field
+
+
+@pytest.fixture
+def mapped(tmp_path, monkeypatch):
+    """A bead over a measured map, whose path begins at the folder of the work."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("measured-map.csv", "measured-map.yaml"):
+        (tmp_path / name).write_bytes((SOURCE / "examples/magnets" / name).read_bytes())
+    return fs.Bead("measured-map.yaml", run__periods=3, run__discard=1)
+
+
+def test_a_scene_in_another_folder_finds_its_map(mapped, tmp_path):
+    (tmp_path / "deeper").mkdir()
+    mapped.save("deeper/bead.yaml")
+    mapped.save("beside.yaml")
+    for path in ("deeper/bead.yaml", "beside.yaml", tmp_path / "measured-map.yaml"):
+        again = fs.Bead(path, run__periods=3, run__discard=1)
+        assert again == mapped and hash(again) == hash(mapped)
+        assert np.array_equal(again.field(0.3, 0.1)[1], mapped.field(0.3, 0.1)[1])
+    assert mapped.replace(kappa=1.2) != mapped
+
+
+def test_a_bead_keeps_its_map(mapped, tmp_path, monkeypatch):
+    """What follows from a bead uses the map that was read, wherever one works and whatever became of the file."""
+    run, rows = mapped.run(trajectory="run.h5"), fs.sweep(mapped, frequency=[14, 15])
+    data = pickle.dumps(mapped)
+    (tmp_path / "deeper").mkdir()
+    monkeypatch.chdir(tmp_path / "deeper")
+    assert pickle.loads(data) == mapped
+    (tmp_path / "measured-map.csv").unlink()
+    b = mapped.field(0.3, 0.1)[0]
+    assert mapped.run().mean_r == run.mean_r and np.array_equal(fs.Bead(mapped).field(0.3, 0.1)[0], b)
+    del mapped
+    gc.collect()
+    assert rows[0].mean_r == rows.mean_r[0] and np.array_equal(rows.bead(0).field(0.3, 0.1)[0], b)
+    with pytest.raises(fs.BadInput, match="measured-map"):
+        rows.bead(0).replace(magnet__checksum="0123456789abcdef")
+    read = fs.read(tmp_path / "run.h5")
+    assert len(read) > 100 and read.lab.unit("x") == "mm" and read.bead.magnet__shape == "grid"
+    with pytest.raises(fs.BadInput, match="measured-map"):
+        read.bead.field(0, 0)
