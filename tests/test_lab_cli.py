@@ -1,7 +1,7 @@
 """`festoon lab`: the address of the page with a scene, and what a desktop is asked to open.
 
 The program and its libraries are copied into a folder with a strange name, with a page beside them or in share.
-Environment: FESTOON, BUILD_DIR.
+Environment: FESTOON, SOURCE_DIR, BUILD_DIR.
 """
 
 import html
@@ -18,6 +18,9 @@ import urllib.parse
 import events
 
 BUILD = pathlib.Path(os.environ["BUILD_DIR"])
+HEADER = pathlib.Path(os.environ["SOURCE_DIR"], "include", "festoon", "festoon.h").read_text()
+VERSION = subprocess.run([os.environ["FESTOON"], "--version"], capture_output=True, text=True, check=True).stdout.split("\n")[0]
+STAMP = f'<meta name="generator" content="{VERSION}, results version {re.search("FST_RESULTS_VERSION ([0-9]+)", HEADER)[1]}">'
 
 
 class Lab(unittest.TestCase):
@@ -46,9 +49,16 @@ class Lab(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("make lab", done.stderr)
 
+    def test_old_page(self):
+        """A page of other results would show other numbers than the program."""
+        self.page.write_text(re.sub("version [0-9]+", "version 1", STAMP))
+        done = self.run_lab()
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("another version", done.stderr)
+
     def test_address(self):
         """The path comes back from the address, and the scene has what differs from the default, and nothing else."""
-        self.page.touch()
+        self.page.write_text(STAMP)
         words = ("--set", "drive.frequency=642 rpm", "--set", "friction.law=coulomb", "--set", "start.phi=-12.5")
         path, _, fragment = self.address(*words).partition("#")
         self.assertRegex(path, r"^file://[\w/.~%-]*$")
@@ -63,18 +73,18 @@ class Lab(unittest.TestCase):
         for up in (self.top, self.top.parent):
             page = up / "share" / "festoon" / "festoon-lab.html"
             page.parent.mkdir(parents=True)
-            page.touch()
+            page.write_text(STAMP)
             self.assertIn(urllib.parse.quote(str(page)), self.address())
             page.unlink()
 
     def test_bad_scene(self):
-        self.page.touch()
+        self.page.write_text(STAMP)
         done = self.run_lab("--set", "drive.freqency=3")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("drive.frequency", done.stderr)
 
     def test_no_desktop(self):
-        self.page.touch()
+        self.page.write_text(STAMP)
         for variables in ({}, {"DISPLAY": ":9", "PATH": str(self.top), "XDG_RUNTIME_DIR": str(self.top)}):
             done = self.run_lab(**variables)
             self.assertEqual(done.returncode, 0)
@@ -84,7 +94,7 @@ class Lab(unittest.TestCase):
 
     def test_desktop(self):
         """xdg-open gets a page that leads to the address, because it would drop what stands behind "#"."""
-        self.page.touch()
+        self.page.write_text(STAMP)
         opener, asked = self.top / "bin" / "xdg-open", self.top / "asked"
         opener.parent.mkdir()
         opener.write_text('#!/bin/sh\nprintf "%s" "$1" > "$ASKED.part"\nmv "$ASKED.part" "$ASKED"\n')

@@ -494,7 +494,8 @@ FST_API char *fst_paper_statements_text(void);
 enum { FST_LAB_ADDRESS_SIZE = 8192, FST_LAB_VALUE_SIZE = 256 };
 
 /* The address of the page festoon-lab.html, which lies beside this library or in share/festoon, with `params`
- * behind its "#": what differs from the default scene.  FST_UNAVAILABLE: the page was not built. */
+ * behind its "#": what differs from the default scene.  FST_UNAVAILABLE: the page was not built, or is of
+ * another version.  FST_BAD_INPUT: the page cannot read the scene, because its magnet is a measured map. */
 FST_API fst_status fst_lab_address(const fst_params *params, char address[FST_LAB_ADDRESS_SIZE],
                                    fst_error *error);
 

@@ -1,6 +1,7 @@
 /* core.js - the library in WebAssembly, as objects and texts of JavaScript.  Page, workers and tests use this file. */
 
-export const STATUS = { OK: 0, INTERRUPTED: 8 };
+export const STATUS = { OK: 0, BAD_INPUT: 1, INTERRUPTED: 8 };
+const MOST_POINTS = 1e5;
 export const STOP = { TIME: 0, EDGE: 2, LIFT_OFF: 3 };
 
 /* The columns of a row of the motion: lab.c has the same names in the same order. */
@@ -244,6 +245,8 @@ export class Core {
         const points = this.withTexts([axis], (text) => this.c.lab_grid(this.bead, text));
         if (points < 0)
             this.check(-points);
+        if (points > MOST_POINTS)
+            throw new FestoonError(STATUS.BAD_INPUT, "sweep", `${points} points are more than the ${MOST_POINTS} of a page; use festoon sweep`);
         return Array.from({ length: points }, (_, i) => this.c.lab_grid_value(this.bead, i));
     }
 

@@ -242,7 +242,7 @@ export class Panels {
         const unit = (canvas.height - 28) / 3 / canvas.height;
         series.forEach(([label, colour, read], i) => {
             canvas.frame({
-                x: [0, 360], every: 60, y: rangeOf(rows.map(read), 0.01), yLabel: label, xLabel: T.plotLabels.phi, from: i * unit, to: i === 2 ? 1 : (i + 1) * unit,
+                x: [0, 360], every: 60, y: rangeOf([...rows, lab.row].map(read), 0.01), yLabel: label, xLabel: T.plotLabels.phi, from: i * unit, to: i === 2 ? 1 : (i + 1) * unit,
                 xTicks: i === 2,
             });
             canvas.dots(rows.map((row) => [degrees(row), read(row)]), colour, 1.1);

@@ -120,7 +120,7 @@ export const LESSON = [
         question: "Below the glass plate a bar magnet turns, three times a second. On the plate lies a magnetic bead. What does the bead do?",
         answers: ["It goes round with the magnet.", "It stays where it is.", "It goes round the other way."], answer: 0,
         observe: "The bead sits over a pole of the bar and is carried along. Choose “With the magnet”: there the bead stands still.",
-        explain: "The pole attracts the bead more strongly than friction holds it back. Seen from the turning bar the bead is at rest: it is locked. The bead's own moment, red end to blue end, follows the field of the bar.",
+        explain: "The pole attracts the bead more strongly than friction holds it back. Seen from the turning bar the bead is at rest: it is locked. The bead's own moment, which points from its blue end to its red one, follows the field of the bar.",
     },
     {
         title: "A faster magnet", settle: 100,

@@ -65,6 +65,7 @@ const tests = {
         const rows = JSON.parse(festoon("export", file, "--json"));
         const points = rows.points || rows.rows || rows;
         core.setScene(base);
+        assert.throws(() => core.grid("drive.frequency=1:2:1000000000"), /points/);
         assert.equal(core.grid(axis).length, points.length);
         points.forEach((row, i) => {
             core.setScene(base);

@@ -81,11 +81,32 @@ static int append_scene(char address[FST_LAB_ADDRESS_SIZE], const fst_params *pa
     return fits;
 }
 
+/* Whether the page says in its first bytes that it was built from this version.  An old one would show other
+ * numbers than the program. */
+static int is_of_this_version(const char *path)
+{
+    char stamp[128], head[8192];
+    FILE *page = fopen(path, "rb");
+    if (!page)
+        return 0;
+    const size_t size = fread(head, 1, sizeof head - 1, page);
+    (void)fclose(page);
+    head[size] = '\0';
+    (void)snprintf(stamp, sizeof stamp, "\"festoon %s, results version %d\"", fst_version(),
+                   FST_RESULTS_VERSION);
+    return strstr(head, stamp) != NULL;
+}
+
 fst_status fst_lab_address(const fst_params *params, char address[FST_LAB_ADDRESS_SIZE], fst_error *error)
 {
     char path[FST_LAB_ADDRESS_SIZE];
+    if (params->magnet_shape == FST_MAGNET_GRID)
+        return fst_fail(error, FST_BAD_INPUT, "magnet.shape", "the page reads no measured map of a magnet");
     if (!find_page(path))
         return fst_fail(error, FST_UNAVAILABLE, PAGE, "the page is not beside the library: make lab builds it");
+    if (!is_of_this_version(path))
+        return fst_fail(error, FST_UNAVAILABLE, path,
+                        "the page is of another version than this program: make lab builds it anew");
     address[0] = '\0';
     if (!append(address, "file://", ":/") || !append(address, path, "/._-~") || !append_scene(address, params))
         return fst_fail(error, FST_BAD_INPUT, PAGE, "its address would be longer than %d characters",
