@@ -26,7 +26,8 @@ fst_status pyf_take_sample(void *samples, const fst_sample *sample, fst_error *e
 fst_status pyf_take_ramp_point(void *samples, const fst_ramp_point *point, fst_error *error);
 void pyf_free(void *memory);
 
-/* A row of a batch; all zeros as long as the run is not done, so that memory is not touched before it is needed.
+/* A row of a batch; all zeros as long as the run is not done, so that memory is not touched before it is
+ * needed.
  */
 typedef struct pyf_row {
     fst_run_result result;

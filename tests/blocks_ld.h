@@ -1,34 +1,9 @@
-/* blocks_ld.h - the sources of the field over double and over long double side by side, and blocks of the
- * same numbers in both. */
+/* blocks_ld.h - blocks of the same numbers over double and over long double, and what their fields differ by.
+ */
 #ifndef FST_TESTS_BLOCKS_LD_H
 #define FST_TESTS_BLOCKS_LD_H
 
-#include "physics.h"
-
-#include "base/constants.h"
-#include "base/elementary.h"
-#include "model/kinds.h"
-
-#include "base/real_double.h"
-
-#include "model/source/sources.inl"
-
-#undef ENDS
-#undef ENDS_GROUPS
-#undef ENDS_OF
-#undef ENDS_SQRT
-#undef END
-#undef REAL
-#undef R
-#undef FN
-#undef REAL_SQRT
-#undef REAL_ABS
-#undef REAL_BITS
-#undef REAL_AS_BITS
-#undef REAL_OF_BITS
-#include "base/real_long_double.h"
-
-#include "model/source/sources.inl"
+#include "both_precisions.h"
 
 typedef fst_local_field_long_double field_ld;
 

@@ -255,15 +255,32 @@ class Scenes(Case):
         self.assertEqual(nothing, self.json("check"))
 
     def test_set_replaces_every_key(self):
-        needs = {"bead.remanence": ["magnet.b0=10mT"],
-                 "magnet.shape": ["magnet.parts[0].kind=dipole", "magnet.parts[0].moment[0]=2"]}
+        field = os.path.join(SOURCE_DIR, "examples", "magnets", "measured-map.csv")
+        needs = {"bead.remanence": ["magnet.b0=10mT"], "magnet.shape": [f"magnet.file={field}"]}
+        texts = {"magnet.file": field, "magnet.checksum": "0123456789abcdef"}
         for row in json.loads(self.good("schema", "--json")):
-            value = row["names"][-1] if row["names"] else row["default"]
+            value = row["names"][-1] if row["names"] else texts.get(row["key"], row["default"])
             if value is None:
                 value = min(1.0, row["max"])
             sets = [word for text in (*needs.get(row["key"], ()), f"{row['key']}={value}") for word in ("--set", text)]
             scene = self.json("check", *sets)["scene"]
             self.assertEqual(scene[row["key"]], value, row["key"])
+
+    def test_set_chooses_each_kind_of_magnet(self):
+        field = os.path.join(SOURCE_DIR, "examples", "magnets", "measured-map.csv")
+        kinds = {"lines": [], "parts": ["magnet.parts[0].kind=dipole", "magnet.parts[0].moment[0]=2"],
+                 "grid": [f"magnet.file={field}"]}
+        (row,) = (row for row in json.loads(self.good("schema", "--json")) if row["key"] == "magnet.shape")
+        self.assertEqual(row["names"], list(kinds))
+        for kind, needs in kinds.items():
+            words = [word for text in (f"magnet.shape={kind}", *needs) for word in ("--set", text)]
+            self.assertEqual(self.json("check", *words)["scene"]["magnet.shape"], kind)
+            if needs:
+                self.bad(["check", *words[:2]], "magnet.file" if kind == "grid" else "magnet.parts")
+        checksum = self.json("check", *words)["scene"]["magnet.checksum"]
+        self.assertRegex(checksum, "^[0-9a-f]{16}$")
+        self.good("check", *words, "--set", f"magnet.checksum={checksum}")
+        self.bad(["check", *words, "--set", f"magnet.checksum={checksum[::-1]}"], checksum, "changed")
 
     def test_set_replaces_the_other_form(self):
         path = self.path("s.yaml", "drive: {omega: 0.3}\nbead: {radius: 2 mm, moment: 0.1}\nmagnet: {b0: 10 mT}\n")

@@ -37,17 +37,10 @@ def answer(*arguments):
     return json.loads(done.stdout)
 
 
-def lacks_maps():
-    """Whether this program was built without the source `grid`."""
-    return 'unknown choice "grid"' in festoon("check", "examples/magnets/measured-map.yaml").stderr
-
-
 class Scenes(unittest.TestCase):
     def test_each_checks_and_runs(self):
         self.assertGreaterEqual(len(SCENES), 10)
         for scene in SCENES:
-            if scene == "measured-map.yaml" and lacks_maps():
-                continue
             with self.subTest(scene=scene):
                 path = f"examples/magnets/{scene}"
                 self.assertIn(f"#   festoon run {path}\n", (MAGNETS / scene).read_text())
@@ -80,7 +73,6 @@ class Fields(unittest.TestCase):
                               check=True).stdout
         self.assertEqual(made.splitlines(), (MAGNETS / "measured-map.csv").read_text().splitlines())
 
-    @unittest.skipIf(lacks_maps(), "this program reads no maps")
     def test_the_map_tells_the_field_between_its_points(self):
         """At a place between the points of the grid: the maker's own field there, within the probe's noise."""
         x, y = 16.4, -4.7

@@ -1,6 +1,7 @@
 /* A measured field through the public functions: splines through samples of the five lines converge to them
  * with the eighth power of the spacing, runs over them are runs over the lines, steps keep their order 8 across
  * cells, lanes have the bits of the scalar form, and where the map ends the run ends with a sentence. */
+#include "few_rows.h"
 #include "measured_field.h"
 
 #include "study/lane_rows.h"
@@ -168,71 +169,45 @@ static void test_noise_keeps_energy(void **unused)
 /* ------------------------------------------------------------------ lanes */
 
 enum { JOBS = 12 };
-typedef struct store {
-    int next;
-    fst_params measured;
-    fst_run_result results[JOBS];
-} store;
 
-static int next_job(void *user, fst_row_job *job)
+/* `with` is the bead over the map. */
+static void fill(const void *with, int row, fst_row_job *job)
 {
-    store *s = user;
-    if (s->next == JOBS)
-        return 0;
-    memset(job, 0, sizeof *job);
-    job->point = s->next++;
-    job->params = s->measured;
-    job->params.drive_omega = 0.4 + 0.02 * (double)job->point;
+    job->params = *(const fst_params *)with;
+    job->params.drive_omega = 0.4 + 0.02 * row;
     job->params.run_periods = 16;
     job->params.run_discard = 4;
-    if (job->point % 4 == 1)
+    if (row % 4 == 1)
         job->params.friction_law = FST_FRICTION_COULOMB;
-    if (job->point % 5 == 2)
+    if (row % 5 == 2)
         job->params.magnet_shape = FST_MAGNET_LINES;
-    if (job->point == 6) { /* thrown off the map */
+    if (row == 6) {                         /* thrown off the map */
         job->params.plate_gravity = 1000.0; /* so heavy that noise does not lift it */
         job->has_start = 1;
         job->start[FST_X] = 1.8;
         job->start[FST_VX] = 20.0;
         job->start[FST_NX] = 1.0;
     }
-    return 1;
-}
-
-static int job_done(void *user, fst_row_job *job, fst_status status, const fst_run_result *result,
-                    const fst_error *error)
-{
-    if (status != FST_OK)
-        fail_msg("%s", error->sentence);
-    ((store *)user)->results[job->point] = *result;
-    return 0;
-}
-
-static void do_all(store *s, fst_arithmetic arithmetic, int lanes)
-{
-    s->next = 0;
-    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, NULL};
-    fst_error error = {FST_OK, "", ""};
-    if (fst_rows(&work, &error) != FST_OK)
-        fail_msg("fst_rows: %s", error.sentence);
 }
 
 static void test_lanes(void **unused)
 {
     (void)unused;
-    static store alone, four, eight, fast;
+    static few_rows alone, four, eight, fast;
     const fst_params lines = bead_at(0.5, FST_DYNAMICS_RIGID);
     fst_field_map *map = map_of_model(&lines, 0.1, 21, 0.01);
-    alone.measured = four.measured = eight.measured = fast.measured = over_map(&lines, map);
-    do_all(&alone, FST_ARITHMETIC_PORTABLE, 1);
+    const fst_params measured = over_map(&lines, map);
+    alone = (few_rows){.count = JOBS, .fill = fill, .with = &measured};
+    four = eight = fast = alone;
+    do_few_rows(&alone, FST_ARITHMETIC_PORTABLE, 1);
     assert_int_equal(alone.results[6].regime, FST_REGIME_UNDECIDED);
     CHECK_CONTAINS(alone.results[6].reason, "left the disc that the map");
     if (fst_best_arithmetic() >= FST_ARITHMETIC_AVX2) {
-        do_all(&four, FST_ARITHMETIC_PORTABLE, 4);
-        do_all(&fast, FST_ARITHMETIC_AVX2, 4);
+        do_few_rows(&four, FST_ARITHMETIC_PORTABLE, 4);
+        do_few_rows(&fast, FST_ARITHMETIC_AVX2, 4);
     }
     if (fst_best_arithmetic() >= FST_ARITHMETIC_AVX512)
-        do_all(&eight, FST_ARITHMETIC_PORTABLE, 8);
+        do_few_rows(&eight, FST_ARITHMETIC_PORTABLE, 8);
     for (int i = 0; i < JOBS; ++i) {
         const fst_run_result *one = &alone.results[i];
         for (int k = 0; k < FST_STATE_SIZE; ++k) {

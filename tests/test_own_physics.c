@@ -1,6 +1,7 @@
 /* A source and a contact law from examples/c/own through the public functions: chosen by name, run, computed in
  * lanes with the bits of the scalar form, and on orbits whose derivatives are those of the motion. No file of
  * src/ knows of them. */
+#include "few_rows.h"
 #include "physics.h"
 
 #include "lanes/lanes.h"
@@ -82,11 +83,6 @@ static void test_run(void **unused)
 /* ------------------------------------------------------------------ lanes */
 
 enum { JOBS = 12 };
-typedef struct store {
-    int next;
-    fst_run_result results[JOBS];
-} store;
-
 /* Festoon's own sources and laws mixed with these, including runs whose regime needs an exponent. */
 static fst_params job_params(int i)
 {
@@ -106,41 +102,18 @@ static fst_params job_params(int i)
     return p;
 }
 
-static int next_job(void *user, fst_row_job *job)
+static void fill(const void *unused, int row, fst_row_job *job)
 {
-    store *s = user;
-    if (s->next == JOBS)
-        return 0;
-    memset(job, 0, sizeof *job);
-    job->point = s->next++;
-    job->params = job_params((int)job->point);
-    return 1;
-}
-
-static int job_done(void *user, fst_row_job *job, fst_status status, const fst_run_result *result,
-                    const fst_error *error)
-{
-    if (status != FST_OK)
-        fail_msg("%s", error->sentence);
-    ((store *)user)->results[job->point] = *result;
-    return 0;
-}
-
-static void do_all(store *s, fst_arithmetic arithmetic, int lanes)
-{
-    memset(s, 0, sizeof *s);
-    const fst_row_work work = {s, arithmetic, lanes, next_job, job_done, NULL};
-    fst_error error = {FST_OK, "", ""};
-    if (fst_rows(&work, &error) != FST_OK)
-        fail_msg("fst_rows: %s", error.sentence);
+    (void)unused;
+    job->params = job_params(row);
 }
 
 static void test_lanes(void **unused)
 {
     (void)unused;
-    static store alone, beside;
+    static few_rows alone = {.count = JOBS, .fill = fill}, beside = {.count = JOBS, .fill = fill};
     int exponents = 0;
-    do_all(&alone, FST_ARITHMETIC_PORTABLE, 1);
+    do_few_rows(&alone, FST_ARITHMETIC_PORTABLE, 1);
     for (int i = 0; i < JOBS; ++i) {
         const fst_params p = job_params(i);
         const fst_run_result run = run_of(&p);
@@ -151,7 +124,7 @@ static void test_lanes(void **unused)
     for (int lanes = 4; lanes <= 8; lanes += 4) {
         if (!fst_lane_engine_of(FST_ARITHMETIC_PORTABLE, lanes))
             continue;
-        do_all(&beside, FST_ARITHMETIC_PORTABLE, lanes);
+        do_few_rows(&beside, FST_ARITHMETIC_PORTABLE, lanes);
         for (int i = 0; i < JOBS; ++i)
             for (int k = 0; k < fst_result_count(); ++k) {
                 const size_t at = fst_result_at(k)->offset;
@@ -163,7 +136,7 @@ static void test_lanes(void **unused)
     for (int form = FST_ARITHMETIC_AVX2; form <= FST_ARITHMETIC_AVX512; ++form) {
         if (!fst_lane_engine_of((fst_arithmetic)form, 0))
             continue;
-        do_all(&beside, (fst_arithmetic)form, 0);
+        do_few_rows(&beside, (fst_arithmetic)form, 0);
         for (int i = 0; i < JOBS; ++i) {
             const fst_run_result *a = &alone.results[i], *b = &beside.results[i];
             assert_int_equal(a->regime, b->regime);

@@ -67,6 +67,16 @@ class Parts(Case):
             self.assertAlmostEqual(large["force_newtons"][k] / small["force_newtons"][k], 8.0, places=10)
             self.assertEqual(large["b_tesla"][k], small["b_tesla"][k])
 
+    def test_nothing_is_told_where_doubles_end(self):
+        """A unit of fields that is 0, and a height whose powers are no doubles."""
+        for unit in ("0", "1e-320"):
+            err = self.refused("field", self.scene, "--at", "0,0", "--set", f"magnet.b0={unit}")
+            self.assertIn("magnet.b0", err)
+            self.assertIn("at least 1e-09 T", err)
+        for height in ("1e300", "-1e60 mm"):
+            err = self.refused("field", self.scene, "--at", "0,0", "--height", height)
+            self.assertIn(f'--height: "{height}" is out of range: up to 1e+50 l', err)
+
     def test_results_in_si(self):
         """Beside the scaled numbers, and whatever B0 and l are, as long as the start is the same."""
         plain = json.loads(self.good("run", self.scene, "--json"))

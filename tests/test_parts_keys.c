@@ -392,6 +392,10 @@ static void s2_is_asked_of_the_magnet(void **state)
                                "    - {kind: dipole, centre: [0, 20mm, 0], moment: [0, 0, -1]}\n",
          0},
         {PAIR("-0.2mm", "1") PAIR("0.2mm", "1"), 0},
+        /* a grain close below the plate, which is felt above it alone */
+        {"    - {kind: cuboid, centre: [0, 0, -10mm], size: [2m, 40mm, 9mm], remanence: [1, 0, 0]}\n"
+         "    - {kind: sphere, centre: [1mm, 0, 16.18mm], size: 0.02mm, remanence: [0, 0, 1]}\n",
+         0},
     };
     static const char *const units[] = {"1 mm", "23 mm", "2 m"};
     for (size_t i = 0; i < sizeof magnets / sizeof magnets[0]; ++i)
@@ -441,10 +445,10 @@ static void parts_are_seen(void **state)
     p.magnet_parts[0] = part;
     const double within[3] = {0.01, 0.009, 0.0105}, above[3] = {0.01, 0.009, 0.0107},
                  beside[3] = {0.01, 0.011, 0.0};
-    assert_int_equal(fst_part_at(&p, (const double[3]){0.01, 0.009, 0.0070}), 0);
-    assert_int_equal(fst_part_at(&p, within), -1); /* over the edge of the turned block */
-    assert_int_equal(fst_part_at(&p, above), -1);
-    assert_int_equal(fst_part_at(&p, beside), -1);
+    assert_int_equal(fst_part_touched(&p, (const double[3]){0.01, 0.009, 0.0070}, 0), 0);
+    assert_int_equal(fst_part_touched(&p, within, 0), -1); /* over the edge of the turned block */
+    assert_int_equal(fst_part_touched(&p, above, 0), -1);
+    assert_int_equal(fst_part_touched(&p, beside, 0), -1);
     part = (fst_magnet_part){.kind = FST_PART_SPHERE, .size = {0.02}, .rotation = {30, 0, 1, 0}};
     seen = fst_part_seen(&part);
     assert_int_equal(seen.count, FST_OUTLINE_MOST);

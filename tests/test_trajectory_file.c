@@ -13,7 +13,7 @@
 #include "io/columns.h"
 #include "io/csv.h"
 #include "host/module.h"
-#include "io/trajectory_module.h"
+#include "io/load_hdf5.h"
 
 static char directory[] = "/tmp/festoon-trajectory-XXXXXX";
 static const char *const endings[] = {"h5", "csv"};

@@ -167,7 +167,8 @@ typedef struct fst_params {
 /* How far a place in the magnet's frame is from a part, m; 0 inside it and on its surface. */
 FST_API double fst_part_distance(const fst_magnet_part *part, const double place[3]);
 
-/* The first part that a ball of this radius about the place touches; -1 if none. */
+/* The first part that a ball of this radius about the place touches; -1 if none.  With radius 0: the part in or
+ * on which the place lies, where the magnet's field is not computed. */
 FST_API int fst_part_touched(const fst_params *params, const double place[3], double radius);
 
 /* The paper's bead at 10.7 Hz with the dynamics `rigid`. */
@@ -248,10 +249,6 @@ typedef struct fst_part_shape {
 } fst_part_shape;
 FST_API fst_part_shape fst_part_seen(const fst_magnet_part *part);
 
-/* The part of the magnet in or on which a place lies (m, in the magnet's frame), where its field is not
- * computed; -1: none. */
-FST_API int fst_part_at(const fst_params *params, const double place[3]);
-
 /* Whether the bead's mass and radius contradict any material: the density is outside 1000 to 23000 kg/m^3, or
  * the radius was changed while mass and magnetic strength (kappa) are those of the default bead.  Returns 0 if
  * they do not; otherwise a sentence that says so is left in `sentence`.  A run is possible all the same.  In a
@@ -324,7 +321,7 @@ FST_API fst_groups fst_model_groups(const fst_model *model);
 
 /* A model of which only the field is asked, with a bead's force and load in it, at the height `height` (l) over
  * the magnet's reference plane instead of that of a bead on the plate.  It may lie below the plate, beside
- * parts of the magnet; inside of one, which fst_part_at() finds, the field means nothing. */
+ * parts of the magnet; inside of one, which fst_part_touched() finds, the field means nothing. */
 FST_API fst_status fst_field_model_new(const fst_params *params, double height, fst_model **model,
                                        fst_error *error);
 

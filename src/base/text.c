@@ -77,3 +77,9 @@ const char *fst_trim(const char *text, size_t *length)
     *length = end;
     return text;
 }
+
+int fst_ends_in(const char *name, const char *ending)
+{
+    const size_t length = strlen(name), wanted = strlen(ending);
+    return length > wanted && strcmp(name + length - wanted, ending) == 0;
+}

@@ -15,4 +15,7 @@ const char *fst_quote(const char *text, char quoted[FST_QUOTE_SIZE]);
 /* Strip white space from both ends of `text`: returns where the rest begins, and stores its length. */
 const char *fst_trim(const char *text, size_t *length);
 
+/* Whether a file's name has this ending, and more before it. */
+int fst_ends_in(const char *name, const char *ending);
+
 #endif

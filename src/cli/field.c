@@ -113,6 +113,8 @@ static fst_status read_place(const char *text, double length_unit, double at[2],
                         text);
 }
 
+static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
+
 /* --height in l; NAN where it is not given.  Real magnets may be asked below their reference plane too. */
 static fst_status read_height(const char *height, const fst_params *params, double *h, fst_error *error)
 {
@@ -126,7 +128,9 @@ static fst_status read_height(const char *height, const fst_params *params, doub
             "\"%.60s\" must be a height over the magnet's %s: a %snumber in l or a length with its unit, as in "
             "18.7mm",
             height, real ? "reference plane" : "mid-plane", real ? "" : "positive ");
-    return FST_OK;
+    return fabs(*h) < farthest ? FST_OK
+                               : fail(error, FST_BAD_INPUT, "--height", "\"%.60s\" is out of range: up to %g l",
+                                      height, farthest);
 }
 
 static int is_known(const fst_model *model, const double at[2])
@@ -140,7 +144,7 @@ static int is_known(const fst_model *model, const double at[2])
 static fst_status check_outside(const fst_params *params, const double at[2], double height, fst_error *error)
 {
     const double l = params->magnet_half_length, place[3] = {l * at[0], l * at[1], l * height};
-    const int part = params->magnet_shape == FST_MAGNET_PARTS ? fst_part_at(params, place) : -1;
+    const int part = params->magnet_shape == FST_MAGNET_PARTS ? fst_part_touched(params, place, 0.0) : -1;
     if (part < 0)
         return FST_OK;
     char key[48], kind[32];
@@ -163,7 +167,6 @@ static fst_status print_point(const arguments *given, const fst_params *params, 
         isnan(h) ? fst_model_new(params, &model, error) : fst_field_model_new(params, h, &model, error);
     if (status == FST_OK)
         status = read_place(option_value(given, "at"), fst_model_groups(model).length_unit, at, error);
-    static const double farthest = 1e50; /* further away, powers of the distance leave the range of a double */
     if (status == FST_OK && !(fabs(at[0]) < farthest && fabs(at[1]) < farthest))
         status = fail(error, FST_BAD_INPUT, "", "--at %g,%g is out of range: up to %g", at[0], at[1], farthest);
     if (status == FST_OK)

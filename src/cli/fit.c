@@ -30,13 +30,15 @@ enum { MOST_KEYS = 64 };
 typedef struct wishes {
     char text[2048];
     const char *keys[MOST_KEYS], *given[MOST_KEYS];
-    int key_count, given_count;
 } wishes;
 
-static fst_status read_wishes(const arguments *given, wishes *out, fst_error *error)
+/* The lists --free and --given; `how` points into `out`. */
+static fst_status read_wishes(const arguments *given, wishes *out, fst_fit_options *how, fst_error *error)
 {
     const char *text = option_value(given, "free");
-    out->key_count = out->given_count = 0;
+    how->free = out->keys;
+    how->given = out->given;
+    how->free_count = how->given_count = 0;
     if (!text)
         return fail(error, FST_BAD_INPUT, "",
                     "say which parameters are sought: --free model.kappa,friction.gamma");
@@ -52,16 +54,16 @@ static fst_status read_wishes(const arguments *given, wishes *out, fst_error *er
         if (!word[0])
             return fail(error, FST_BAD_INPUT, "--free",
                         "\"%.60s\" must be keys separated by commas, as in model.kappa,friction.gamma", text);
-        if (out->key_count == MOST_KEYS)
+        if (how->free_count == MOST_KEYS)
             return fail(error, FST_BAD_INPUT, "--free", "there are more than %d keys", MOST_KEYS);
-        out->keys[out->key_count++] = word;
+        out->keys[how->free_count++] = word;
         word = comma;
     }
     for (int i = 0; i < given->option_count; ++i)
         if (strcmp(given->options[i].row->name, "given") == 0) {
-            if (out->given_count == MOST_KEYS)
+            if (how->given_count == MOST_KEYS)
                 return fail(error, FST_BAD_INPUT, "--given", "there are more than %d keys", MOST_KEYS);
-            out->given[out->given_count++] = given->options[i].value;
+            out->given[how->given_count++] = given->options[i].value;
         }
     return FST_OK;
 }
@@ -217,7 +219,7 @@ static fst_status fit_table(const arguments *given, const char *table, const fst
     fst_fit fit;
     fst_fit_options how = fst_default_fit_options();
     const char *figure = option_value(given, "output");
-    fst_status status = read_wishes(given, &wanted, error);
+    fst_status status = read_wishes(given, &wanted, &how, error);
     if (status == FST_OK)
         status = read_count(given, &how.bootstrap, error);
     if (status == FST_OK)
@@ -226,10 +228,6 @@ static fst_status fit_table(const arguments *given, const char *table, const fst
         return status;
     progress_line line;
     const fst_progress progress = {&line, progress_tell};
-    how.free = wanted.keys;
-    how.free_count = wanted.key_count;
-    how.given = wanted.given;
-    how.given_count = wanted.given_count;
     how.rivals = option_value(given, "compare") != NULL;
     how.curve_points = figure ? 81 : 0;
     how.progress = &progress;
@@ -296,7 +294,7 @@ static fst_status fit_film(const arguments *given, const fst_params *params, FIL
     char *understood = NULL;
     fst_fit_options how = fst_default_fit_options();
     fst_track_options file = fst_default_track_options();
-    fst_status status = read_wishes(given, &wanted, error);
+    fst_status status = read_wishes(given, &wanted, &how, error);
     for (int i = 0; i < given->option_count && status == FST_OK; ++i) {
         const char *name = given->options[i].row->name;
         if (strcmp(name, "output") == 0 || strcmp(name, "compare") == 0 || strcmp(name, "bootstrap") == 0)
@@ -310,10 +308,6 @@ static fst_status fit_film(const arguments *given, const fst_params *params, FIL
         (void)fprintf(stderr, "%s\n", understood);
     progress_line line;
     const fst_progress progress = {&line, progress_tell};
-    how.free = wanted.keys;
-    how.free_count = wanted.key_count;
-    how.given = wanted.given;
-    how.given_count = wanted.given_count;
     how.progress = &progress;
     if (status == FST_OK) {
         progress_begin(&line);

@@ -32,7 +32,7 @@ int fst_drawn_map_of_bead(const fst_drawn_map *map)
 static int is_inside(const fst_drawn_map *map, double x, double y)
 {
     const double l = map->groups.length_unit, place[3] = {l * x, l * y, l * map->groups.h};
-    return map->params->magnet_shape == FST_MAGNET_PARTS && fst_part_at(map->params, place) >= 0;
+    return map->params->magnet_shape == FST_MAGNET_PARTS && fst_part_touched(map->params, place, 0.0) >= 0;
 }
 
 double fst_drawn_map_value(const fst_drawn_map *map, double x, double y)

@@ -36,10 +36,7 @@ static void read_units(hid_t set, char text[FST_HDF5_UNIT_SIZE])
             text[0] = '\0';
         text[H5Tget_size(type)] = '\0';
     }
-    if (space >= 0)
-        (void)H5Sclose(space);
-    if (type >= 0)
-        (void)H5Tclose(type);
+    fst_hdf5_close(type, space);
     (void)H5Aclose(attribute);
 }
 
@@ -80,10 +77,7 @@ static fst_status read_set(const fst_hdf5_session *s, const char *path, const ch
         status = fst_fail(error, FST_BAD_INPUT, path, "the data set %s is damaged", name);
     if (status == FST_OK)
         read_units(set, unit);
-    if (type >= 0)
-        (void)H5Tclose(type);
-    if (space >= 0)
-        (void)H5Sclose(space);
+    fst_hdf5_close(type, space);
     (void)H5Dclose(set);
     return status;
 }

@@ -44,28 +44,6 @@ struct fst_hdf5_writer {
     const char *name; /* the name that the file will have, for messages */
 };
 
-/* HDF5 prints its errors unless told not to; the caller's setting is restored.  The first time, HDF5 is also
- * told to do nothing at the end of the program: we close what we open, and HDF5 would print and crash there
- * over objects that it failed to close in a damaged file. */
-typedef struct quiet {
-    H5E_auto2_t function;
-    void *data;
-} quiet;
-
-static quiet be_quiet(void)
-{
-    quiet before = {NULL, NULL};
-    (void)H5dont_atexit();
-    (void)H5Eget_auto2(H5E_DEFAULT, &before.function, &before.data);
-    (void)H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-    return before;
-}
-
-static void be_as_before(quiet before)
-{
-    (void)H5Eset_auto2(H5E_DEFAULT, before.function, before.data);
-}
-
 /* ---------------------------------------------------------------- attributes */
 
 static int write_text(hid_t object, const char *name, const char *text)
@@ -121,10 +99,7 @@ static char *read_text(hid_t object, const char *name)
         free(text);
         text = NULL;
     }
-    if (type >= 0)
-        (void)H5Tclose(type);
-    if (space >= 0)
-        (void)H5Sclose(space);
+    fst_hdf5_close(type, space);
     (void)H5Aclose(attribute);
     return text;
 }
@@ -251,7 +226,7 @@ static fst_status create(const char *path, const char *name, const fst_column_in
     }
     for (int i = 0; i < count; ++i)
         writer->sets[i] = -1;
-    quiet before = be_quiet();
+    fst_hdf5_told before = fst_hdf5_quiet();
     int failed = open_file(writer, path) || write_text(writer->file, "program", PROGRAM) ||
                  write_text(writer->file, "version", fst_version()) ||
                  write_text(writer->file, "units", UNITS) || write_text(writer->file, "scene", scene) ||
@@ -260,7 +235,7 @@ static fst_status create(const char *path, const char *name, const fst_column_in
         fail_write(writer, error);
         (void)close_writer(writer);
     }
-    be_as_before(before);
+    fst_hdf5_as_before(before);
     if (failed)
         return FST_IO;
     *out = writer;
@@ -296,15 +271,15 @@ static fst_status row(fst_hdf5_writer *writer, const double *values, fst_error *
         writer->buffer[(size_t)i * CHUNK + writer->pending] = values[i];
     if (++writer->pending < CHUNK)
         return FST_OK;
-    quiet before = be_quiet();
+    fst_hdf5_told before = fst_hdf5_quiet();
     int failed = flush_rows(writer) || writer->disk.reason;
-    be_as_before(before);
+    fst_hdf5_as_before(before);
     return failed ? fail_write(writer, error) : FST_OK;
 }
 
 static fst_status finish(fst_hdf5_writer *writer, const char *result, int complete, fst_error *error)
 {
-    quiet before = be_quiet();
+    fst_hdf5_told before = fst_hdf5_quiet();
     int failed = flush_rows(writer) || (result && write_text(writer->file, "result", result)) ||
                  write_boolean(writer->file, "complete", complete);
     const char *name = writer->name;
@@ -312,15 +287,15 @@ static fst_status finish(fst_hdf5_writer *writer, const char *result, int comple
     const int reason = close_writer(writer);
     if (reason && status == FST_OK)
         status = fst_fail(error, FST_IO, name, "writing this file failed: %s", strerror(reason));
-    be_as_before(before);
+    fst_hdf5_as_before(before);
     return status;
 }
 
 static void abandon(fst_hdf5_writer *writer)
 {
-    quiet before = be_quiet();
+    fst_hdf5_told before = fst_hdf5_quiet();
     (void)close_writer(writer);
-    be_as_before(before);
+    fst_hdf5_as_before(before);
 }
 
 /* ---------------------------------------------------------------- reading */
@@ -354,10 +329,7 @@ static fst_status read_column(hid_t file, const char *path, const char *name, in
     if (problem)
         status = fst_fail(error, FST_BAD_INPUT, path, "the column %s %s", name, problem);
     *rows = (size_t)length;
-    if (type >= 0)
-        (void)H5Tclose(type);
-    if (space >= 0)
-        (void)H5Sclose(space);
+    fst_hdf5_close(type, space);
     (void)H5Dclose(set);
     return status;
 }
@@ -406,52 +378,6 @@ static fst_status read_file(hid_t file, const char *path, const fst_column_info 
     for (int i = 0; i < there && status == FST_OK; ++i)
         status = read_column(file, path, columns[i]->name, i == 0, &data[i], rows, error);
     return status == FST_OK ? fill_columns(path, there, count, data, *rows, error) : status;
-}
-
-/* The whole file in memory. */
-static fst_status load(const char *path, fst_hdf5_disk *disk, fst_error *error)
-{
-    const int descriptor = open(path, O_RDONLY | O_CLOEXEC);
-    *disk = (fst_hdf5_disk){.descriptor = descriptor};
-    const int reason = descriptor < 0 ? errno : fst_hdf5_load(disk);
-    if (descriptor >= 0)
-        (void)close(descriptor);
-    if (!reason)
-        return FST_OK;
-    fst_hdf5_forget(disk);
-    if (reason == EFBIG)
-        return fst_fail(
-            error, FST_NO_MEMORY, path,
-            "this HDF5 file is too large: it would be read into memory as a whole, and at most half of "
-            "this computer's memory, %.1f GiB, is used for that: use a computer with more memory, or a "
-            "run with fewer samples",
-            (double)fst_hdf5_most() / (1 << 30));
-    if (reason == ENOMEM)
-        return fst_fail(error, FST_NO_MEMORY, path, "no memory for this file");
-    return fst_fail(error, FST_IO, path, "reading this file failed: %s", strerror(reason));
-}
-
-fst_status fst_hdf5_session_begin(const char *path, fst_hdf5_session *session, fst_error *error)
-{
-    const fst_status status = load(path, &session->disk, error);
-    if (status != FST_OK)
-        return status;
-    const quiet before = be_quiet();
-    session->told = before.function;
-    session->told_data = before.data;
-    session->access = fst_hdf5_access(&session->disk);
-    session->file = session->access >= 0 ? H5Fopen(path, H5F_ACC_RDONLY, session->access) : -1;
-    return FST_OK;
-}
-
-void fst_hdf5_session_end(fst_hdf5_session *session)
-{
-    if (session->file >= 0)
-        (void)H5Fclose(session->file);
-    if (session->access >= 0)
-        (void)H5Pclose(session->access);
-    be_as_before((quiet){session->told, session->told_data});
-    fst_hdf5_forget(&session->disk);
 }
 
 static fst_status read_all(const char *path, const fst_column_info *const *columns, int needed, int count,

@@ -6,22 +6,18 @@
 
 #include "base/checksum.h"
 #include "base/error.h"
+#include "base/text.h"
 #include "host/regular_file.h"
 #include "io/map_points.h"
 
-static int ends_in(const char *path, const char *ending)
-{
-    const size_t length = strlen(path), wanted = strlen(ending);
-    return length > wanted && strcmp(path + length - wanted, ending) == 0;
-}
-
 static fst_status read_points(const char *text, size_t size, fst_map_points *points)
 {
-    if (ends_in(points->path, ".csv") || ends_in(points->path, ".txt"))
+    if (fst_ends_in(points->path, ".csv") || fst_ends_in(points->path, ".txt"))
         return fst_map_csv_read(text, size, points);
-    if (ends_in(points->path, ".vtk") || ends_in(points->path, ".vti") || ends_in(points->path, ".vtr"))
+    if (fst_ends_in(points->path, ".vtk") || fst_ends_in(points->path, ".vti") ||
+        fst_ends_in(points->path, ".vtr"))
         return fst_map_vtk_read(text, size, points);
-    if (ends_in(points->path, ".h5") || ends_in(points->path, ".hdf5"))
+    if (fst_ends_in(points->path, ".h5") || fst_ends_in(points->path, ".hdf5"))
         return fst_map_hdf5_read(points);
     return fst_map_points_refuse(points, "the name of a map ends in .csv, .vtk, .vti, .vtr or .h5");
 }

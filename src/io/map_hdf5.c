@@ -3,7 +3,7 @@
 
 #include "base/text.h"
 #include "io/map_points.h"
-#include "io/trajectory_module.h"
+#include "io/load_hdf5.h"
 
 /* The factor to SI of the units of a data set. */
 static fst_status read_units(const fst_map_points *points, const char *name, const char *unit, fst_unit kind,

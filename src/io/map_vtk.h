@@ -32,7 +32,7 @@ void vtk_free(vtk_grid *grid);
 /* Numbers of 4 or 8 bytes, of the lowest or the highest byte first. */
 void vtk_floats(const unsigned char *bytes, size_t count, int size, int highest_first, double *numbers);
 
-fst_status vtk_read_legacy(const char *text, size_t size, vtk_grid *grid);
+/* The XML formats (map_vtk_xml.c). */
 fst_status vtk_read_xml(const char *text, size_t size, vtk_grid *grid);
 
 #endif

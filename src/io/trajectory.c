@@ -8,14 +8,14 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "host/module.h"
+#include "base/text.h"
 #include "host/regular_file.h"
 #include "host/whole_file.h"
 #include "io/columns.h"
 #include "io/csv.h"
 #include "io/hdf5_module.h"
 #include "io/json.h"
-#include "io/trajectory_module.h"
+#include "io/load_hdf5.h"
 
 struct fst_trajectory {
     fst_params params;
@@ -27,30 +27,6 @@ struct fst_trajectory {
     double factors[FST_COLUMN_COUNT];
     const char *units[FST_COLUMN_COUNT];
 };
-
-fst_status fst_load_hdf5_module(const fst_hdf5_module_table **module, const char *path, fst_error *error)
-{
-    int found;
-    *module = fst_module_table(FST_HDF5_MODULE, FST_HDF5_MODULE_SYMBOL, &found);
-    fst_status status = FST_OK;
-    if (!*module)
-        status =
-            fst_fail(error, FST_UNAVAILABLE, path,
-                     "this festoon has no HDF5 (%s): install libhdf5-dev and build festoon again, or give the "
-                     "file a name that ends in .csv",
-                     found ? FST_HDF5_MODULE " is no module of festoon" : FST_HDF5_MODULE " cannot be loaded");
-    else if (strcmp((*module)->version, fst_version()) != 0)
-        status =
-            fst_fail(error, FST_UNAVAILABLE, path, "%s belongs to festoon %s, not to %s: install festoon again",
-                     FST_HDF5_MODULE, (*module)->version, fst_version());
-    return status;
-}
-
-static int ends_in(const char *path, const char *ending)
-{
-    size_t length = strlen(path), wanted = strlen(ending);
-    return length > wanted && strcmp(path + length - wanted, ending) == 0;
-}
 
 static void list_columns(const fst_column_info *columns[FST_COLUMN_COUNT])
 {
@@ -102,10 +78,10 @@ fst_status fst_trajectory_create_in(const char *path, const fst_params *params, 
                                     fst_trajectory **out, fst_error *error)
 {
     *out = NULL;
-    int hdf5 = ends_in(path, ".h5") || ends_in(path, ".hdf5");
+    int hdf5 = fst_ends_in(path, ".h5") || fst_ends_in(path, ".hdf5");
     if (hdf5 && (units == FST_SHOWN_LAB || units == FST_SHOWN_SI))
         return fst_fail(error, FST_BAD_INPUT, path, "a trajectory in other than scaled units is a .csv");
-    if (!hdf5 && !ends_in(path, ".csv"))
+    if (!hdf5 && !fst_ends_in(path, ".csv"))
         return fst_fail(error, FST_BAD_INPUT, path, "the name of a trajectory ends in .h5 or .csv");
     fst_trajectory *trajectory = calloc(1, sizeof *trajectory);
     if (!trajectory)

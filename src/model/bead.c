@@ -9,11 +9,6 @@
 /* The remanence in T of a bead beside a real magnet of which nothing is said: neodymium, as sold. */
 static const double USUAL_REMANENCE = 1.2;
 
-int fst_magnet_in_tesla(const fst_params *p)
-{
-    return p->magnet_shape == FST_MAGNET_PARTS || p->magnet_shape == FST_MAGNET_GRID;
-}
-
 /* R in m: of a scaled bead, model.eps, R/l tells it. */
 static double radius_of(const fst_params *p)
 {

@@ -59,24 +59,35 @@ static double magnet_reach(const fst_params *p, double height)
     return reach / p->magnet_half_length;
 }
 
+/* What the magnet's image lacks at a place, and the strength there.  Both only grow. */
+static void compare_with_image(const fst_coefficients_double *c, double x, double y, double *most,
+                               double *strongest)
+{
+    const double u[3] = {0.0};
+    double here[3], there[3], unused[3];
+    fst_field_along_double(c, x, y, u, here, unused);
+    fst_field_along_double(c, -x, -y, u, there, unused);
+    *strongest = fmax(*strongest, fabs(here[0]) + fabs(here[1]) + fabs(here[2]));
+    for (int k = 0; k < 3; ++k)
+        *most = fmax(*most, fabs(there[k] - (k == 2 ? -here[k] : here[k])));
+}
+
 /* Whether the field has the symmetry S2, which is asked of the field itself, at places that no other symmetry
- * maps onto each other, from the middle of the magnet to its surroundings (all within 1.7 scale).  Where the
- * whole field is weak beside that of other places, rounding decides: a difference counts against the strongest
- * field that was seen.
- */
-static int field_has_s2(const fst_coefficients_double *c, double scale)
+ * maps onto each other, from the middle of the magnet to its surroundings (all within 1.7 scale), and beside
+ * each part, where a small one is felt that the rest hides from afar.  Where the whole field is weak beside
+ * that of other places, rounding decides: a difference counts against the strongest field that was seen. */
+static int field_has_s2(const fst_params *p, const fst_coefficients_double *c, const fst_groups *g)
 {
     static const double places[][2] = {{0.31, 0.17}, {0.83, -0.59}, {-0.44, 1.07}, {1.63, 0.26}};
     enum { PLACES = sizeof places / sizeof *places };
+    const double scale = fmin(magnet_reach(p, g->h), g->map_radius / 1.7), l = g->length_unit;
     double strongest = 0.0, most = 0.0;
-    for (int i = 0; i < PLACES; ++i) {
-        const double x = scale * places[i][0], y = scale * places[i][1], u[3] = {0.0};
-        double here[3], there[3], unused[3];
-        fst_field_along_double(c, x, y, u, here, unused);
-        fst_field_along_double(c, -x, -y, u, there, unused);
-        strongest = fmax(strongest, fabs(here[0]) + fabs(here[1]) + fabs(here[2]));
-        for (int k = 0; k < 3; ++k)
-            most = fmax(most, fabs(there[k] - (k == 2 ? -here[k] : here[k])));
+    for (int i = 0; i < PLACES; ++i)
+        compare_with_image(c, scale * places[i][0], scale * places[i][1], &most, &strongest);
+    for (int i = 0; i < p->magnet_part_count && p->magnet_shape == FST_MAGNET_PARTS; ++i) {
+        const double *centre = p->magnet_parts[i].centre, above = fabs(g->h - centre[2] / l);
+        compare_with_image(c, centre[0] / l + places[0][0] * above, centre[1] / l + places[0][1] * above, &most,
+                           &strongest);
     }
     return most <= 1e-9 * strongest;
 }
@@ -138,7 +149,7 @@ static fst_status make_model(const fst_params *params, double height, fst_model 
     made->params = *params;
     made->groups = g;
     made->coefficients = fst_make_coefficients_double(params, &g);
-    made->has_s2 = field_has_s2(&made->coefficients, fmin(magnet_reach(params, g.h), g.map_radius / 1.7));
+    made->has_s2 = field_has_s2(params, &made->coefficients, &g);
     made->map = g.shape == FST_MAGNET_GRID ? fst_field_map_share(params->magnet_map) : NULL;
     *model = made;
     return FST_OK;

@@ -162,6 +162,11 @@ static int moment_given(const fst_params *params)
     return !isnan(params->bead_moment) || !isnan(params->bead_remanence);
 }
 
+int fst_magnet_in_tesla(const fst_params *p)
+{
+    return p->magnet_shape == FST_MAGNET_PARTS || p->magnet_shape == FST_MAGNET_GRID;
+}
+
 int fst_kappa_given(const fst_params *params)
 {
     return params->model_kappa_given || params->model_kappa != rows[fst_param_find("model.kappa")].initial;
@@ -439,6 +444,11 @@ static fst_status validate_magnet(const fst_params *params, fst_error *error)
             "bead.remanence = %g T needs magnet.b0 where the magnet's strength is not told in tesla: give "
             "it too, or model.kappa in place of both",
             params->bead_remanence);
+    static const double least_unit = 1e-9;
+    if (fst_magnet_in_tesla(params) && params->magnet_b0 < least_unit)
+        return fst_fail(error, FST_BAD_INPUT, "magnet.b0",
+                        "magnet.b0 = %g T is the unit of fields beside a real magnet: it must be at least %g T",
+                        params->magnet_b0, least_unit);
     if (fst_magnet_in_tesla(params) && fst_kappa_given(params) && moment_given(params))
         return fst_fail(
             error, FST_BAD_INPUT, "model.kappa",

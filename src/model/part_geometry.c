@@ -1,15 +1,10 @@
-/* part_geometry.c - where the parts of a magnet are: below the plate, and as an outline seen from above. */
+/* part_geometry.c - where the parts of a magnet are: as an outline seen from above, and beside a place. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/constants.h"
-#include "base/error.h"
-#include "base/units.h"
 #include "model/model.h"
-#include "model/params.h"
-#include "model/part_rows.h"
 
 /* Half the extent of a part along a direction of the magnet's frame, a unit vector. */
 static double reach(const fst_magnet_part *part, const double direction[3])
@@ -119,64 +114,6 @@ fst_part_shape fst_part_seen(const fst_magnet_part *part)
         shape.count = convex_hull(points, rim_points(part, axes, points), size, shape.corners);
     }
     return shape;
-}
-
-/* ------------------------------------------------------------------ what lies where */
-
-/* Whether a place, from the part's centre along its own axes, is no further out than its surface. */
-static int holds(const fst_magnet_part *part, const double own[3])
-{
-    switch (part->kind) {
-    case FST_PART_CUBOID:
-        return fabs(own[0]) <= 0.5 * part->size[0] && fabs(own[1]) <= 0.5 * part->size[1] &&
-               fabs(own[2]) <= 0.5 * part->size[2];
-    case FST_PART_CYLINDER:
-        return hypot(own[0], own[1]) <= 0.5 * part->size[0] && fabs(own[2]) <= 0.5 * part->size[1];
-    default:
-        return hypot(hypot(own[0], own[1]), own[2]) <= 0.5 * part->size[0]; /* of a dipole 0 */
-    }
-}
-
-int fst_part_at(const fst_params *params, const double place[3])
-{
-    for (int i = 0; i < params->magnet_part_count; ++i) {
-        const fst_magnet_part *part = &params->magnet_parts[i];
-        double axes[3][3], own[3];
-        fst_set_axes_double(part->rotation, axes);
-        for (int a = 0; a < 3; ++a)
-            own[a] = axes[a][0] * (place[0] - part->centre[0]) + axes[a][1] * (place[1] - part->centre[1]) +
-                     axes[a][2] * (place[2] - part->centre[2]);
-        if (holds(part, own))
-            return i;
-    }
-    return -1;
-}
-
-/* The plate's height over the reference plane, m. */
-static double plate_height(const fst_params *p)
-{
-    const double l = p->magnet_half_length;
-    if (isnan(p->model_h) && isnan(p->model_eps))
-        return p->magnet_depth;
-    const double centre = isnan(p->model_h) ? p->magnet_depth + p->bead_radius : p->model_h * l;
-    return centre - (isnan(p->model_eps) ? p->bead_radius : p->model_eps * l);
-}
-
-fst_status fst_part_lies_below(const fst_params *params, int part, fst_error *error)
-{
-    static const double up[3] = {0, 0, 1};
-    const fst_magnet_part *p = &params->magnet_parts[part];
-    const double top = p->centre[2] + reach(p, up), plate = plate_height(params);
-    if (top < plate)
-        return FST_OK;
-    char highest[64], limit[64], where[48];
-    (void)fst_value_write(highest, sizeof highest, top, FST_UNIT_LENGTH);
-    (void)fst_value_write(limit, sizeof limit, plate, FST_UNIT_LENGTH);
-    (void)snprintf(where, sizeof where, "magnet.parts[%d]", part);
-    return fst_fail(error, FST_BAD_INPUT, where,
-                    "%s, a %s, reaches %s above the magnet's reference plane, but the plate lies at %s "
-                    "(magnet.depth): a part must end below the plate",
-                    where, fst_part_kind_name(p->kind), highest, limit);
 }
 
 /* ------------------------------------------------------------------ a place and the parts */

@@ -74,11 +74,6 @@ static const struct {
     [FST_PART_DIPOLE] = {"dipole", "no size", 0},
 };
 
-const char *fst_part_kind_name(int kind)
-{
-    return kinds[kind].name;
-}
-
 int fst_part_has(int kind, int row)
 {
     const int field = row % FST_PART_FIELDS;
@@ -216,13 +211,40 @@ static fst_status validate_numbers(const fst_params *params, int part, fst_error
     return FST_OK;
 }
 
+/* The plate's height over the reference plane, m. */
+static double plate_height(const fst_params *p)
+{
+    const double l = p->magnet_half_length;
+    if (isnan(p->model_h) && isnan(p->model_eps))
+        return p->magnet_depth;
+    const double centre = isnan(p->model_h) ? p->magnet_depth + p->bead_radius : p->model_h * l;
+    return centre - (isnan(p->model_eps) ? p->bead_radius : p->model_eps * l);
+}
+
+/* FST_BAD_INPUT: the part touches the plate, or passes it. */
+static fst_status lies_below(const fst_params *params, int part, fst_error *error)
+{
+    const fst_magnet_part *p = &params->magnet_parts[part];
+    const double top = fst_part_seen(p).high, plate = plate_height(params);
+    if (top < plate)
+        return FST_OK;
+    char highest[64], limit[64], where[48];
+    (void)fst_value_write(highest, sizeof highest, top, FST_UNIT_LENGTH);
+    (void)fst_value_write(limit, sizeof limit, plate, FST_UNIT_LENGTH);
+    (void)snprintf(where, sizeof where, "magnet.parts[%d]", part);
+    return fst_fail(error, FST_BAD_INPUT, where,
+                    "%s, a %s, reaches %s above the magnet's reference plane, but the plate lies at %s "
+                    "(magnet.depth): a part must end below the plate",
+                    where, kinds[p->kind].name, highest, limit);
+}
+
 fst_status fst_params_check_part(const fst_params *params, int part, fst_error *error)
 {
     if (part < 0 || part >= params->magnet_part_count || part >= FST_PARTS_MAX)
         return fst_fail(error, FST_BAD_INPUT, "magnet.parts", "the magnet has %d parts, and none is number %d",
                         params->magnet_part_count, part);
     const fst_status status = validate_numbers(params, part, error);
-    return status == FST_OK ? fst_part_lies_below(params, part, error) : status;
+    return status == FST_OK ? lies_below(params, part, error) : status;
 }
 
 fst_status fst_parts_validate(const fst_params *params, fst_error *error)

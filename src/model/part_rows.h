@@ -10,9 +10,6 @@ enum { FST_PART_FIELDS = 17, FST_PART_ROWS = FST_PART_FIELDS * FST_PARTS_MAX };
 /* Row 0 to FST_PART_ROWS - 1, part after part. */
 const fst_param_info *fst_part_row(int row);
 
-/* "cuboid", ... */
-const char *fst_part_kind_name(int kind);
-
 /* Whether a part of this kind has what the row tells. */
 int fst_part_has(int kind, int row);
 
@@ -24,9 +21,6 @@ void fst_part_was_set(fst_params *params, int row);
 
 /* No key of params.def or of a part is `key`, which begins with "magnet.parts". */
 fst_status fst_part_unknown_key(const char *key, fst_error *error);
-
-/* FST_BAD_INPUT: the part touches the plate, or passes it. */
-fst_status fst_part_lies_below(const fst_params *params, int part, fst_error *error);
 
 /* The number of parts, and fst_params_check_part() of each; parts that take no part in the field may lie
  * anywhere. */

@@ -116,7 +116,8 @@ static const fst_run_result *settled_at(const fst_paper_run *runs, double hertz)
     return NULL;
 }
 
-/* Halfway between the fastest drive with S1 and the next one, which has S2. */
+/* Halfway between the fastest drive with S1 and the next one, whose pattern has S2 or is still on its way
+ * there. */
 static double halving_of(const fst_paper_run *runs)
 {
     double above = NAN;
@@ -125,8 +126,7 @@ static double halving_of(const fst_paper_run *runs)
             continue;
         if (runs[i].result.symmetry == FST_SYMMETRY_S1)
             return 0.5 * (above + runs[i].params.drive_frequency); /* NAN where even the fastest is S1 */
-        if (runs[i].result.symmetry == FST_SYMMETRY_S2)
-            above = runs[i].params.drive_frequency;
+        above = runs[i].params.drive_frequency;
     }
     return NAN;
 }
@@ -159,6 +159,6 @@ double fst_magnet_fact(const fst_paper_state *paper, int fact, int magnet, int l
     case BELL:
         return bell_of(runs);
     default:
-        return fst_dry_fact_of(runs, FST_MAGNET_RUNS, of_motion[fact - FST_MAGNET_FIELD_FACTS]);
+        return fst_dry_fact_of(runs, FST_MAGNET_RUNS, (int)of_motion[fact - FST_MAGNET_FIELD_FACTS]);
     }
 }

@@ -8,7 +8,7 @@
 #include "base/number.h"
 #include "host/regular_file.h"
 #include "host/whole_file.h"
-#include "io/trajectory_module.h"
+#include "io/load_hdf5.h"
 #include "sweep/columns.h"
 #include "sweep/database.h"
 #include "sweep/file.h"

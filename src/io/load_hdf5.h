@@ -1,6 +1,6 @@
-/* trajectory_module.h - finding the module for HDF5. */
-#ifndef FST_IO_TRAJECTORY_MODULE_H
-#define FST_IO_TRAJECTORY_MODULE_H
+/* load_hdf5.h - finding the module for HDF5. */
+#ifndef FST_IO_LOAD_HDF5_H
+#define FST_IO_LOAD_HDF5_H
 
 #include "io/hdf5_module.h"
 
