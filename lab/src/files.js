@@ -97,7 +97,8 @@ export class Files {
             const text = await file.text();
             if (/\.(ya?ml)$/i.test(file.name)) {
                 lab.lesson.close();
-                const wrong = lab.open({ scene: readScene(text), view: lab.viewWords() });
+                const view = { ...lab.viewWords(), "ui.ramp": "0", "ui.settle": "0" }; /* a scene begins at its own start */
+                const wrong = lab.open({ scene: readScene(text), view });
                 lab.tell(wrong ? T.failed(name, wrong) : T.opened(name), Boolean(wrong));
             } else {
                 this.showTrack(readTrack(text));

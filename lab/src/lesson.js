@@ -48,6 +48,7 @@ export class Lesson {
         });
         this.box.replaceChildren(this.heading, element("h3", {}, T.predict), element("p", {}, step.question), this.body, this.reply, this.steps());
         lab.hideTrail = true;
+        lab.view.showTrack(null);
         lab.open({ scene: step.scene, view: { "ui.settle": String(step.settle ?? 0), ...step.view } });
         lab.play(false);
         document.body.classList.add("lesson-waits"); /* nothing tells the answer before it is given */

@@ -340,6 +340,7 @@ class Lab {
 
     openPreset(preset) {
         this.hideTrail = false;
+        this.view.showTrack(null);
         this.open({ scene: preset.scene, view: { "ui.settle": String(preset.settle ?? 0), ...preset.view } });
         this.play(true);
     }

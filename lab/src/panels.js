@@ -134,11 +134,11 @@ export class Panels {
             });
             $("plot-tabs").append(tab);
         }
-        const field = (id, text, value, attributes) => [element("label", { for: id }, text), element("input", { id, type: "number", value, ...attributes })];
+        const field = (id, text, value, attributes) => element("span", {}, element("label", { for: id }, text), " ", element("input", { id, type: "number", value, ...attributes }));
         this.go = element("button", { type: "submit", class: "strong", id: "sweep-go" }, T.sweep);
         this.progress = element("span", { id: "sweep-done", role: "status" });
-        $("sweep-form").append(this.go, ...field("sweep-from", T.sweepFrom, "2", { min: "0.1", step: "any" }), ...field("sweep-to", T.sweepTo, "30", { min: "0.1", step: "any" }),
-            ...field("sweep-points", T.sweepPoints, "57", { min: "2", max: "2000", step: "1" }), this.progress);
+        $("sweep-form").append(this.go, field("sweep-from", T.sweepFrom, "2", { min: "0.1", step: "any" }), field("sweep-to", T.sweepTo, "30", { min: "0.1", step: "any" }),
+            field("sweep-points", T.sweepPoints, "57", { min: "2", max: "2000", step: "1" }), this.progress);
         $("sweep-form").addEventListener("submit", (event) => {
             event.preventDefault();
             if (this.sweeping)

@@ -242,6 +242,12 @@ const tests = {
         assert.match(notice[0], /drive\.frequncy/);
         assert.equal(notice[1], 0);
         await close(hostile);
+        for (const words of ["ui.colour=constructor&ui.arrows=toString", "drive.frequency=1e-6&ui.settle=1000", "drive.frequency=1e6&ui.settle=1000&ui.slow=1"]) {
+            const page = await open(`#v=1&${words}`); /* and two pictures more: the page lives */
+            await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+            assert.equal(await page.evaluate(() => window.festoonLab.lab.settings.arrows.size), 0);
+            await close(page);
+        }
     },
     async "dropped files: a scene, a track, and hostile ones as text alone"() {
         const page = await open();
@@ -249,7 +255,9 @@ const tests = {
             await window.festoonLab.lab.files.open(new File([t], n));
             return [document.getElementById("notice").textContent, document.getElementById("notice").children.length];
         }, name, text);
+        await click(page, "[data-preset=critical]");
         await drop("bead.yaml", festoon("init", "-", "--set", "drive.frequency=16Hz"));
+        assert.deepEqual(await page.evaluate(() => [window.festoonLab.lab.settings.ramp, window.festoonLab.lab.settings.settle]), [null, 0], "nothing of the experiment before");
         assert.equal(await page.evaluate(() => window.festoonLab.core.value("drive.frequency")), 16);
         const track = `frame,t [s],x [mm],y [mm]\n${Array.from({ length: 90 }, (_, i) => `${i},${i / 30},${18 * Math.cos(i / 9)},${18 * Math.sin(i / 9)}`).join("\n")}\n`;
         assert.match((await drop("track.csv", track))[0], /90 places/);
