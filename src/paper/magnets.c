@@ -142,7 +142,7 @@ fst_status fst_magnet_params(const fst_paper_state *paper, int magnet, int law, 
     (void)snprintf(kappa, sizeof kappa, "%.10g", FST_MAGNET_KAPPA);
     (void)snprintf(mu, sizeof mu, "%.10g", FST_DRY_MU);
     const char *const usual[][2] = {{"drive.frequency", drive},
-                                    {"run.rtol", "1e-7"},
+                                    {"run.rtol", "1e-8"},
                                     {"run.discard", paper->options->reduced ? "60" : "120"},
                                     {"run.periods", paper->options->reduced ? "100" : "160"},
                                     {"friction.law", law ? "coulomb" : "viscous"},

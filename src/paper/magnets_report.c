@@ -111,7 +111,7 @@ static void write_command(FILE *out, const fst_paper_state *paper, int magnet, i
     }
     (void)snprintf(
         command + used, sizeof command - (size_t)used,
-        "%s --set drive.frequency=10.7Hz --set run.rtol=1e-7 --set run.periods=%g --set run.discard=%g",
+        "%s --set drive.frequency=10.7Hz --set run.rtol=1e-8 --set run.periods=%g --set run.discard=%g",
         law ? " --set friction.law=coulomb --set friction.mu=0.2" : "", paper->options->reduced ? 100.0 : 160.0,
         paper->options->reduced ? 60.0 : 120.0);
     fst_report_code(out, command);
