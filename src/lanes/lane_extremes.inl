@@ -22,13 +22,7 @@ static void set_aside(const void *memory, int lane, int record, void *to_memory,
     const batch *b = memory;
     waiting *to = to_memory;
     const FN(bead_step) *from = &b->step;
-    FN(coefficients) *c = &to->step.context.coefficients;
-    const FN(coefficients) *d = &from->context.coefficients;
-    c->kinds = d->kinds;
-    double *wide = (double *)((char *)c + offsetof(FN(coefficients), eps));
-    const double *whose = (const double *)((const char *)d + offsetof(FN(coefficients), eps));
-    for (int i = 0; i < COEFFICIENTS; ++i)
-        wide[i * FST_LANES + place] = whose[i * FST_LANES + lane];
+    move_coefficients(&to->step.context.coefficients, place, &from->context.coefficients, lane);
     to->step.h[place] = from->h[lane];
     to->step.omega[place] = from->omega[lane];
     for (int i = 0; i < FST_STATE_SIZE; ++i) {

@@ -120,21 +120,7 @@ static void view(void *memory, fst_lane_view *v)
 
 /* ------------------------------------------------------------------ in and out */
 
-/* The coefficients' REALs begin at `eps` in both, and follow each other in one order. */
-enum {
-    COEFFICIENTS = (sizeof(fst_coefficients_double) - offsetof(fst_coefficients_double, eps)) / sizeof(double)
-};
-_Static_assert(sizeof(FN(coefficients)) - offsetof(FN(coefficients), eps) == COEFFICIENTS * sizeof(REAL),
-               "the model's wide and scalar coefficients have the same members");
-
-static void load_coefficients(FN(coefficients) * to, int lane, const fst_coefficients_double *from)
-{
-    const double *numbers = (const double *)((const char *)from + offsetof(fst_coefficients_double, eps));
-    double *wide = (double *)((char *)to + offsetof(FN(coefficients), eps));
-    to->kinds = from->kinds;
-    for (int i = 0; i < COEFFICIENTS; ++i)
-        wide[i * FST_LANES + lane] = numbers[i];
-}
+#include "lanes/lane_coefficients.inl"
 
 static void load_pull(FN(pull) * to, int lane, const fst_flow *flow)
 {
