@@ -35,7 +35,7 @@ double PARTS_FIELD(const fst_params *params, const fst_groups *groups, int round
             y[i][lane] = -1.5 + 3.0 * ((n * 0.41421356237309505) - (int)(n * 0.41421356237309505));
         }
     fst_kinds kinds = {.source = params->magnet_shape};
-    fst_count_pieces(&kinds, params);
+    fst_count_pieces(&kinds, params, groups);
     const FN(source_numbers) source = FN(make_source_numbers)(&kinds, params, groups);
     const REAL u[3] = {R(0.6), R(-0.48), R(0.64)};
     volatile double seen;
