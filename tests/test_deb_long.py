@@ -100,15 +100,19 @@ class Packages(unittest.TestCase):
 
     @unittest.skipUnless(os.geteuid() == 0, "dpkg installs as root only")
     def test_dpkg_installs_and_removes(self):
-        """dpkg takes them into a root of their own, without their dependencies, and leaves nothing when it removes them."""
+        """dpkg takes them into a root of their own, without their dependencies, and leaves nothing when it removes them.
+
+        Without the Python module's: its scripts compile modules of the machine's own root.
+        """
         root = self.out / "dpkg"
         for folder in ("updates", "info"):
             (root / "var/lib/dpkg" / folder).mkdir(parents=True)
         (root / "var/lib/dpkg/status").touch()
         dpkg = ["dpkg", f"--root={root}", "--force-depends", "--force-script-chrootless", "--no-triggers", f"--log={root}/log"]
-        run(*dpkg, "-i", *self.packages.values())
+        names = [name for name in NAMES if not name.startswith("python3-")]
+        run(*dpkg, "-i", *[self.packages[name] for name in names])
         self.assertTrue(run(root / "usr/bin/festoon", "--version").startswith("festoon "))
-        run(*dpkg, "--purge", *NAMES)
+        run(*dpkg, "--purge", *names)
         left = [path for path in root.rglob("*festoon*") if "var/lib/dpkg" not in path.as_posix()]
         self.assertEqual(left, [])
 
