@@ -224,7 +224,7 @@ static void test_lanes(void **unused)
 
 /* ------------------------------------------------------------------ owners, ends, refusals */
 
-/* A model keeps its map, whoever lets go of it. */
+/* A model keeps its map, because others may free theirs. */
 static void test_owners(void **unused)
 {
     (void)unused;

@@ -85,7 +85,7 @@ static void scenes_come_back(void **state)
     free(text);
 }
 
-/* A scene that lists parts replaces those that were there. */
+/* A scene that lists parts replaces the parts that the setup had. */
 static void lists_replace(void **state)
 {
     (void)state;

@@ -69,8 +69,8 @@ def _linear(values: Any, pieces: int) -> Any:
 
 
 def _path(tr: Any, frame: str) -> Tuple[Any, Any, Any, int]:
-    """The path and the parameter of its points; in the magnet's frame velocities are those that a camera which
-    turns with the magnet would see."""
+    """The path and the parameter of its points.  In the magnet's frame a velocity is what a camera sees that turns
+    with the magnet."""
     x, y, vx, vy = (tr._column(name) for name in _FRAMES[frame][:4])
     if frame == "magnet":
         omega = tr._column("omega")

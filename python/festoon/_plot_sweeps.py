@@ -161,7 +161,7 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, ax: Any)
     title = f"{words} over the {sides[0].words}"
     title = title[0].upper() + title[1:]
     _style.dress(ax, title, _about_sweep(s), sides[0].label, label)
-    if y == "regime":  # a row for each of those that there are
+    if y == "regime":  # a row for each regime that occurs
         there = np.unique(values[np.isfinite(values)])
         rows = np.searchsorted(there, values).astype(float)
         values = np.where(np.isfinite(values), rows, np.nan)

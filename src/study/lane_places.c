@@ -221,7 +221,8 @@ static int admit(fst_row_worker *w)
     return 1;
 }
 
-/* Idle lanes take runs that are ready, and new jobs; those that do not fit wait until nothing is at work. */
+/* Idle lanes take runs that are ready, then new jobs.  A job whose model does not fit the batch waits until
+ * nothing is at work. */
 void fst_worker_occupy_idle(fst_row_worker *w)
 {
     const int width = w->engine->width;

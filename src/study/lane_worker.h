@@ -106,7 +106,8 @@ int fst_worker_at_work(const fst_row_worker *w);
 /* Change the engine, while nothing is at work. */
 void fst_worker_use_engine(fst_row_worker *w, const fst_lane_engine *engine);
 
-/* Idle lanes take runs that are ready, and new jobs; those that do not fit wait until nothing is at work. */
+/* Idle lanes take runs that are ready, then new jobs.  A job whose model does not fit the batch waits until
+ * nothing is at work. */
 void fst_worker_occupy_idle(fst_row_worker *w);
 
 /* ------------------------------------------------------------------ watching */
