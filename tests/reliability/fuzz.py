@@ -63,12 +63,12 @@ def build(work, targets):
     """Builds the targets in `work`, linked with libFuzzer to libraries that report their branches to it."""
     tree = os.path.join(work, "build")
     done("cmake", "-S", SOURCE, "-B", tree, "-G", "Ninja", "-DCMAKE_C_COMPILER=clang", "-DCMAKE_BUILD_TYPE=Debug",
-         "-DCMAKE_C_FLAGS_DEBUG=-O1 -g", "-DFESTOON_SANITIZE=address,undefined,fuzzer-no-link")
+         "-DCMAKE_C_FLAGS_DEBUG=-O1 -g1", "-DFESTOON_SANITIZE=address,undefined,fuzzer-no-link")
     done("cmake", "--build", tree, "--target", "festoon_internal")
     archive, = glob.glob(os.path.join(tree, "**", "libfestoon_internal.a"), recursive=True)
     libraries = done("pkg-config", "--libs", "yaml-0.1", "jansson", "sqlite3").split()
     for name in targets:
-        done("clang", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-Werror", "-O1", "-g",
+        done("clang", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-Werror", "-O1", "-g1",
              "-fsanitize=fuzzer,address,undefined", "-fno-sanitize-recover=all", "-I", os.path.join(SOURCE, "include"),
              "-I", os.path.join(SOURCE, "src"), os.path.join(SOURCE, "tests", "fuzz", f"fuzz_{name}.c"), archive,
              *libraries, "-lm", "-ldl", "-lpthread", "-o", os.path.join(work, "fuzz_" + name))
