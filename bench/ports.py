@@ -1,6 +1,6 @@
 """What the processor's ports allow: the instructions of one step in lanes, counted.
 
-    ports.py BENCH_SHARES FORM...
+    ports.py BENCH_SHARES
 
 `bench_shares --steps FORM` says how often each instruction is executed; objdump (binutils) says what it is.  Printed are
 the numbers for one of the twelve evaluations in a step, its share of the sums of the stages and of the step's end
@@ -16,6 +16,7 @@ import subprocess
 import sys
 
 EVALUATIONS = 12
+FORMS = ("portable, 8 lanes", "avx2", "avx512")
 SLOW = re.compile(r"v(div|sqrt|rsqrt|rcp)")
 MOVES = re.compile(r"v(mov|lddqu)")
 LINE = re.compile(r"^\s*([0-9a-f]+):\s+(?:(?:lock|rep|notrack)\s+)?(\S+)\s*(.*)$")
@@ -75,10 +76,10 @@ def put(form, column, value):
 
 
 def main():
-    program, forms = sys.argv[1], sys.argv[2:]
+    program = sys.argv[1]
     code = {offset: kind_of(mnemonic, operands) for offset, mnemonic, operands in instructions(program)}
     measured = times()
-    for form in forms:
+    for form in FORMS:
         total = collections.Counter()
         for offset, executed in counts(program, form).items():
             for kind in code.get(offset, ["others"]):
