@@ -80,7 +80,7 @@ static void report(way *ways, int count)
             const double ms = 1e3 * result_median(ways[k].at_tolerance[i], ROUNDS);
             printf(" %7.3g", ms);
             (void)snprintf(column, sizeof column, "%.0e", tolerance_of(i));
-            result_put("cost against tolerance", ways[k].method.name, column, "%.2g", ms);
+            result_put("cost against tolerance", ways[k].method.name, column, "%.3g", ms);
         }
     }
     printf("\n\ncost against periods: us of processor time a drive period at a tolerance of %.0e\n%-36s",

@@ -166,24 +166,31 @@ static double median(const double *above, const double *below)
     return result_median(ratio, ROUNDS);
 }
 
-static void report(const solver *s, const solver *opponents, const char *table)
+/* A cell of the table of all solvers, in the column of this kind for this goal. */
+static void put(const solver *s, const char *column, double goal, const char *format, double value)
 {
-    const char *name = s->method.name;
+    char name[64];
+    (void)snprintf(name, sizeof name, "%s, %.0e", column, goal);
+    result_put("many trajectories", s->method.name, name, format, value);
+}
+
+static void report(const solver *s, const solver *opponents, double goal)
+{
     const double ms = median(s->ms, NULL), ratio = median(opponents[GSL].ms, s->ms);
-    printf("%-40s %9.1e %9.1e %9.3f %9.2f", name, s->tolerance, s->error, ms, ratio);
-    result_put(table, name, "tolerance", "%.1e", s->tolerance);
-    result_put(table, name, "error", "%.1e", s->error);
-    result_put(table, name, "ms", "%.3g", ms);
-    result_put(table, name, "GSL / it", "%.2f", ratio);
+    printf("%-40s %9.1e %9.1e %9.3f %9.2f", s->method.name, s->tolerance, s->error, ms, ratio);
+    put(s, "tolerance", goal, "%.1e", s->tolerance);
+    put(s, "error", goal, "%.1e", s->error);
+    put(s, "ms", goal, "%.3g", ms);
+    put(s, "GSL / it", goal, "%.2f", ratio);
     if (s->evaluations > 0) {
         printf(" %9.0f %9.1f", s->evaluations, 1e6 * ms / s->evaluations);
-        result_put(table, name, "evaluations", "%.0f", s->evaluations);
-        result_put(table, name, "ns each, a lane", "%.1f", 1e6 * ms / s->evaluations);
+        put(s, "evaluations", goal, "%.0f", s->evaluations);
+        put(s, "ns each", goal, "%.1f", 1e6 * ms / s->evaluations);
     }
     if (is_row(s)) {
         const double with_means = median(opponents[GSL_WITH_MEANS].ms, s->ms);
         printf(" (GSL with means / it %.2f)", with_means);
-        result_put(table, name, "GSL with means / it", "%.2f", with_means);
+        put(s, "GSL with means / it", goal, "%.2f", with_means);
     }
     printf("\n");
     fflush(stdout);
@@ -191,11 +198,11 @@ static void report(const solver *s, const solver *opponents, const char *table)
 
 /* The processor time that two threads lose to each other. Time by the clock would contain what other programs
  * do. */
-static void report_threads(const solver *one, const solver *two, const char *table)
+static void report_threads(const solver *one, const solver *two, double goal)
 {
     const double ratio = median(two->processor_ms, one->processor_ms);
     printf("  two threads take %.3f times the processor time of one\n", ratio);
-    result_put("two threads", table, "processor time of two threads over that of one", "%.3f", ratio);
+    put(two, "processor time over that of one thread", goal, "%.3f", ratio);
 }
 
 static void report_rows(const solver *s, const char *table)
@@ -214,8 +221,7 @@ static void report_rows(const solver *s, const char *table)
 
 static void compare(solver *solvers, int count, double goal)
 {
-    char table[64], errors[64];
-    (void)snprintf(table, sizeof table, "goal %.0e", goal);
+    char errors[64];
     (void)snprintf(errors, sizeof errors, "errors of rows, goal %.0e", goal);
     printf(
         "\ngoal: every final state within %.0e of long double (worst of %d; msadams: %d); \"by means\": means "
@@ -228,9 +234,9 @@ static void compare(solver *solvers, int count, double goal)
         for (int i = 0; i < count; ++i)
             time_round(&solvers[i], round);
     for (int i = 0; i < count; ++i) {
-        report(&solvers[i], solvers, table);
+        report(&solvers[i], solvers, goal);
         if (solvers[i].method.threads == 2)
-            report_threads(&solvers[i - 1], &solvers[i], table);
+            report_threads(&solvers[i - 1], &solvers[i], goal);
     }
     printf("\n%-40s %9s %9s %9s %9s %9s  other regimes of %d, worst keys\n", "errors of rows", "tolerance",
            "states", "means", "extremes", "period", CHECKED_ROWS);

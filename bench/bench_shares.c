@@ -156,8 +156,7 @@ static void report_form(const form *f, const fst_lane_engine *engine, double tol
     put("whether something may have happened", column, MEDIAN(part[TIMED_WATCHING]));
     put("integrands and their integrals", column, MEDIAN(part[TIMED_OBSERVATION]));
     put("extremes", column, MEDIAN(part[TIMED_EXTREMES]));
-    put("copies into and out of lanes", column, MEDIAN(part[TIMED_IN_AND_OUT]));
-    put("scalar code", column, MEDIAN(scalar));
+    put("scalar code, with copies out of lanes", column, MEDIAN(part[TIMED_IN_AND_OUT]) + MEDIAN(scalar));
     const shares *s = &measured[0]; /* the same in every round */
     put("(of the lanes, a step accepted in)", column, s->accepted / (s->rounds * engine->width));
     put("(of these steps, observed)", column, s->observed / s->accepted);

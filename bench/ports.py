@@ -5,7 +5,7 @@
 `bench_shares --steps FORM` says how often each instruction is executed; objdump (binutils) says what it is.  Printed are
 the numbers for one of the twelve evaluations in a step, its share of the sums of the stages and of the step's end
 included: instructions that compute with vectors, of which a core of this kind does two in a cycle, and loads, of which it
-also does two.  Where the file that PERFORMANCE_CSV names has the times of bench_shares, they are compared with the peak.
+also does two.  Where the file that PERFORMANCE_TSV names has the times of bench_shares, they are compared with the peak.
 """
 
 import collections
@@ -59,10 +59,10 @@ def counts(program, form):
 def times():
     """ns of an evaluation in a step, and of a fused operation, of each form."""
     found = collections.defaultdict(dict)
-    path = os.environ.get("PERFORMANCE_CSV", "")
+    path = os.environ.get("PERFORMANCE_TSV", "")
     if os.path.exists(path):
         with open(path, encoding="utf-8", newline="") as lines:
-            for table, row, column, value in csv.reader(lines):
+            for table, row, column, value in csv.reader(lines, delimiter="\t"):
                 if table == "steps alone":
                     found[row][column] = float(value)
     return found
@@ -70,9 +70,9 @@ def times():
 
 def put(form, column, value):
     print(f"  {column:<52} {value}")
-    if os.environ.get("PERFORMANCE_CSV"):
-        with open(os.environ["PERFORMANCE_CSV"], "a", encoding="utf-8", newline="") as out:
-            csv.writer(out, quoting=csv.QUOTE_ALL, lineterminator="\n").writerow(("ports", form, column, value))
+    if os.environ.get("PERFORMANCE_TSV"):
+        with open(os.environ["PERFORMANCE_TSV"], "a", encoding="utf-8", newline="") as out:
+            csv.writer(out, delimiter="\t", lineterminator="\n").writerow(("ports", form, column, value))
 
 
 def main():
@@ -92,7 +92,7 @@ def main():
             put(form, kind, f"{total[kind] / EVALUATIONS:.0f}")
         if form in measured:
             bound = total["arithmetic on vectors"] / EVALUATIONS * measured[form]["ns a fused operation"]
-            put(form, "ns at least, at the peak of fused operations", f"{bound:.1f}")
+            put(form, "ns at least", f"{bound:.1f}")
             put(form, "of the time", f"{100 * bound / measured[form]['ns an evaluation in a step']:.0f} %")
 
 

@@ -5,16 +5,16 @@
 
 void result_put(const char *table, const char *row, const char *column, const char *format, double value)
 {
-    const char *path = getenv("PERFORMANCE_CSV");
+    const char *path = getenv("PERFORMANCE_TSV");
     FILE *out = path ? fopen(path, "a") : NULL;
     if (!out) {
         if (path)
             perror(path);
         return;
     }
-    char number[64];
-    (void)snprintf(number, sizeof number, format, value);
-    (void)fprintf(out, "\"%s\",\"%s\",\"%s\",\"%s\"\n", table, row, column, number);
+    (void)fprintf(out, "%s\t%s\t%s\t", table, row, column);
+    (void)fprintf(out, format, value);
+    (void)fputc('\n', out);
     if (fclose(out) != 0)
         perror(path);
 }

@@ -2,8 +2,8 @@
 #ifndef FST_BENCH_RESULTS_H
 #define FST_BENCH_RESULTS_H
 
-/* Append a cell to the file that the environment variable PERFORMANCE_CSV names: a line TABLE,ROW,COLUMN,VALUE
- * with quoted texts. Nothing is written where it names none. */
+/* Append a cell to the file that the environment variable PERFORMANCE_TSV names: a line
+ * TABLE, ROW, COLUMN, VALUE with tabulators between them.  Nothing is written where it names none. */
 void result_put(const char *table, const char *row, const char *column, const char *format, double value);
 
 /* The median of `count` numbers, which it sorts. */
