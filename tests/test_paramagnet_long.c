@@ -1,7 +1,8 @@
 /* test_paramagnet_long.c - the search for a paramagnetic bead that counter-rotates, at length.
  *
- * More than a thousand starts over drives, strengths and places; none is left circling against the magnet.  And the law
- * of the transient: a weak bead forgets its free rolling the more slowly, the weaker it is, but it does.
+ * More than a thousand starts over drives, strengths and places; none is left circling against the magnet.  And
+ * the law of the transient: a weak bead forgets its free rolling the more slowly, the weaker it is, but it
+ * does.
  */
 #include <setjmp.h>
 #include <stdarg.h>
