@@ -180,7 +180,7 @@ static void report(const solver *s, const solver *opponents, double goal)
     printf("%-40s %9.1e %9.1e %9.3f %9.2f", s->method.name, s->tolerance, s->error, ms, ratio);
     put(s, "tolerance", goal, "%.1e", s->tolerance);
     put(s, "error", goal, "%.1e", s->error);
-    put(s, "ms", goal, "%.3g", ms);
+    put(s, "ms", goal, "%.2f", ms);
     put(s, "GSL / it", goal, "%.2f", ratio);
     if (s->evaluations > 0) {
         printf(" %9.0f %9.1f", s->evaluations, 1e6 * ms / s->evaluations);
