@@ -75,7 +75,8 @@ static coverage fit_many(const fst_params *truth_params, int fits, int wild)
     return c;
 }
 
-/* That many draws of 68.3 %, `fewest` to `most` of which come in 998 cases of 1000; of 95.4 %, at least 88 in 100. */
+/* That many draws of 68.3 %, `fewest` to `most` of which come in 998 cases of 1000; of 95.4 %, at least 88 in
+ * 100. */
 static void check(const coverage *c, int fits, int fewest, int most)
 {
     for (int i = 0; i < 3; ++i) {
