@@ -91,8 +91,8 @@ class Completion(Case):
     def test_every_choice_is_one(self):
         """What the script offers for an option is not refused as an unknown word."""
         with open(self.script, encoding="utf-8") as file:
-            choices = re.findall(r"^\s+'([a-z]+\.[a-z_0[\].]+)='\*\) _festoon_words \"\$2\" \"\$3\" (.*) ;;$", file.read(),
-                                 re.M)
+            script = file.read()
+        choices = re.findall(r"^\s+'([a-z]+\.[a-z_0[\].]+)='\*\) _festoon_words \"\$2\" \"\$3\" (.*) ;;$", script, re.M)
         self.assertGreater(len(choices), 4)
         for key, names in choices:
             for name in names.split():
