@@ -139,7 +139,7 @@ def _about_sweep(s: Any) -> str:
     base = Bead._of(lib.fst_grid_base(s._grid)[0], s._map)
     varied = [axis.key for axis in s.axes]
     words = "" if "model.dynamics" in varied else f"dynamics {base.model__dynamics}, "
-    return f"{words}{s.size} runs of {base.run__periods:g} turns of the magnet"
+    return f"{words}{int(s.computed.sum())} runs of {base.run__periods:g} turns of the magnet"
 
 
 def _regime_marks(ax: Any, x: Any, y: Any, regimes: Any) -> None:
@@ -193,7 +193,7 @@ def _map(s: Any, y: str, sides: List[_Side], units: str, ax: Any) -> Any:
     _style.dress(ax, title[0].upper() + title[1:], _about_sweep(s), right.label, up.label)
     ax.grid(False)
     if y == "regime":
-        _regime_cells(ax, right.edges(), up.edges(), values)
+        _regime_cells(ax, right.edges(), up.edges(), values, "failed" if s.complete else "not run, or failed")
     elif not np.isfinite(values).any():
         raise BadInput("y", f"no run of this sweep has a value of {y}")
     else:
@@ -205,7 +205,7 @@ def _map(s: Any, y: str, sides: List[_Side], units: str, ax: Any) -> Any:
     return ax
 
 
-def _regime_cells(ax: Any, x: Any, y: Any, values: Any) -> None:
+def _regime_cells(ax: Any, x: Any, y: Any, values: Any, lacking: str) -> None:
     from matplotlib.colors import ListedColormap
     from matplotlib.patches import Patch
 
@@ -216,5 +216,5 @@ def _regime_cells(ax: Any, x: Any, y: Any, values: Any) -> None:
     there = np.unique(values[np.isfinite(values)]).astype(int)
     handles = [Patch(color=looks[i][1], label=looks[i][0]) for i in there]
     if not np.isfinite(values).all():
-        handles.append(Patch(facecolor="white", edgecolor="#888888", label="failed"))
+        handles.append(Patch(facecolor="white", edgecolor="#888888", label=lacking))
     _style.key_below(ax, handles)

@@ -219,6 +219,11 @@ class Sweep(SweepNumbers):
         return self._status() > lib.FST_OK
 
     @property
+    def computed(self) -> Any:
+        """Where a run was made, failed or not: everywhere, unless the sweep was refined or interrupted."""
+        return self._status() != NOT_RUN
+
+    @property
     def complete(self) -> bool:
         """Whether every point was run."""
         return not bool(np.any(self._status() == NOT_RUN))
@@ -404,6 +409,7 @@ def _into_file(
     threads: int,
     lanes: int,
     portable: bool,
+    refining: Tuple[int, Optional[str], float],
     progress: Progress,
 ) -> Sweep:
     options = options_of(lib.fst_default_sweep_options())
@@ -414,6 +420,9 @@ def _into_file(
 
         raise BadInput("fst_sweep_options.carry", f'unknown direction "{carry}": up or down')
     options.carry, options.threads, options.lanes = CARRY[carry], threads, lanes
+    levels, by, step = refining
+    key = ffi.new("char[]", by.encode()) if by else ffi.NULL
+    options.refine, options.refine_by, options.refine_step = levels, key, step
     if portable:
         options.arithmetic = lib.FST_ARITHMETIC_PORTABLE
     counts = ffi.new("fst_sweep_counts *")
@@ -432,6 +441,9 @@ def sweep(
     lanes: int = 0,
     portable: bool = False,
     seed: int = 0,
+    refine: int = 0,
+    refine_by: Optional[str] = None,
+    refine_step: float = 0.0,
     progress: Progress = None,
     **axes: Any,
 ) -> Sweep:
@@ -450,6 +462,11 @@ def sweep(
         Arithmetic that gives the bits of Bead.run() on every machine; slower.
     seed
         Of random axes.
+    refine
+        N: compute every 2**N-th value of each axis "LO:HI:COUNT" first, then those between, N times, where the
+        regime differs between neighbours.  Numbers are NaN at points that were not `computed`.
+    refine_by, refine_step
+        Refine where this number differs by more than the step, instead.
 
     A run that fails is a row of NaN with an error, not an exception.  Ctrl-C raises `Interrupted`, whose
     `partial` is the sweep with the rows that were done.
@@ -462,12 +479,13 @@ def sweep(
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]
     count = threads or len(os.sched_getaffinity(0))
     grid = _new_grid(bead, texts, seed)
+    refining = (refine, refine_by, refine_step)
     if file is not None:
-        return _into_file(bead, texts, file, seed, carry, count, lanes, portable, progress)
-    if carry is not None:
+        return _into_file(bead, texts, file, seed, carry, count, lanes, portable, refining, progress)
+    if carry is not None or refine != 0:
         with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
             path = os.path.join(folder, "sweep.db")
-            return _into_file(bead, texts, path, seed, carry, count, lanes, portable, progress)
+            return _into_file(bead, texts, path, seed, carry, count, lanes, portable, refining, progress)
     return _in_memory(grid, bead._map, count, lanes, portable, progress)
 
 

@@ -236,6 +236,19 @@ def test_sweep_in_a_file_goes_on(tmp_path):
     assert carried.mean_r[0] == first.mean_r[0] and carried.mean_r[1] != first.mean_r[1]
 
 
+def test_a_refined_sweep(bead):
+    bead = bead.replace(plate__radius="6 cm", run__periods=4, run__discard=2)
+    axes = {"start__r": "0.3:2.9:33", "kappa": "0.2:2:22"}
+    whole = fs.sweep(bead, **axes)
+    part = fs.sweep(bead, **axes, refine=3)
+    assert part.shape == whole.shape and not part.complete and whole.computed.all()
+    assert 0.2 < part.computed.mean() < 0.7
+    assert np.array_equal(part.mean_r[part.computed], whole.mean_r[part.computed], equal_nan=True)
+    assert np.isnan(part.mean_r[~part.computed]).all()
+    with pytest.raises(fs.BadInput, match="by how much"):
+        fs.sweep(bead, **axes, refine=3, refine_by="mean_r")
+
+
 def test_progress_is_told(bead):
     told = []
     fs.sweep(bead, frequency="9:12:8", progress=lambda fraction, what: told.append(fraction))

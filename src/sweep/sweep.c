@@ -48,6 +48,7 @@ typedef struct sweep {
     fst_sweep_counts *counts; /* the caller's, always up to date */
     double started, committed;
     double processor_started, journal_started;
+    double told;     /* the greatest part that was reported as done */
     int uncommitted; /* rows and images added since the last commit */
     int stopping;    /* the sweep is ending: commit whatever comes at once */
     int no_answer;   /* a follower was told to stop and did not answer */
@@ -78,9 +79,12 @@ static void read_clocks(sweep *s)
     s->counts->journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - s->journal_started;
 }
 
-static double fraction_done(const sweep *s)
+/* The part that is done.  It never falls, though a refinement may find that more points are wanted. */
+static double fraction_done(sweep *s)
 {
-    return (double)s->counts->computed / (double)s->counts->expected;
+    const double part = (double)s->counts->computed / (double)s->counts->expected;
+    s->told = part > s->told ? part : s->told;
+    return s->told;
 }
 
 /* Note how many points have their rows, and how many are to have one. */
