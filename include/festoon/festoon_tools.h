@@ -342,11 +342,11 @@ typedef struct fst_sweep_options {
      * goes on from there; 3 by default.  With n threads in all ranks and n > 8, (n + 7)/8 times as many,
      * rounded down. */
     double checkpoint_seconds;
-    /* 0: every point is computed.  N: first every 2^N-th point of each axis LO:HI:COUNT (and its last one), then
-     * those between, halving the distance N times, where the key `refine_by` (NULL: the regime) differs between
-     * neighbours: a number by more than `refine_step`, in its scaled unit.  Other axes are not refined: each
-     * combination of their values is refined by itself.  The points follow from the rows alone.  A later call on
-     * the file may refine otherwise, or not: it keeps all rows, and adds what it lacks. */
+    /* 0: every point is computed.  N: first every 2^N-th point of each axis LO:HI:COUNT (and its last one),
+     * then those between, halving the distance N times, where the key `refine_by` (NULL: the regime) differs
+     * between neighbours: a number by more than `refine_step`, in its scaled unit.  Other axes are not refined:
+     * each combination of their values is refined by itself.  The points follow from the rows alone.  A later
+     * call on the file may refine otherwise, or not: it keeps all rows, and adds what it lacks. */
     int refine;
     const char *refine_by;
     double refine_step;
@@ -395,9 +395,9 @@ typedef struct fst_sweep_table {
 FST_API fst_status fst_sweep_read(const char *path, const char *const *keys, int count, fst_sweep_table *table,
                                   fst_error *error);
 
-/* The same, of at most FST_SWEEP_FILLED_KEYS keys, where a refined sweep has also values for the points between:
- * in a cell that was not refined, regimes and symmetries are those of its corners if these agree, and numbers are
- * interpolated between them.  Others stay NAN. */
+/* The same, of at most FST_SWEEP_FILLED_KEYS keys, where a refined sweep has also values for the points
+ * between: in a cell that was not refined, regimes and symmetries are those of its corners if these agree, and
+ * numbers are interpolated between them.  Others stay NAN. */
 enum { FST_SWEEP_FILLED_KEYS = 8 };
 FST_API fst_status fst_sweep_read_filled(const char *path, const char *const *keys, int count,
                                          fst_sweep_table *table, fst_error *error);

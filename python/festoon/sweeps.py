@@ -85,6 +85,8 @@ class Sweep(SweepNumbers):
 
     def __init__(self, rows: Any, grid: Any, owner: Any, field_map: Any = None) -> None:
         self._rows, self._grid, self._owner, self._map = rows, grid, owner, field_map
+        #: Of a refined sweep: by point the regime of runs around it that agree, where none was made; else NaN.
+        self._between: Any = None
         self.axes = [Axis(grid, i) for i in range(lib.fst_grid_axis_count(grid))]
         #: The name and the length of each dimension.
         self.dims: Tuple[str, ...] = ()
@@ -514,6 +516,23 @@ def _fill(row: Any, given: Mapping[str, Any], texts: Mapping[str, int]) -> None:
     result.final_state = given["final_state"]
 
 
+def _regimes_between(path: Path) -> Any:
+    """The regimes that a refined sweep gives to points without a run; None: it is not refined, or damaged."""
+    keys, _kept = strings(["regime"])
+    table = ffi.new("fst_sweep_table *")
+    if lib.fst_sweep_read_filled(path_bytes(path), keys, 1, table, new_error()) != lib.FST_OK:
+        return None
+    try:
+        if table.refine == 0:
+            return None
+        count = int(lib.fst_grid_points(table.grid))
+        values = np.frombuffer(ffi.buffer(table.values, 8 * count)).copy()
+        values[np.frombuffer(ffi.buffer(table.computed, count), np.uint8) == 1] = np.nan
+        return values
+    finally:
+        lib.fst_sweep_table_free(table)
+
+
 def read_sweep(path: Path) -> Sweep:
     """Read a sweep's database."""
     found = ffi.new("fst_grid **")
@@ -535,4 +554,6 @@ def read_sweep(path: Path) -> Sweep:
     texts = {text_of(lib.fst_status_text(i)): i for i in range(lib.FST_INTERRUPTED + 1)}
     for row in given:
         _fill(rows[row["point"]], row, texts)
-    return _sweep_of(batch, grid)
+    made = _sweep_of(batch, grid)
+    made._between = _regimes_between(path)
+    return made

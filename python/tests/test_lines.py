@@ -245,6 +245,12 @@ def test_a_refined_sweep(bead):
     assert 0.2 < part.computed.mean() < 0.7
     assert np.array_equal(part.mean_r[part.computed], whole.mean_r[part.computed], equal_nan=True)
     assert np.isnan(part.mean_r[~part.computed]).all()
+    # Where runs around a point agree, its regime is known, as the whole sweep has it but for missed islands.
+    names = np.array([*fs.sweeps.REGIMES, ""])
+    between = part._between.reshape(part.shape)
+    known = np.isfinite(between)
+    assert not (known & part.computed).any() and known.mean() > 0.3
+    assert (names[between[known].astype(int)] != whole.regime[known]).sum() <= 15
     with pytest.raises(fs.BadInput, match="by how much"):
         fs.sweep(bead, **axes, refine=3, refine_by="mean_r")
 

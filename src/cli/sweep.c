@@ -54,7 +54,8 @@ static fst_status read_arithmetic(const char *word, fst_arithmetic *arithmetic, 
 }
 
 /* --refine N and --refine-by KEY[:STEP]; the key is copied to `key`. */
-static fst_status read_refining(const arguments *given, char key[64], fst_sweep_options *sweep, fst_error *error)
+static fst_status read_refining(const arguments *given, char key[64], fst_sweep_options *sweep,
+                                fst_error *error)
 {
     const char *by = option_value(given, "refine-by");
     double levels = 0;
@@ -75,8 +76,8 @@ static fst_status read_refining(const arguments *given, char key[64], fst_sweep_
     return status;
 }
 
-static fst_status read_sweep(const arguments *given, const char **axes, char key[64],
-                             fst_sweep_options *sweep, fst_error *error)
+static fst_status read_sweep(const arguments *given, const char **axes, char key[64], fst_sweep_options *sweep,
+                             fst_error *error)
 {
     *sweep = fst_default_sweep_options();
     for (int i = 0; i < given->option_count; ++i)
@@ -168,12 +169,12 @@ static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, 
     if (json) {
         (void)fprintf(
             out,
-            "{\n  \"points\": %lld,\n  \"computed\": %lld,\n  \"rows\": %lld,\n  \"added\": %lld,\n  \"failed\": %lld,\n"
+            "{\n  \"points\": %lld,\n  \"computed\": %lld,\n  \"rows\": %lld,\n  \"added\": %lld,\n  "
+            "\"failed\": %lld,\n"
             "  \"lost\": %lld,\n"
             "  \"seconds\": %.17g,\n  \"processor_seconds\": %.17g,\n  \"journal_seconds\": %.17g\n}\n",
             (long long)p->points, (long long)p->computed, (long long)p->there, (long long)p->added,
-            (long long)p->failed,
-            (long long)p->lost, p->seconds, p->processor_seconds, p->journal_seconds);
+            (long long)p->failed, (long long)p->lost, p->seconds, p->processor_seconds, p->journal_seconds);
         return;
     }
     char name[SHOWN_SIZE];

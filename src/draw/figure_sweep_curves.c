@@ -148,7 +148,8 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
 {
     drawing *d = calloc(1, sizeof *d);
     const size_t all = (size_t)(table->refine ? table->rows : fst_grid_points(table->grid));
-    const size_t step = all > 0 ? (all + MOST_POINTS - 1) / MOST_POINTS : 1, points = all / step + (all % step > 0);
+    const size_t step = all > 0 ? (all + MOST_POINTS - 1) / MOST_POINTS : 1,
+                 points = all / step + (all % step > 0);
     double *memory = malloc((1 + MOST_KEYS * REGIMES) * (points + 1) * sizeof *memory);
     int64_t *chosen = malloc((points + 1) * sizeof *chosen);
     if (!d || !memory || !chosen) {

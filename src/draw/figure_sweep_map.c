@@ -129,8 +129,8 @@ static double upper_end(const side *s, const fst_sweep_axis *axis, int64_t last)
     return axis->logarithmic ? edge * exp(beyond) : edge + beyond;
 }
 
-/* Draw the cells of one regime that were computed, or filled in; or all of them (regime < 0).  Neighbouring cells
- * of a row with the same regime become one box, which keeps the file small. */
+/* Draw the cells of one regime that were computed, or filled in; or all of them (regime < 0).  Neighbouring
+ * cells of a row with the same regime become one box, which keeps the file small. */
 static void write_cells(fst_figure_file *figure, const map *m, int regime, int filled)
 {
     char name[24];
@@ -172,11 +172,12 @@ static void write_regimes(fst_figure_file *figure, const map *m, const int occur
         for (int r = 0; r < REGIMES; ++r)
             if (occurs[r]) {
                 write_cells(figure, m, r, filled);
-                (void)fprintf(figure->script,
-                              "data index '%s-%d' using 1:2:3:4:5:6 with boxxyerror fillstyle solid %s noborder "
-                              "lc rgb '%s' notitle, \\\n     ",
-                              filled ? "filled" : "cells", r, filled ? PALE : "1.0",
-                              fst_colour_code(fst_regime_colour(r)));
+                (void)fprintf(
+                    figure->script,
+                    "data index '%s-%d' using 1:2:3:4:5:6 with boxxyerror fillstyle solid %s noborder "
+                    "lc rgb '%s' notitle, \\\n     ",
+                    filled ? "filled" : "cells", r, filled ? PALE : "1.0",
+                    fst_colour_code(fst_regime_colour(r)));
             }
     (void)fputs("NaN notitle\n", figure->script);
 }

@@ -45,8 +45,8 @@ static int take_left(source *s, fst_row_job *job)
     return 0;
 }
 
-/* The next job of the present side, as fst_row_work.next; 0 also where one of the other side is first, which waits
- * from then on. */
+/* The next job of the present side, as fst_row_work.next; 0 also where one of the other side is first, which
+ * waits from then on. */
 static int next_job(void *user, fst_row_job *job)
 {
     source *s = user;

@@ -309,8 +309,8 @@ static fst_status note_refining(fst_journal *journal, const fst_refining *refini
     const fst_status begun = fst_journal_begin(journal, error);
     if (begun != FST_OK)
         return begun;
-    const fst_status written = fst_refining_write(journal->file.database, journal->path, &journal->file.lines,
-                                                  refining, error);
+    const fst_status written =
+        fst_refining_write(journal->file.database, journal->path, &journal->file.lines, refining, error);
     return written == FST_OK ? fst_journal_commit(journal, error) : written;
 }
 

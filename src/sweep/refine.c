@@ -8,7 +8,7 @@
  *      |       |      /| |       |   |  /| |       |   |/| |      / here the regime changes
  *      |       |     / | |       o---o-/-o |       o---o-o-o
  *      |       |    /  | |       |   |/  | |       |   / | |
- *      o-------o---/---o o-------o---o---o o-------o-o/o---o
+ *      o-------o---/---o o-------o---o---o o-------o-o/o---o      (without rule 4)
  *
  * The rules:
  * 1. The cells of level 0 exist.  When a cell is divided its parts exist.
@@ -229,8 +229,8 @@ static fst_status work_off(fst_refinement *r, fst_error *error)
             divide(r, &c);
         attend_neighbours(r, &c);
     }
-    return r->failed ? fst_fail(error, FST_NO_MEMORY, "fst_sweep", "no memory for %lld points of a refined sweep",
-                                (long long)r->set.count)
+    return r->failed ? fst_fail(error, FST_NO_MEMORY, "fst_sweep",
+                                "no memory for %lld points of a refined sweep", (long long)r->set.count)
                      : FST_OK;
 }
 
@@ -300,10 +300,9 @@ fst_refinement_counts fst_refinement_count(const fst_refinement *r)
     }
     const double most = (double)r->points;
     const int64_t wanted = (int64_t)r->set.count;
-    return (fst_refinement_counts){wanted, r->known,
-                                   wanted == r->known && !fst_refinement_has_next(r)
-                                       ? wanted
-                                       : (int64_t)fmin(expected, most)};
+    return (fst_refinement_counts){
+        wanted, r->known,
+        wanted == r->known && !fst_refinement_has_next(r) ? wanted : (int64_t)fmin(expected, most)};
 }
 
 /* ------------------------------------------------------------------ the cells at the end */
@@ -326,8 +325,8 @@ static void tell_cell(const fst_refinement *r, const cell *c,
     tell(user, &told);
 }
 
-void fst_refinement_tell_cells(const fst_refinement *r,
-                               void (*tell)(void *user, const fst_refined_cell *cell), void *user)
+void fst_refinement_tell_cells(const fst_refinement *r, void (*tell)(void *user, const fst_refined_cell *cell),
+                               void *user)
 {
     const int all = (1 << r->axis_count) - 1;
     for (int level = 0; level < r->levels; ++level)
@@ -355,10 +354,11 @@ static fst_status find_axes(fst_refinement *r, const fst_grid *grid, fst_error *
         if (spacing == FST_SPACING_LIST || fst_grid_axis_points(grid, i) == 1)
             continue;
         if (r->axis_count == FST_REFINED_AXES)
-            return fst_fail(error, FST_BAD_INPUT, where,
-                            "a sweep is refined along %d ranges at most, and this one has more: give the others "
-                            "as lists",
-                            FST_REFINED_AXES);
+            return fst_fail(
+                error, FST_BAD_INPUT, where,
+                "a sweep is refined along %d ranges at most, and this one has more: give the others "
+                "as lists",
+                FST_REFINED_AXES);
         r->axes[r->axis_count++] = (range){fst_grid_axis_points(grid, i), fst_grid_axis_stride(grid, i)};
     }
     if (r->axis_count == 0)
@@ -381,19 +381,21 @@ static fst_status check_levels(const fst_refinement *r, fst_error *error)
     if (most == 0)
         return fst_fail(error, FST_BAD_INPUT, where, "a range needs 5 points at least to be refined");
     if (r->levels < 1 || r->levels > most)
-        return fst_fail(error, FST_BAD_INPUT, where,
-                        "%d must be from 1 to %d here: the coarsest points are every 2^N-th of a range, and the "
-                        "longest one has %lld",
-                        r->levels, most, (long long)longest);
+        return fst_fail(
+            error, FST_BAD_INPUT, where,
+            "%d must be from 1 to %d here: the coarsest points are every 2^N-th of a range, and the "
+            "longest one has %lld",
+            r->levels, most, (long long)longest);
     for (int a = 0; a < r->axis_count; ++a) {
         const int64_t cells = (r->axes[a].count - 1 + width(r, 0) - 1) / width(r, 0);
         coarse *= (double)(cells + 1) / (double)r->axes[a].count;
     }
     if (coarse > (double)MOST_COARSE)
-        return fst_fail(error, FST_BAD_INPUT, where,
-                        "the coarsest of %d levels has %.0f points, more than the %lld that are kept in memory: "
-                        "begin coarser",
-                        r->levels, coarse, (long long)MOST_COARSE);
+        return fst_fail(
+            error, FST_BAD_INPUT, where,
+            "the coarsest of %d levels has %.0f points, more than the %lld that are kept in memory: "
+            "begin coarser",
+            r->levels, coarse, (long long)MOST_COARSE);
     return FST_OK;
 }
 

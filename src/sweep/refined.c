@@ -1,5 +1,5 @@
-/* refined.c - how a sweep is refined: the options, their line in its database, and the values of the points that
- * were not computed, as figures show them.
+/* refined.c - how a sweep is refined: the options, their line in its database, and the values of the points
+ * that were not computed, as figures show them.
  *
  * The line, `refine` in the table `festoon`, belongs to no row: a row has the same bits in every sweep of its
  * scene.  It says which points the last command wanted, so it may change, and has a checksum of its own.
@@ -40,10 +40,11 @@ fst_status fst_refining_of(const fst_sweep_options *o, fst_refining *refining, f
         return fst_fail(error, FST_BAD_INPUT, "fst_sweep_options.refine_by",
                         "%s has names as values, so no step belongs to it", key);
     if (!has_names(key) && !(o->refine_step > 0 && isfinite(o->refine_step)))
-        return fst_fail(error, FST_BAD_INPUT, "fst_sweep_options.refine_by",
-                        "%s is a number: say by how much it may change between neighbours, a positive number in "
-                        "its unit, as in mean_r:0.05",
-                        key);
+        return fst_fail(
+            error, FST_BAD_INPUT, "fst_sweep_options.refine_by",
+            "%s is a number: say by how much it may change between neighbours, a positive number in "
+            "its unit, as in mean_r:0.05",
+            key);
     return FST_OK;
 }
 
@@ -100,7 +101,8 @@ fst_status fst_refining_read(const fst_identity_lines *lines, const char *path, 
 /* ------------------------------------------------------------------ the points between */
 
 /* Find the cells that the rows make. */
-static fst_status replay(fst_refinement *r, const fst_sweep_table *table, const double *values, fst_error *error)
+static fst_status replay(fst_refinement *r, const fst_sweep_table *table, const double *values,
+                         fst_error *error)
 {
     fst_status status = FST_OK;
     int64_t point;

@@ -6,7 +6,7 @@
 #include "sweep/refine.h"
 
 typedef struct fst_refining { /* declared in journal.h too */
-    int levels; /* 0: every point is computed */
+    int levels;               /* 0: every point is computed */
     char key[48];
     double step; /* corners differ where the key differs by more */
 } fst_refining;

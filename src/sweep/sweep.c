@@ -44,8 +44,8 @@ typedef struct sweep {
     fst_workers *workers;
     fst_refining refining;
     fst_refinement *refinement; /* NULL: every point is computed */
-    int64_t next;             /* the points or chains before this one were looked up in the journal */
-    fst_sweep_counts *counts; /* the caller's, always up to date */
+    int64_t next;               /* the points or chains before this one were looked up in the journal */
+    fst_sweep_counts *counts;   /* the caller's, always up to date */
     double started, committed;
     double processor_started, journal_started;
     double told;     /* the greatest part that was reported as done */
@@ -91,9 +91,9 @@ static double fraction_done(sweep *s)
 static void count_points(sweep *s)
 {
     fst_sweep_counts *c = s->counts;
-    const fst_refinement_counts refined =
-        s->refinement ? fst_refinement_count(s->refinement)
-                      : (fst_refinement_counts){c->points, c->there, c->points};
+    const fst_refinement_counts refined = s->refinement
+                                              ? fst_refinement_count(s->refinement)
+                                              : (fst_refinement_counts){c->points, c->there, c->points};
     c->wanted = refined.wanted;
     c->computed = refined.known;
     c->expected = refined.expected;

@@ -28,8 +28,7 @@ fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *er
     }
     if (fst_nearest_name(key, names, nearest, sizeof nearest) == 0)
         return FST_OK;
-    return fst_fail(error, FST_BAD_INPUT, where, "unknown key \"%.60s\"; the nearest is %s",
-                    key, nearest);
+    return fst_fail(error, FST_BAD_INPUT, where, "unknown key \"%.60s\"; the nearest is %s", key, nearest);
 }
 
 double fst_sweep_number(sqlite3_stmt *rows, int column)
