@@ -139,7 +139,9 @@ def _about_sweep(s: Any) -> str:
     base = Bead._of(lib.fst_grid_base(s._grid)[0], s._map)
     varied = [axis.key for axis in s.axes]
     words = "" if "model.dynamics" in varied else f"dynamics {base.model__dynamics}, "
-    return f"{words}{int(s.computed.sum())} runs of {base.run__periods:g} turns of the magnet"
+    count = int(s.computed.sum())
+    part = "" if s.complete else f" at {100 * count / s.size:.3g} % of {s.size} points"
+    return f"{words}{count} runs of {base.run__periods:g} turns of the magnet{part}"
 
 
 def _regime_marks(ax: Any, x: Any, y: Any, regimes: Any) -> None:
@@ -217,13 +219,16 @@ def _regime_cells(ax: Any, x: Any, y: Any, values: Any, between: Any, lacking: s
     colours = ListedColormap([colour for _, colour in looks])
     colours.set_bad("white")
     ax.pcolormesh(x, y, values, cmap=colours, vmin=-0.5, vmax=len(looks) - 0.5, rasterized=True)
+    has_pale = bool(np.isfinite(between).any())
     pale = ListedColormap([0.5 + 0.5 * np.array(to_rgb(colour)) for _, colour in looks])
     pale.set_bad((1.0, 1.0, 1.0, 0.0))
-    if np.isfinite(between).any():
+    if has_pale:
         ax.pcolormesh(x, y, between, cmap=pale, vmin=-0.5, vmax=len(looks) - 0.5, rasterized=True)
     values = np.where(np.isfinite(values), values, between)
     there = np.unique(values[np.isfinite(values)]).astype(int)
     handles = [Patch(color=looks[i][1], label=looks[i][0]) for i in there]
+    if has_pale:
+        handles.append(Patch(color=pale(0), label="paler: not run, between runs that agree"))
     if not np.isfinite(values).all():
         handles.append(Patch(facecolor="white", edgecolor="#888888", label=lacking))
     _style.key_below(ax, handles)
