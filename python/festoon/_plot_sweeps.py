@@ -228,7 +228,7 @@ def _regime_cells(ax: Any, x: Any, y: Any, values: Any, between: Any, lacking: s
     there = np.unique(values[np.isfinite(values)]).astype(int)
     handles = [Patch(color=looks[i][1], label=looks[i][0]) for i in there]
     if has_pale:
-        handles.append(Patch(color=pale(0), label="paler: not run, between runs that agree"))
+        handles.append(Patch(color=pale(0), label="paler: not run"))
     if not np.isfinite(values).all():
         handles.append(Patch(facecolor="white", edgecolor="#888888", label=lacking))
     _style.key_below(ax, handles)
