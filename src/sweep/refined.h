@@ -14,6 +14,9 @@ typedef struct fst_refining { /* declared in journal.h too */
 /* FST_BAD_INPUT: no key of a run, or a step that does not fit it. */
 fst_status fst_refining_of(const fst_sweep_options *options, fst_refining *refining, fst_error *error);
 
+/* Whether the values of a key are names, regimes or symmetries: nothing lies between two of them. */
+int fst_sweep_has_names(const char *key);
+
 /* Note it in the database, whose identity is `lines`, within the present transaction. */
 fst_status fst_refining_write(sqlite3 *database, const char *path, const fst_identity_lines *lines,
                               const fst_refining *refining, fst_error *error);
