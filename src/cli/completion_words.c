@@ -15,7 +15,7 @@ value_kind kind_of_value(const option *row)
         return VALUE_KEY;
     if (strcmp(row->value, "KEY,KEY") == 0)
         return VALUE_KEYS;
-    if (strcmp(row->value, "KEY,...") == 0)
+    if (strcmp(row->value, "KEY,...") == 0 || strcmp(row->value, "KEY[:STEP]") == 0)
         return VALUE_RESULTS;
     if (strcmp(row->value, "COLUMN") == 0)
         return VALUE_COLUMN;

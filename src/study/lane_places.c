@@ -192,9 +192,11 @@ static int admit(fst_row_worker *w)
     for (int has_job = 0;;) {
         if (!has_job && w->waiting_count > 0) {
             fresh.job = w->waiting[--w->waiting_count];
-        } else if (!has_job && (w->no_more || !w->work->next(w->work->user, &fresh.job))) {
-            w->no_more = 1;
-            return 0;
+        } else if (!has_job) {
+            const int came = w->no_more ? 0 : w->work->next(w->work->user, &fresh.job);
+            w->no_more = came == 0;
+            if (came <= 0)
+                return 0;
         }
         fst_status status;
         fst_error error = {FST_OK, "", ""};
