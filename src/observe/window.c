@@ -43,8 +43,8 @@ void fst_window_mark(fst_window *w, fst_flow *flow, double x, fst_mark *mark)
 
 const fst_mark_series *fst_window_series(const fst_window *w, fst_twofold now)
 {
-    return fst_returns_are_regular(&w->returns, now) && w->returns.marks.offered >= 2 ? &w->returns.marks
-                                                                                      : &w->periods;
+    const int repeats = w->returns.of_cycles || fst_returns_are_regular(&w->returns, now);
+    return repeats && w->returns.marks.offered >= 2 ? &w->returns.marks : &w->periods;
 }
 
 /* ------------------------------------------------------------------ drive periods */

@@ -110,7 +110,7 @@ fst_beginning fst_worker_begin(fst_row_worker *w, fst_lane *at, fst_status *stat
     at->run = run;
     w->kind = run->model->coefficients;
     run->window.span.asked_at_end = 1;
-    if (!w->usual->fused && !run->settling.asked)
+    if (!w->usual->fused)
         run->window.returns.left_out.state = FST_LEFT_OUT_NEVER;
     return FST_BEGUN;
 }

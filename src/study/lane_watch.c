@@ -123,7 +123,7 @@ int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l)
 static int needs_integrals(const fst_row_worker *w, const fst_watched_run *run, int at_mark)
 {
     const fst_window *window = &run->window;
-    return !w->engine->fused || fst_returns_need_integrals(&window->returns, &window->span, run->flow) ||
+    return !w->engine->fused || fst_settling_needs_integrals(run) || fst_returns_need_integrals(&window->returns, &window->span, run->flow) ||
            (at_mark && fst_window_period_needs_integrals(window, run->flow));
 }
 
@@ -146,7 +146,7 @@ static void follow_window(fst_row_worker *w, int l)
     b->view.next_mark[l] = fst_window_next_mark(&run->window);
     w->in_window |= is_open ? fst_lane_bit(l) : 0;
     w->tracked &= ~fst_lane_bit(l);
-    if (is_open && !(w->engine->fused && repeats(run)))
+    if (is_open && !(w->engine->fused && repeats(run)) && fst_settling_seeks_extremes(run))
         w->tracked |= fst_lane_bit(l);
     if (!w->engine->fused)
         keep_records(w, l, &run->window);
@@ -223,8 +223,10 @@ unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events)
 {
     const unsigned wandering = events.wandering & w->in_window & ~w->turning;
     unsigned over = 0;
-    for (int l = 0; ((events.close | events.at_mark | wandering) >> l) != 0; ++l) {
+    for (int l = 0; ((events.close | events.at_mark | events.at_maximum | wandering) >> l) != 0; ++l) {
         int close = (events.close & fst_lane_bit(l)) != 0;
+        if (events.at_maximum & fst_lane_bit(l))
+            close |= w->observed.lanes[l].run->settling.cycle.watched;
         if (!close && events.at_mark & fst_lane_bit(l)) {
             w->engine->extract_clock(w->observed.memory, l, w->observed.lanes[l].run->flow);
             close = fst_window_period_needs_integrals(&w->observed.lanes[l].run->window,

@@ -9,4 +9,7 @@
  * `exponent` is NULL; the result means nothing then. */
 int fst_decide_regime(const fst_watched_run *run, const fst_exponent *exponent, fst_run_result *result);
 
+/* Whether anything takes energy from the motion: friction, unless its contact never slips. */
+int fst_is_braked(const fst_watched_run *run);
+
 #endif

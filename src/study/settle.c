@@ -3,26 +3,38 @@
  * With run.until: settled the motion is observed from its start.  As soon as it is known, a short window
  * begins, and its end is the run's:
  *
- *     from the start     |--o--o--o--o--o--o--|                     whole returns come closer, and repeat
+ *     from the start     |--o--o--o--o--o--o--|                     it comes closer to itself, and repeats
  *     short window                            |--o--o--o--o--|      means, extremes and regime are of these
  *
  *     discard                  |---------------------------- - -    never known: as with run.until: periods
  *
- * A motion is known when its whole returns repeat and the means of a single return tell those of all to come
- * (observe/left_out.h), or when the bead has stood still in the turning frame for some periods.  A libration,
- * an orbit that does not close and chaos are never known in this way; they take the whole run.
+ * A motion is known when its whole returns repeat (observe/closing.h); when it swings without turning, and the
+ * maxima of r repeat (observe/cycle.h); or when the bead has stood still in the turning frame for some periods.
+ * Maxima are looked for while Phi does not turn.  An orbit that does not close and chaos are never known in this
+ * way; they take the whole run.
+ *
+ * If the motion is another one at the end of the short window, it was an unstable one that the bead passed. Then
+ * nothing is known yet, and the run goes on.
  */
 #include "study/settle.h"
 
 #include <math.h>
 
 #include "base/constants.h"
+#include "study/regime.h"
 
-/* Drive periods and returns that the short window lasts: what a regime is decided on. */
-static const double LEAST_PERIODS = 5.5, LEAST_RETURNS = 9.5;
-/* Greatest |d(state)/dt| of a bead that stands still, or run.rtol (as docs/regimes.md has it). */
-static const double AT_REST = 1e-8;
-enum { PERIODS_AT_REST = 4 };
+/* Drive periods, returns and cycles that the short window lasts: what a regime is decided on. */
+static const double LEAST_PERIODS = 5.5, LEAST_TURNS = 9.5;
+/* A window that is no shorter than this part of what is left of the run is not worth the trouble. */
+static const double WORTHWHILE = 0.5;
+/* Greatest |d(state)/dt| of a bead that stands still, or run.rtol (as docs/regimes.md has it); at the window's
+ * end it may be so many times as much, because the integrator's noise has peaks. */
+static const double AT_REST = 1e-8, STILL_AT_REST = 100.0;
+enum {
+    PERIODS_AT_REST = 4,
+    PERIODS_WITHOUT_TURNING = 2, /* from then on maxima of r are looked for */
+    LEAST_CYCLES = 6             /* marks of whole cycles in the short window */
+};
 
 void fst_stand_at_end(fst_flow *flow)
 {
@@ -41,22 +53,31 @@ void fst_settling_begin(fst_watched_run *run)
     s->asked = run->params->run_until == FST_UNTIL_SETTLED;
     s->settled_at = NAN;
     s->discard = run->window.span.from;
-    if (s->asked)
-        run->window.span.from = 0.0;
+    s->until = run->window.span.until;
+    if (!s->asked)
+        return;
+    run->window.span.from = 0.0;
+    run->window.returns.left_out.state = FST_LEFT_OUT_NEVER;
+    fst_closing_begin(&s->returns, run->params->run_rtol);
+    fst_cycle_begin(&s->cycle, run->params->run_rtol);
 }
 
 /* A new window from the flow's time on. */
 static void begin_window(fst_watched_run *run, double until)
 {
+    fst_settling *s = &run->settling;
     fst_window *w = &run->window;
     const fst_span span = {run->flow->t.high, until, w->span.asked_at_end};
-    const fst_left_out rule = {.rtol = w->returns.left_out.rtol,
-                               .limit = w->returns.left_out.limit,
-                               .state =
-                                   isnan(run->settling.settled_at) ? FST_LEFT_OUT_NOTHING : FST_LEFT_OUT_NEVER};
+    const fst_left_out rule = {
+        .rtol = w->returns.left_out.rtol, .limit = w->returns.left_out.limit, .state = FST_LEFT_OUT_NEVER};
     fst_stand_at_end(run->flow);
     fst_window_begin(w, &span, w->period, run->flow);
     w->returns.left_out = rule;
+    w->returns.of_cycles = s->as == FST_SETTLED_CYCLE;
+    s->periods = s->crossings = s->at_rest = 0;
+    if (s->as != FST_SETTLED_CYCLE) /* integrals begin anew */
+        fst_cycle_forget(&s->cycle);
+    s->returns.count = 0;
 }
 
 /* Whether the bead has stood still for some periods; asked when one has ended. */
@@ -68,32 +89,116 @@ static int rests(fst_watched_run *run)
     return run->settling.at_rest >= PERIODS_AT_REST;
 }
 
-/* Whether the last step completed a return that tells all to come. */
-static int repeats(fst_watched_run *run)
+/* A period has ended: is Phi turning? */
+static void watch_turning(fst_watched_run *run)
 {
-    fst_returns *r = &run->window.returns;
-    return r->crossed && r->crossings % 2 == 1 &&
-           fst_left_out_begin(&r->left_out, &r->marks, &run->window.span);
+    fst_settling *s = &run->settling;
+    const fst_returns *r = &run->window.returns;
+    const int turns = r->crossings != s->crossings && r->since_break > 2;
+    s->crossings = r->crossings;
+    s->without_turning = turns ? 0 : s->without_turning + 1;
+    /* Without friction no cycle attracts. */
+    fst_cycle_watch(&s->cycle, s->without_turning >= PERIODS_WITHOUT_TURNING && fst_is_braked(run));
+}
+
+/* What the last step shows the motion to be: its returns or cycles repeat, or it stands still. */
+static fst_settled_as recognise(fst_watched_run *run, int period_ended, double *turn)
+{
+    fst_settling *s = &run->settling;
+    fst_window *w = &run->window;
+    const fst_returns *r = &w->returns;
+    *turn = 0.0;
+    if (r->crossed && r->crossings % 2 == 1 && fst_closing_add(&s->returns, &r->crossing, s->until)) {
+        *turn = fst_closing_turn(&s->returns);
+        return FST_SETTLED_RETURNS;
+    }
+    if (fst_cycle_step(&s->cycle, &w->quadrature, run->flow) &&
+        fst_cycle_settles(&s->cycle, s->until, w->periods.latest.activity)) {
+        *turn = fst_closing_turn(&s->cycle.closing);
+        return FST_SETTLED_CYCLE;
+    }
+    return period_ended && rests(run) ? FST_SETTLED_REST : FST_SETTLED_NOT;
+}
+
+/* Whether the motion is still that which was known when the short window began. */
+static int still_holds(const fst_watched_run *run)
+{
+    const fst_settling *s = &run->settling;
+    const fst_mark_series *marks = &run->window.returns.marks, *periods = &run->window.periods;
+    switch (s->as) {
+    case FST_SETTLED_RETURNS:
+        return fst_returns_are_regular(&run->window.returns, run->flow->t) &&
+               fst_closing_holds(&s->returns, marks->latest.full_distance);
+    case FST_SETTLED_CYCLE:
+        return marks->offered >= LEAST_CYCLES &&
+               fst_closing_holds(&s->cycle.closing, marks->latest.full_distance);
+    default:
+        return periods->latest.activity < STILL_AT_REST * fmax(AT_REST, run->params->run_rtol);
+    }
+}
+
+/* In the short window: 1 if it has ended and the motion is another one, so that the run goes on. */
+static int look_at_short_window(fst_watched_run *run)
+{
+    fst_settling *s = &run->settling;
+    fst_window *w = &run->window;
+    if (s->as == FST_SETTLED_CYCLE && fst_cycle_step(&s->cycle, &w->quadrature, run->flow))
+        fst_marks_offer(&w->returns.marks, &s->cycle.latest);
+    if (run->flow->t.high < w->span.until || still_holds(run))
+        return 0;
+    s->as = FST_SETTLED_NOT;
+    s->settled_at = NAN;
+    s->returns.approached = s->cycle.closing.approached = 0;
+    begin_window(run, s->until);
+    return 1;
 }
 
 int fst_settling_look(fst_watched_run *run)
 {
     fst_settling *s = &run->settling;
     fst_window *w = &run->window;
-    const double now = run->flow->t.high, until = w->span.until;
-    if (!s->asked || !isnan(s->settled_at) || run->end.happened || now >= until)
+    const double now = run->flow->t.high;
+    if (!s->asked || run->end.happened)
         return 0;
-    const int period_ended = w->periods.offered != s->periods, turns = repeats(run);
-    s->periods = w->periods.offered;
-    if (turns || (period_ended && rests(run))) {
-        const double turn = turns ? fst_left_out_turn(&w->returns.left_out) : 0.0;
+    if (s->as != FST_SETTLED_NOT)
+        return look_at_short_window(run);
+    if (now >= s->until)
+        return 0;
+    double turn;
+    const int period_ended = w->periods.offered != s->periods;
+    const fst_settled_as as = recognise(run, period_ended, &turn);
+    const double lasts = fmax(LEAST_PERIODS * w->period, LEAST_TURNS * turn);
+    if (as != FST_SETTLED_NOT && lasts < WORTHWHILE * (s->until - now)) {
+        s->as = as;
         s->settled_at = now / w->period;
-        begin_window(run, fmin(until, now + fmax(LEAST_PERIODS * w->period, LEAST_RETURNS * turn)));
+        begin_window(run, now + lasts);
         return 1;
     }
-    if (!period_ended || w->span.from >= s->discard || now < s->discard)
+    w->returns.need_whole = fst_closing_needs_integrals(&s->returns);
+    if (!period_ended)
         return 0;
-    s->periods = s->at_rest = 0;
-    begin_window(run, until);
+    s->periods = w->periods.offered;
+    watch_turning(run);
+    if (w->span.from >= s->discard || now < s->discard)
+        return 0;
+    begin_window(run, s->until);
     return 1;
+}
+
+int fst_settling_seeks_extremes(const fst_watched_run *run)
+{
+    const fst_settling *s = &run->settling;
+    return !s->asked || s->as != FST_SETTLED_NOT || run->window.span.from >= s->discard;
+}
+
+int fst_settling_needs_integrals(const fst_watched_run *run)
+{
+    return run->settling.asked && fst_cycle_needs_integrals(&run->settling.cycle);
+}
+
+int fst_settling_is_sound(const fst_settling *s)
+{
+    return s->cycle.seen >= 0 && s->cycle.seen <= FST_CYCLE_MAXIMA && s->cycle.since >= -1 &&
+           s->cycle.since < FST_CYCLE_MAXIMA && s->returns.count >= 0 && s->cycle.closing.count >= 0 &&
+           (unsigned)s->as <= FST_SETTLED_REST;
 }
