@@ -12,8 +12,10 @@
  *
  * Four marks in a row must lie below the limit, and the way that is left, with the larger of the last two
  * factors, must be no more than ten times the limit.  Where the distances do not fall, the way is the distance
- * times the number of marks that the rest of the run would have.  The means between successive marks must agree
- * too: what a motion does between its marks is then known.
+ * times the number of marks that the rest of the run would have.  The times and the changes of Phi between
+ * successive marks must agree too, and the means of r and n_z.  Means of other quantities need not: on an orbit that
+ * passes the axis closely the directions along r and alpha turn so fast that the errors of their integrals are
+ * larger than whatever the motion still has to go.
  *
  * A bead that is put down on an unstable orbit repeats itself from the start, until it leaves.  So the states
  * must have differed by far more than the limit before: what comes closer by so much is attracted.
@@ -67,15 +69,17 @@ static double mean(const fst_mark *first, const fst_mark *last, int which)
     return (last->integrals[which] - first->integrals[which]) / time_between(first, last);
 }
 
-static int means_agree(const fst_closing *c)
+/* Whether the motion between the last two marks was the one between the two before. */
+static int way_agrees(const fst_closing *c)
 {
-    for (int i = 0; i < FST_Q_COUNT; ++i) {
-        const double now = mean(&c->mark[BEFORE], &c->mark[LAST], i),
-                     before = mean(&c->mark[FIRST], &c->mark[BEFORE], i);
-        if (!(fabs(now - before) <= c->limit * fmax(fabs(now), 1.0)))
-            return 0;
-    }
-    return 1;
+    static const int compared[] = {FST_Q_R, FST_Q_N_Z};
+    const fst_mark *first = &c->mark[FIRST], *before = &c->mark[BEFORE], *last = &c->mark[LAST];
+    const double turn = time_between(before, last), longer = turn - time_between(first, before),
+                 further = (last->bead_angle - before->bead_angle) - (before->bead_angle - first->bead_angle);
+    int agrees = fabs(longer) <= WAY * c->limit * fmax(turn, 1.0) && fabs(further) <= WAY * c->limit;
+    for (size_t i = 0; i < sizeof compared / sizeof *compared; ++i)
+        agrees &= fabs(mean(before, last, compared[i]) - mean(first, before, compared[i])) <= WAY * WAY * c->limit;
+    return agrees;
 }
 
 int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
@@ -90,7 +94,7 @@ int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
         c->mark[LAST] = *mark;
     }
     c->count += c->count <= 3;
-    return c->count > 3 && c->approached && fst_closing_way(c, until) <= WAY * c->limit && means_agree(c);
+    return c->count > 3 && c->approached && fst_closing_way(c, until) <= WAY * c->limit && way_agrees(c);
 }
 
 int fst_closing_holds(const fst_closing *c, double distance)
