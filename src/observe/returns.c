@@ -79,6 +79,8 @@ void fst_returns_see_side(fst_returns *r, const fst_flow *flow)
 static int is_needed(const fst_returns *r, const fst_span *span, const fst_flow *flow)
 {
     const fst_mark_series *marks = &r->marks;
+    if (span->states_only)
+        return 0;
     if (!span->asked_at_end || r->need_whole || marks->offered % marks->stride == 0 ||
         fst_left_out_needs_integrals(&r->left_out))
         return 1;
@@ -142,7 +144,8 @@ void fst_returns_step(fst_returns *r, const fst_span *span, fst_quadrature *q, f
         f_start == 0.0 ? 0.0 : fst_flow_locate(flow, fst_section_function, 0.0, 1.0, f_start, end[FST_X]);
     if (fst_twofold_difference(fst_flow_time(flow, x), from) < 0)
         return;
-    const int whole = !span->asked_at_end || fst_returns_need_integrals(r, span, flow);
+    const int whole =
+        !span->states_only && (!span->asked_at_end || fst_returns_need_integrals(r, span, flow));
     fst_mark_take(&r->crossing, q, flow, x, whole);
     r->crossed = 1;
     const int half = sign_of(r->crossing.state[FST_Y]);

@@ -163,18 +163,32 @@ static void forget_window(fst_row_worker *w, int l)
             w->pending[i].lane = -1;
 }
 
+void fst_worker_look_at_settling(fst_row_worker *w, int l)
+{
+    if (fst_settling_look(w->observed.lanes[l].run))
+        forget_window(w, l);
+}
+
+int fst_worker_seek(fst_row_worker *w, int l)
+{
+    fst_lane_batch *b = &w->run_up;
+    fst_watched_run *run = b->lanes[l].run;
+    run->window.activity = b->view.activity[l];
+    fst_window_look(&run->window, run->flow, 0);
+    const int anew = fst_settling_look(run);
+    b->view.activity[l] = run->window.activity;
+    b->view.next_mark[l] = fst_window_next_mark(&run->window);
+    return anew;
+}
+
 /* After a return: may the run go on unobserved, or did it do so wrongly? */
 static void look_at_returns(fst_row_worker *w, int l)
 {
     fst_watched_run *run = w->observed.lanes[l].run;
     fst_window *window = &run->window;
     fst_returns *returns = &window->returns;
-    if (run->settling.asked) {
-        if (fst_settling_look(run))
-            forget_window(w, l);
-        return;
-    }
-    if (!w->engine->fused || !returns->crossed || returns->crossings % 2 == 0)
+    fst_worker_look_at_settling(w, l);
+    if (run->settling.asked || !w->engine->fused || !returns->crossed || returns->crossings % 2 == 0)
         return;
     if (fst_left_out_begin(&returns->left_out, &returns->marks, &window->span))
         w->leaving |= fst_lane_bit(l);
@@ -200,7 +214,7 @@ static int watch(fst_row_worker *w, int l, fst_lane_events events)
     if (!fst_window_is_open(&run->window)) /* crossings before it were not looked at */
         fst_returns_see_side(&run->window.returns, flow);
     run->window.activity = b->view.activity[l];
-    fst_window_look(&run->window, flow, !w->engine->fused);
+    fst_window_look(&run->window, flow, !w->engine->fused && fst_settling_seeks_extremes(run));
     look_at_returns(w, l);
     if (!(w->settled & fst_lane_bit(l)))
         follow_window(w, l);

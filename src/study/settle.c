@@ -3,7 +3,8 @@
  * With run.until: settled the motion is observed from its start.  As soon as it is known, a short window
  * begins, and its end is the run's:
  *
- *     from the start     |--o--o--o--o--o--o--|                     it comes closer to itself, and repeats
+ *     from the start     |--o--o--o--o|                             it comes closer to itself: states alone
+ *     first repetition                |--o--o-|                     it repeats: integrals, too
  *     short window                            |--o--o--o--o--|      means, extremes and regime are of these
  *
  *     discard                  |---------------------------- - -    never known: as with run.until: periods
@@ -47,16 +48,25 @@ void fst_stand_at_end(fst_flow *flow)
     }
 }
 
+static int is_paced(const fst_watched_run *run)
+{
+    return run->flow->step.context.coefficients.kinds.paced;
+}
+
 void fst_settling_begin(fst_watched_run *run)
 {
     fst_settling *s = &run->settling;
+    fst_span *span = &run->window.span;
     s->asked = run->params->run_until == FST_UNTIL_SETTLED;
     s->settled_at = NAN;
-    s->discard = run->window.span.from;
-    s->until = run->window.span.until;
+    s->discard = span->from;
+    s->until = span->until;
     if (!s->asked)
         return;
-    run->window.span.from = 0.0;
+    /* Steps of a contact with modes cannot be made to land on the end of the discard. */
+    span->states_only = s->discard > 0 && !is_paced(run);
+    span->from = 0.0;
+    span->until = span->states_only ? s->discard : s->until;
     run->window.returns.left_out.state = FST_LEFT_OUT_NEVER;
     fst_closing_begin(&s->returns, run->params->run_rtol);
     fst_cycle_begin(&s->cycle, run->params->run_rtol);
@@ -67,17 +77,34 @@ static void begin_window(fst_watched_run *run, double until)
 {
     fst_settling *s = &run->settling;
     fst_window *w = &run->window;
-    const fst_span span = {run->flow->t.high, until, w->span.asked_at_end};
+    const fst_span span = {run->flow->t.high, until, w->span.asked_at_end, 0};
     const fst_left_out rule = {
         .rtol = w->returns.left_out.rtol, .limit = w->returns.left_out.limit, .state = FST_LEFT_OUT_NEVER};
     fst_stand_at_end(run->flow);
     fst_window_begin(w, &span, w->period, run->flow);
     w->returns.left_out = rule;
     w->returns.of_cycles = s->as == FST_SETTLED_CYCLE;
-    s->periods = s->crossings = s->at_rest = 0;
-    if (s->as != FST_SETTLED_CYCLE) /* integrals begin anew */
-        fst_cycle_forget(&s->cycle);
+    s->periods = s->crossings = 0;
+}
+
+/* Something repeats for the first time: from now on the marks need integrals. */
+static void begin_integrals(fst_watched_run *run)
+{
+    fst_returns seen = run->window.returns;
+    const int64_t crossings = run->settling.crossings;
+    begin_window(run, run->window.span.until);
+    fst_marks_begin(&seen.marks);
+    seen.crossed = 0;
+    run->window.returns = seen;
+    run->settling.crossings = crossings;
+}
+
+/* Integrals begin anew: what repeats has to be seen again. */
+static void forget(fst_settling *s)
+{
+    fst_cycle_forget(&s->cycle);
     s->returns.count = 0;
+    s->at_rest = 0;
 }
 
 /* Whether the bead has stood still for some periods; asked when one has ended. */
@@ -149,14 +176,36 @@ static int look_at_short_window(fst_watched_run *run)
     s->as = FST_SETTLED_NOT;
     s->settled_at = NAN;
     s->returns.approached = s->cycle.closing.approached = 0;
-    begin_window(run, s->until);
+    forget(s);
+    begin_window(run, run->flow->t.high < s->discard && !is_paced(run) ? s->discard : s->until);
+    return 1;
+}
+
+/* The motion is not known yet: 1 if a new window begins, with integrals, or at the end of the discard. */
+static int look_further(fst_watched_run *run, int period_ended)
+{
+    fst_settling *s = &run->settling;
+    fst_window *w = &run->window;
+    const double now = run->flow->t.high;
+    w->returns.need_whole = fst_closing_needs_integrals(&s->returns);
+    if (period_ended) {
+        s->periods = w->periods.offered;
+        watch_turning(run);
+    }
+    if (w->span.from < s->discard && now >= s->discard && (period_ended || now >= w->span.until)) {
+        forget(s);
+        begin_window(run, s->until);
+        return 1;
+    }
+    if (!w->span.states_only || !(w->returns.need_whole || fst_cycle_needs_integrals(&s->cycle)))
+        return 0;
+    begin_integrals(run);
     return 1;
 }
 
 int fst_settling_look(fst_watched_run *run)
 {
     fst_settling *s = &run->settling;
-    fst_window *w = &run->window;
     const double now = run->flow->t.high;
     if (!s->asked || run->end.happened)
         return 0;
@@ -165,30 +214,21 @@ int fst_settling_look(fst_watched_run *run)
     if (now >= s->until)
         return 0;
     double turn;
-    const int period_ended = w->periods.offered != s->periods;
+    const int period_ended = run->window.periods.offered != s->periods;
     const fst_settled_as as = recognise(run, period_ended, &turn);
-    const double lasts = fmax(LEAST_PERIODS * w->period, LEAST_TURNS * turn);
-    if (as != FST_SETTLED_NOT && lasts < WORTHWHILE * (s->until - now)) {
-        s->as = as;
-        s->settled_at = now / w->period;
-        begin_window(run, now + lasts);
-        return 1;
-    }
-    w->returns.need_whole = fst_closing_needs_integrals(&s->returns);
-    if (!period_ended)
-        return 0;
-    s->periods = w->periods.offered;
-    watch_turning(run);
-    if (w->span.from >= s->discard || now < s->discard)
-        return 0;
-    begin_window(run, s->until);
+    const double lasts = fmax(LEAST_PERIODS * run->window.period, LEAST_TURNS * turn);
+    if (as == FST_SETTLED_NOT || !(lasts < WORTHWHILE * (s->until - now)))
+        return look_further(run, period_ended);
+    s->as = as;
+    s->settled_at = now / run->window.period;
+    begin_window(run, now + lasts);
     return 1;
 }
 
 int fst_settling_seeks_extremes(const fst_watched_run *run)
 {
     const fst_settling *s = &run->settling;
-    return !s->asked || s->as != FST_SETTLED_NOT || run->window.span.from >= s->discard;
+    return s->as != FST_SETTLED_NOT || run->window.span.from >= s->discard;
 }
 
 int fst_settling_needs_integrals(const fst_watched_run *run)
