@@ -10,9 +10,10 @@
  *              |              x  x x  x       errors of the steps
  *              +------------------------- marks
  *
- * Four marks in a row must lie below the limit, and the way that is left, with the larger of the last two
- * factors, must be no more than ten times the limit.  Where the distances do not fall, the way is the distance
- * times the number of marks that the rest of the run would have.  The times and the changes of Phi between
+ * Four marks in a row must lie below the limit, and the way that is left must be no more than the limit.  rho is
+ * taken over eight marks: over one or two of them it is lost in the errors of the steps where it is close to 1,
+ * and then the way is much longer than the distance.  Where the distances do not fall, the way is the last one
+ * times the number of marks that the rest of the run would have. The times and the changes of Phi between
  * successive marks must agree too, and the means of r and n_z.  Means of other quantities need not: on an orbit that
  * passes the axis closely the directions along r and alpha turn so fast that the errors of their integrals are
  * larger than whatever the motion still has to go.
@@ -25,8 +26,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Times the limit: what counts as far, the way that may be left, and the distance of a later mark. */
-static const double FAR = 1000.0, WAY = 10.0, STILL_THE_SAME = 10.0;
+/* Times the limit: what counts as far, and the distance of a later mark; by what the times and angles between
+ * marks, and the means, may differ. */
+static const double FAR = 1000.0, STILL_THE_SAME = 10.0, SAME_TURN = 10.0, SAME_MEANS = 100.0;
 static const double LEAST_LIMIT = 1e-9; /* or ten times the tolerance of the integration */
 
 enum { FIRST, BEFORE, LAST };
@@ -55,12 +57,12 @@ double fst_closing_turn(const fst_closing *c)
 
 double fst_closing_way(const fst_closing *c, double until)
 {
-    const double distance = c->mark[LAST].full_distance, before = c->mark[BEFORE].full_distance;
-    const double rho = fmax(distance / before, before / c->mark[FIRST].full_distance);
+    const double last = c->distances[0], before = c->distances[FST_CLOSING_PAST];
     const double marks = fmax((until - c->mark[LAST].t.high) / fst_closing_turn(c), 1.0);
-    if (distance == 0.0)
-        return 0.0;
-    return distance * (rho < 1.0 ? fmin(1.0 / (1.0 - rho), marks) : marks);
+    if (c->known <= FST_CLOSING_PAST)
+        return INFINITY;
+    const double rho = pow(last / before, 1.0 / FST_CLOSING_PAST);
+    return last * (rho < 1.0 ? fmin(1.0 / (1.0 - rho), marks) : marks);
 }
 
 /* The mean of an integrand between two marks. */
@@ -76,14 +78,22 @@ static int way_agrees(const fst_closing *c)
     const fst_mark *first = &c->mark[FIRST], *before = &c->mark[BEFORE], *last = &c->mark[LAST];
     const double turn = time_between(before, last), longer = turn - time_between(first, before),
                  further = (last->bead_angle - before->bead_angle) - (before->bead_angle - first->bead_angle);
-    int agrees = fabs(longer) <= WAY * c->limit * fmax(turn, 1.0) && fabs(further) <= WAY * c->limit;
+    int agrees = fabs(longer) <= SAME_TURN * c->limit * fmax(turn, 1.0) && fabs(further) <= SAME_TURN * c->limit;
     for (size_t i = 0; i < sizeof compared / sizeof *compared; ++i)
-        agrees &= fabs(mean(before, last, compared[i]) - mean(first, before, compared[i])) <= WAY * WAY * c->limit;
+        agrees &= fabs(mean(before, last, compared[i]) - mean(first, before, compared[i])) <= SAME_MEANS * c->limit;
     return agrees;
+}
+
+void fst_closing_forget(fst_closing *c)
+{
+    c->count = c->known = 0;
 }
 
 int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
 {
+    memmove(c->distances + 1, c->distances, FST_CLOSING_PAST * sizeof *c->distances);
+    c->distances[0] = mark->full_distance;
+    c->known = isnan(mark->full_distance) ? 0 : c->known + (c->known <= FST_CLOSING_PAST);
     if (!(mark->full_distance < c->limit)) {
         fst_closing_see(c, mark->full_distance);
         c->count = 0;
@@ -94,7 +104,7 @@ int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
         c->mark[LAST] = *mark;
     }
     c->count += c->count <= 3;
-    return c->count > 3 && c->approached && fst_closing_way(c, until) <= WAY * c->limit && way_agrees(c);
+    return c->count > 3 && c->approached && fst_closing_way(c, until) <= c->limit && way_agrees(c);
 }
 
 int fst_closing_holds(const fst_closing *c, double distance)

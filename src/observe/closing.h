@@ -4,15 +4,22 @@
 
 #include "observe/marks.h"
 
+enum { FST_CLOSING_PAST = 8 }; /* marks back, from which the factor is told by which they come closer */
+
 typedef struct fst_closing {
     double rtol;      /* of the integration */
     double limit;     /* states that differ by less are the same */
     int approached;   /* states that differed by far more have been seen */
     int count;        /* marks in a row that repeat; from the second on they are kept */
     fst_mark mark[3]; /* the latest of these, the last one last */
+    int known;        /* the first so many of the distances of the latest marks, the last one first */
+    double distances[FST_CLOSING_PAST + 1];
 } fst_closing;
 
 void fst_closing_begin(fst_closing *c, double rtol);
+
+/* What repeats, and how fast it came closer, has to be seen again. */
+void fst_closing_forget(fst_closing *c);
 
 /* A state was so far from the nearest that it might have come back to. */
 void fst_closing_see(fst_closing *c, double distance);

@@ -35,7 +35,7 @@ void fst_cycle_begin(fst_cycle *c, double rtol)
 void fst_cycle_forget(fst_cycle *c)
 {
     c->since = -1;
-    c->closing.count = 0;
+    fst_closing_forget(&c->closing);
 }
 
 void fst_cycle_watch(fst_cycle *c, int watch)

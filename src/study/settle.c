@@ -103,7 +103,7 @@ static void begin_integrals(fst_watched_run *run)
 static void forget(fst_settling *s)
 {
     fst_cycle_forget(&s->cycle);
-    s->returns.count = 0;
+    fst_closing_forget(&s->returns);
     s->at_rest = 0;
 }
 
@@ -240,5 +240,7 @@ int fst_settling_is_sound(const fst_settling *s)
 {
     return s->cycle.seen >= 0 && s->cycle.seen <= FST_CYCLE_MAXIMA && s->cycle.since >= -1 &&
            s->cycle.since < FST_CYCLE_MAXIMA && s->returns.count >= 0 && s->cycle.closing.count >= 0 &&
+           s->returns.known >= 0 && s->returns.known <= FST_CLOSING_PAST + 1 && s->cycle.closing.known >= 0 &&
+           s->cycle.closing.known <= FST_CLOSING_PAST + 1 &&
            (unsigned)s->as <= FST_SETTLED_REST;
 }
