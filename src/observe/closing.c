@@ -19,7 +19,9 @@
  * larger than whatever the motion still has to go.
  *
  * A bead that is put down on an unstable orbit repeats itself from the start, until it leaves.  So the states
- * must have differed by far more than the limit before: what comes closer by so much is attracted.
+ * must have differed by far more than the limit before: what comes closer by so much is attracted.  It may still
+ * have come to an unstable orbit, near the few ways that lead there.  Then the distances rise again, each above
+ * the one before.
  */
 #include "observe/closing.h"
 
@@ -29,9 +31,12 @@
 /* Times the limit: what counts as far, and the distance of a later mark; by what the times and angles between
  * marks, and the means, may differ. */
 static const double FAR = 1000.0, STILL_THE_SAME = 10.0, SAME_TURN = 10.0, SAME_MEANS = 100.0;
+/* Distances below this part of the tolerance may rise because of the errors of the steps. */
+static const double SEEN_TO_RISE = 0.1;
 static const double LEAST_LIMIT = 1e-9; /* or ten times the tolerance of the integration */
 
 enum { FIRST, BEFORE, LAST };
+enum { RISES = 5 }; /* one after the other: an unstable orbit is left */
 
 void fst_closing_begin(fst_closing *c, double rtol)
 {
@@ -89,11 +94,16 @@ void fst_closing_forget(fst_closing *c)
     c->count = c->known = 0;
 }
 
-int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
+static void note(fst_closing *c, double distance)
 {
     memmove(c->distances + 1, c->distances, FST_CLOSING_PAST * sizeof *c->distances);
-    c->distances[0] = mark->full_distance;
-    c->known = isnan(mark->full_distance) ? 0 : c->known + (c->known <= FST_CLOSING_PAST);
+    c->distances[0] = distance;
+    c->known = isnan(distance) ? 0 : c->known + (c->known <= FST_CLOSING_PAST);
+}
+
+int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
+{
+    note(c, mark->full_distance);
     if (!(mark->full_distance < c->limit)) {
         fst_closing_see(c, mark->full_distance);
         c->count = 0;
@@ -107,7 +117,16 @@ int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
     return c->count > 3 && c->approached && fst_closing_way(c, until) <= c->limit && way_agrees(c);
 }
 
-int fst_closing_holds(const fst_closing *c, double distance)
+void fst_closing_go_on(fst_closing *c, double distance)
 {
-    return distance < STILL_THE_SAME * c->limit;
+    note(c, distance);
+}
+
+int fst_closing_holds(const fst_closing *c)
+{
+    int rising = 1;
+    for (int i = 0; i < RISES; ++i)
+        rising &= c->distances[i] > c->distances[i + 1];
+    return c->known > RISES && c->distances[0] < STILL_THE_SAME * c->limit &&
+           !(rising && c->distances[0] > SEEN_TO_RISE * c->rtol);
 }

@@ -40,7 +40,10 @@ double fst_closing_turn(const fst_closing *c);
 /* How far the states at the marks still have to go, from the factor by which they come closer. */
 double fst_closing_way(const fst_closing *c, double until);
 
-/* Whether a mark of the same orbit, later, is still where it was. */
-int fst_closing_holds(const fst_closing *c, double distance);
+/* A later mark of the motion that is known lies so far from the one before. */
+void fst_closing_go_on(fst_closing *c, double distance);
+
+/* Whether these marks stay together: there were enough of them, they are close, and they do not part. */
+int fst_closing_holds(const fst_closing *c);
 
 #endif

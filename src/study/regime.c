@@ -318,11 +318,15 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
     return DECIDED;
 }
 
-/* Greatest component of d(state)/dt at the end.  Where nothing acts on n, its turning does not count. */
-static double speed_at_end(const fst_watched_run *run)
+int fst_n_is_free(const fst_watched_run *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
-    const int n_is_free = c->hard == 0.0 && c->twice_b == 0.0;
+    return c->hard == 0.0 && c->twice_b == 0.0;
+}
+
+double fst_speed_at_end(const fst_watched_run *run)
+{
+    const int n_is_free = fst_n_is_free(run);
     double speed = 0.0, slope[FST_STATE_SIZE];
     fst_flow_slope(run->flow, slope);
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
@@ -354,7 +358,7 @@ static decision decide(const fst_watched_run *run, const fst_exponent *exponent,
                LEAST_PERIODS);
         return DECIDED;
     }
-    const double speed = speed_at_end(run), at_rest = fmax(AT_REST, run->params->run_rtol);
+    const double speed = fst_speed_at_end(run), at_rest = fmax(AT_REST, run->params->run_rtol);
     const fst_mark_series *marks = &run->window.periods;
     const double lately = activity_over(marks, 1 + (marks->count - 1) / 2, marks->count);
     if (speed < at_rest && lately > LEAVING * run->params->run_rtol && fst_speed_grows(run)) {

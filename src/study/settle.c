@@ -33,8 +33,7 @@ static const double WORTHWHILE = 0.5;
 static const double AT_REST = 1e-8, STILL_AT_REST = 100.0;
 enum {
     PERIODS_AT_REST = 4,
-    PERIODS_WITHOUT_TURNING = 2, /* from then on maxima of r are looked for */
-    LEAST_CYCLES = 6             /* marks of whole cycles in the short window */
+    PERIODS_WITHOUT_TURNING = 2 /* from then on maxima of r are looked for */
 };
 
 void fst_stand_at_end(fst_flow *flow)
@@ -107,11 +106,17 @@ static void forget(fst_settling *s)
     s->at_rest = 0;
 }
 
+/* How fast the bead was in the last period; where n turns freely, how fast all but n is now. */
+static double speed_of_late(const fst_watched_run *run)
+{
+    return fst_n_is_free(run) ? fst_speed_at_end(run) : run->window.periods.latest.activity;
+}
+
 /* Whether the bead has stood still for some periods; asked when one has ended. */
 static int rests(fst_watched_run *run)
 {
-    const fst_mark_series *periods = &run->window.periods;
-    const int still = periods->offered > 1 && periods->latest.activity < fmax(AT_REST, run->params->run_rtol);
+    const int still =
+        run->window.periods.offered > 1 && speed_of_late(run) < fmax(AT_REST, run->params->run_rtol);
     run->settling.at_rest = still ? run->settling.at_rest + 1 : 0;
     return run->settling.at_rest >= PERIODS_AT_REST;
 }
@@ -137,11 +142,13 @@ static fst_settled_as recognise(fst_watched_run *run, int period_ended, double *
     *turn = 0.0;
     if (r->crossed && r->crossings % 2 == 1 && fst_closing_add(&s->returns, &r->crossing, s->until)) {
         *turn = fst_closing_turn(&s->returns);
+        s->way = fst_closing_way(&s->returns, s->until);
         return FST_SETTLED_RETURNS;
     }
     if (fst_cycle_step(&s->cycle, &w->quadrature, run->flow) &&
         fst_cycle_settles(&s->cycle, s->until, w->periods.latest.activity)) {
         *turn = fst_closing_turn(&s->cycle.closing);
+        s->way = fst_closing_way(&s->cycle.closing, s->until);
         return FST_SETTLED_CYCLE;
     }
     return period_ended && rests(run) ? FST_SETTLED_REST : FST_SETTLED_NOT;
@@ -151,16 +158,13 @@ static fst_settled_as recognise(fst_watched_run *run, int period_ended, double *
 static int still_holds(const fst_watched_run *run)
 {
     const fst_settling *s = &run->settling;
-    const fst_mark_series *marks = &run->window.returns.marks, *periods = &run->window.periods;
     switch (s->as) {
     case FST_SETTLED_RETURNS:
-        return fst_returns_are_regular(&run->window.returns, run->flow->t) &&
-               fst_closing_holds(&s->returns, marks->latest.full_distance);
+        return fst_returns_are_regular(&run->window.returns, run->flow->t) && fst_closing_holds(&s->returns);
     case FST_SETTLED_CYCLE:
-        return marks->offered >= LEAST_CYCLES &&
-               fst_closing_holds(&s->cycle.closing, marks->latest.full_distance);
+        return fst_closing_holds(&s->cycle.closing);
     default:
-        return periods->latest.activity < STILL_AT_REST * fmax(AT_REST, run->params->run_rtol);
+        return speed_of_late(run) < STILL_AT_REST * fmax(AT_REST, run->params->run_rtol);
     }
 }
 
@@ -169,13 +173,17 @@ static int look_at_short_window(fst_watched_run *run)
 {
     fst_settling *s = &run->settling;
     fst_window *w = &run->window;
-    if (s->as == FST_SETTLED_CYCLE && fst_cycle_step(&s->cycle, &w->quadrature, run->flow))
+    const fst_returns *r = &w->returns;
+    if (s->as == FST_SETTLED_CYCLE && fst_cycle_step(&s->cycle, &w->quadrature, run->flow)) {
         fst_marks_offer(&w->returns.marks, &s->cycle.latest);
+        fst_closing_go_on(&s->cycle.closing, s->cycle.latest.full_distance);
+    }
+    if (s->as == FST_SETTLED_RETURNS && r->crossed && r->crossings % 2 == 1)
+        fst_closing_go_on(&s->returns, r->crossing.full_distance);
     if (run->flow->t.high < w->span.until || still_holds(run))
         return 0;
     s->as = FST_SETTLED_NOT;
     s->settled_at = NAN;
-    s->returns.approached = s->cycle.closing.approached = 0;
     forget(s);
     begin_window(run, run->flow->t.high < s->discard && !is_paced(run) ? s->discard : s->until);
     return 1;
@@ -223,6 +231,16 @@ int fst_settling_look(fst_watched_run *run)
     s->settled_at = now / run->window.period;
     begin_window(run, now + lasts);
     return 1;
+}
+
+void fst_settling_widen_errors(const fst_watched_run *run, fst_run_result *result)
+{
+    const double way = run->settling.way;
+    if (run->settling.as != FST_SETTLED_RETURNS && run->settling.as != FST_SETTLED_CYCLE)
+        return;
+    result->mean_r_error = fmax(result->mean_r_error, way);
+    result->mean_nz_error = fmax(result->mean_nz_error, way);
+    result->mean_alpha_dot_error = fmax(result->mean_alpha_dot_error, way * result->omega);
 }
 
 int fst_settling_seeks_extremes(const fst_watched_run *run)

@@ -10,6 +10,9 @@ void fst_settling_begin(fst_watched_run *run);
 /* After a step was observed: 1 if the window was begun anew at its end, where the flow then starts again. */
 int fst_settling_look(fst_watched_run *run);
 
+/* The errors of the means take in the way that the motion had still to go when the short window began. */
+void fst_settling_widen_errors(const fst_watched_run *run, fst_run_result *result);
+
 /* Whether extremes of the present window are wanted. */
 int fst_settling_seeks_extremes(const fst_watched_run *run);
 
