@@ -7,6 +7,7 @@
 #include "observe/closing.h"
 #include "study/conclude.h"
 #include "study/settle.h"
+#include "study/standstill.h"
 
 static fst_params libration(double frequency, double kappa)
 {
@@ -164,6 +165,43 @@ static void test_unstable_orbit(void **unused)
     fst_branch_free(&branch);
 }
 
+/* The rate at rest is the greatest real part of the eigenvalues that a branch of such states has. */
+static void test_rest(void **unused)
+{
+    (void)unused;
+    const fst_params scene = scene_of(0.1, "rigid");
+    const fst_branch_options options = over_omega(FST_BRANCH_LOCKED, 0.02, 0.15);
+    fst_branch branch = followed(&scene, &options);
+    int stable = 0, unstable = 0;
+    for (size_t i = 0; i < branch.point_count; ++i) {
+        const fst_branch_point *at = &branch.points[i];
+        fst_params p = scene;
+        p.drive_omega = at->value;
+        fst_model *model = model_of(&p);
+        const double rate = fst_rest_rate(model, at->state);
+        fst_model_free(model);
+        double greatest = -INFINITY;
+        for (int k = 0; k < at->multipliers; ++k)
+            greatest = fmax(greatest, at->multiplier_re[k]);
+        CHECK_CLOSE(rate, greatest, 1e-7);
+        stable += at->stable;
+        unstable += !at->stable;
+    }
+    assert_true(stable > 3 && unstable > 3);
+    fst_branch_free(&branch);
+}
+
+/* A bead comes to an unstable place of rest within 1e-6 before it leaves; below the noise of a loose tolerance. */
+static void test_unstable_rest(void **unused)
+{
+    (void)unused;
+    fst_params p = libration(4.810108227422324, 1.6452284805574213);
+    p.run_rtol = 1e-7;
+    const fst_run_result result = run_of(&p);
+    assert_int_equal(result.regime, FST_REGIME_LIBRATING);
+    assert_true(result.max_r - result.min_r > 0.01);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -171,6 +209,8 @@ int main(void)
         cmocka_unit_test(test_rows),
         cmocka_unit_test(test_way),
         cmocka_unit_test(test_unstable_orbit),
+        cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_unstable_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

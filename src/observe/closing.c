@@ -33,7 +33,9 @@
 static const double FAR = 1000.0, STILL_THE_SAME = 10.0, SAME_TURN = 10.0, SAME_MEANS = 100.0;
 /* Distances below this part of the tolerance may rise because of the errors of the steps. */
 static const double SEEN_TO_RISE = 0.1;
-static const double LEAST_LIMIT = 1e-9; /* or ten times the tolerance of the integration */
+/* The limit is ten times the tolerance, but not beyond these: an orbit whose returns differ by 1e-6 is closed, and
+ * its symmetry is to be seen too. */
+static const double LEAST_LIMIT = 1e-9, MOST_LIMIT = 1e-7;
 
 enum { FIRST, BEFORE, LAST };
 enum { RISES = 5 }; /* one after the other: an unstable orbit is left */
@@ -42,7 +44,7 @@ void fst_closing_begin(fst_closing *c, double rtol)
 {
     memset(c, 0, sizeof *c);
     c->rtol = rtol;
-    c->limit = fmax(LEAST_LIMIT, 10.0 * rtol);
+    c->limit = fmin(fmax(LEAST_LIMIT, 10.0 * rtol), MOST_LIMIT);
 }
 
 void fst_closing_see(fst_closing *c, double distance)

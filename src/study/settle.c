@@ -23,14 +23,16 @@
 
 #include "base/constants.h"
 #include "study/regime.h"
+#include "study/standstill.h"
 
 /* Drive periods, returns and cycles that the short window lasts: what a regime is decided on. */
 static const double LEAST_PERIODS = 5.5, LEAST_TURNS = 9.5;
 /* A window that is no shorter than this part of what is left of the run is not worth the trouble. */
 static const double WORTHWHILE = 0.5;
-/* Greatest |d(state)/dt| of a bead that stands still, or run.rtol (as docs/regimes.md has it); at the window's
- * end it may be so many times as much, because the integrator's noise has peaks. */
-static const double AT_REST = 1e-8, STILL_AT_REST = 100.0;
+/* Greatest |d(state)/dt| of a bead that stands still, in units of run.rtol or of the default tolerance (the
+ * integrator's noise, docs/regimes.md); at the window's end it may be so many times as much: noise has peaks. */
+static const double AT_REST = 100.0, DEFAULT_RTOL = 1e-10, STILL_AT_REST = 100.0;
+static const double GROWS = 1e-6; /* rate at which a deviation from rest grows */
 enum {
     PERIODS_AT_REST = 4,
     PERIODS_WITHOUT_TURNING = 2 /* from then on maxima of r are looked for */
@@ -62,10 +64,9 @@ void fst_settling_begin(fst_watched_run *run)
     s->until = span->until;
     if (!s->asked)
         return;
-    /* Steps of a contact with modes cannot be made to land on the end of the discard. */
-    span->states_only = s->discard > 0 && !is_paced(run);
+    span->states_only = s->discard > 0 && !is_paced(run); /* lanes observe contacts with modes from the start */
     span->from = 0.0;
-    span->until = span->states_only ? s->discard : s->until;
+    span->until = s->discard > 0 ? s->discard : s->until;
     run->window.returns.left_out.state = FST_LEFT_OUT_NEVER;
     fst_closing_begin(&s->returns, run->params->run_rtol);
     fst_cycle_begin(&s->cycle, run->params->run_rtol);
@@ -112,13 +113,26 @@ static double speed_of_late(const fst_watched_run *run)
     return fst_n_is_free(run) ? fst_speed_at_end(run) : run->window.periods.latest.activity;
 }
 
+static double noise_of(const fst_watched_run *run)
+{
+    return AT_REST * fmax(DEFAULT_RTOL, run->params->run_rtol);
+}
+
+/* Whether the bead stands still at a place that it will leave.  Where n turns freely, or under dry friction, this
+ * is not known. */
+static int is_repelled(const fst_watched_run *run)
+{
+    if (fst_n_is_free(run) || run->model->coefficients.kinds.dry)
+        return 0;
+    return fst_rest_rate(run->model, run->flow->step.end) > GROWS + noise_of(run);
+}
+
 /* Whether the bead has stood still for some periods; asked when one has ended. */
 static int rests(fst_watched_run *run)
 {
-    const int still =
-        run->window.periods.offered > 1 && speed_of_late(run) < fmax(AT_REST, run->params->run_rtol);
+    const int still = run->window.periods.offered > 1 && speed_of_late(run) < noise_of(run);
     run->settling.at_rest = still ? run->settling.at_rest + 1 : 0;
-    return run->settling.at_rest >= PERIODS_AT_REST;
+    return run->settling.at_rest >= PERIODS_AT_REST && !is_repelled(run);
 }
 
 /* A period has ended: is Phi turning? */
@@ -164,7 +178,7 @@ static int still_holds(const fst_watched_run *run)
     case FST_SETTLED_CYCLE:
         return fst_closing_holds(&s->cycle.closing);
     default:
-        return speed_of_late(run) < STILL_AT_REST * fmax(AT_REST, run->params->run_rtol);
+        return speed_of_late(run) < STILL_AT_REST * noise_of(run);
     }
 }
 
@@ -185,7 +199,7 @@ static int look_at_short_window(fst_watched_run *run)
     s->as = FST_SETTLED_NOT;
     s->settled_at = NAN;
     forget(s);
-    begin_window(run, run->flow->t.high < s->discard && !is_paced(run) ? s->discard : s->until);
+    begin_window(run, run->flow->t.high < s->discard ? s->discard : s->until);
     return 1;
 }
 
@@ -200,7 +214,7 @@ static int look_further(fst_watched_run *run, int period_ended)
         s->periods = w->periods.offered;
         watch_turning(run);
     }
-    if (w->span.from < s->discard && now >= s->discard && (period_ended || now >= w->span.until)) {
+    if (w->span.from < s->discard && now >= s->discard) {
         forget(s);
         begin_window(run, s->until);
         return 1;
