@@ -43,7 +43,7 @@ extern "C" {
 
 /* Increased when the same parameters give other bits than before.  A sweep that was begun by another version is
  * not continued. */
-#define FST_RESULTS_VERSION 9
+#define FST_RESULTS_VERSION 10
 
 /* "0.1.0": the version of the library that is running. */
 FST_API const char *fst_version(void);
