@@ -18,9 +18,8 @@ static fst_params libration(double frequency, double kappa)
     return p;
 }
 
-
-/* Wide and narrow swings, with one maximum of r in a cycle or several, some that cross the section X = 0: the cycle
- * is the same from another start and at another tolerance, and its extremes are those of a long run. */
+/* Wide and narrow swings, with one maximum of r in a cycle or several, some that cross the section X = 0: the
+ * cycle is the same from another start and at another tolerance, and its extremes are those of a long run. */
 static void test_librations(void **unused)
 {
     (void)unused;
@@ -39,7 +38,8 @@ static void test_librations(void **unused)
         assert_int_equal(first.regime, FST_REGIME_LIBRATING);
         assert_int_equal(other.regime, FST_REGIME_LIBRATING);
         assert_int_equal(whole.regime, FST_REGIME_LIBRATING);
-        assert_true(first.settled_at < first.periods && first.periods < 150 && other.settled_at < other.periods);
+        assert_true(first.settled_at < first.periods && first.periods < 150 &&
+                    other.settled_at < other.periods);
         assert_true(isnan(whole.settled_at) && isnan(first.largest_exponent));
         CHECK_CLOSE(other.mean_r, first.mean_r, fmin(first.mean_r_error + other.mean_r_error, 1e-8));
         CHECK_CLOSE(other.mean_nz, first.mean_nz, fmin(first.mean_nz_error + other.mean_nz_error, 1e-8));
@@ -191,7 +191,8 @@ static void test_rest(void **unused)
     fst_branch_free(&branch);
 }
 
-/* A bead comes to an unstable place of rest within 1e-6 before it leaves; below the noise of a loose tolerance. */
+/* A bead comes to an unstable place of rest within 1e-6 before it leaves; below the noise of a loose tolerance.
+ */
 static void test_unstable_rest(void **unused)
 {
     (void)unused;
@@ -205,12 +206,9 @@ static void test_unstable_rest(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_librations),
-        cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_way),
-        cmocka_unit_test(test_unstable_orbit),
-        cmocka_unit_test(test_rest),
-        cmocka_unit_test(test_unstable_rest),
+        cmocka_unit_test(test_librations), cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_way),        cmocka_unit_test(test_unstable_orbit),
+        cmocka_unit_test(test_rest),       cmocka_unit_test(test_unstable_rest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

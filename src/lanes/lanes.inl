@@ -532,8 +532,8 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
                after = end[FST_X] * end[FST_VX] + end[FST_Y] * end[FST_VY];
     const unsigned at_maximum =
         fst_wide_lanes_of(WIDE_LESS(zero, outward)) & fst_wide_lanes_of(WIDE_LESS_EQUAL(after, zero));
-    const fst_lane_events events = {accepted & ending, accepted & at_mark, accepted & close,
-                                    accepted & ~inside, accepted & at_maximum};
+    const fst_lane_events events = {accepted & ending, accepted & at_mark, accepted & close, accepted & ~inside,
+                                    accepted & at_maximum};
     return events;
 }
 

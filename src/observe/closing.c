@@ -10,18 +10,18 @@
  *              |              x  x x  x       errors of the steps
  *              +------------------------- marks
  *
- * Four marks in a row must lie below the limit, and the way that is left must be no more than the limit.  rho is
- * taken over eight marks: over one or two of them it is lost in the errors of the steps where it is close to 1,
- * and then the way is much longer than the distance.  Where the distances do not fall, the way is the last one
- * times the number of marks that the rest of the run would have. The times and the changes of Phi between
- * successive marks must agree too, and the means of r and n_z.  Means of other quantities need not: on an orbit that
- * passes the axis closely the directions along r and alpha turn so fast that the errors of their integrals are
- * larger than whatever the motion still has to go.
+ * Four marks in a row must lie below the limit, and the way that is left must be no more than the limit.  rho
+ * is taken over eight marks: over one or two of them it is lost in the errors of the steps where it is close to
+ * 1, and then the way is much longer than the distance.  Where the distances do not fall, the way is the last
+ * one times the number of marks that the rest of the run would have. The times and the changes of Phi between
+ * successive marks must agree too, and the means of r and n_z.  Means of other quantities need not: on an orbit
+ * that passes the axis closely the directions along r and alpha turn so fast that the errors of their integrals
+ * are larger than whatever the motion still has to go.
  *
  * A bead that is put down on an unstable orbit repeats itself from the start, until it leaves.  So the states
- * must have differed by far more than the limit before: what comes closer by so much is attracted.  It may still
- * have come to an unstable orbit, near the few ways that lead there.  Then the distances rise again, each above
- * the one before.
+ * must have differed by far more than the limit before: what comes closer by so much is attracted.  It may
+ * still have come to an unstable orbit, near the few ways that lead there.  Then the distances rise again, each
+ * above the one before.
  */
 #include "observe/closing.h"
 
@@ -33,8 +33,8 @@
 static const double FAR = 1000.0, STILL_THE_SAME = 10.0, SAME_TURN = 10.0, SAME_MEANS = 100.0;
 /* Distances below this part of the tolerance may rise because of the errors of the steps. */
 static const double SEEN_TO_RISE = 0.1;
-/* The limit is ten times the tolerance, but not beyond these: an orbit whose returns differ by 1e-6 is closed, and
- * its symmetry is to be seen too. */
+/* The limit is ten times the tolerance, but not beyond these: an orbit whose returns differ by 1e-6 is closed,
+ * and its symmetry is to be seen too. */
 static const double LEAST_LIMIT = 1e-9, MOST_LIMIT = 1e-7;
 
 enum { FIRST, BEFORE, LAST };
@@ -85,9 +85,11 @@ static int way_agrees(const fst_closing *c)
     const fst_mark *first = &c->mark[FIRST], *before = &c->mark[BEFORE], *last = &c->mark[LAST];
     const double turn = time_between(before, last), longer = turn - time_between(first, before),
                  further = (last->bead_angle - before->bead_angle) - (before->bead_angle - first->bead_angle);
-    int agrees = fabs(longer) <= SAME_TURN * c->limit * fmax(turn, 1.0) && fabs(further) <= SAME_TURN * c->limit;
+    int agrees =
+        fabs(longer) <= SAME_TURN * c->limit * fmax(turn, 1.0) && fabs(further) <= SAME_TURN * c->limit;
     for (size_t i = 0; i < sizeof compared / sizeof *compared; ++i)
-        agrees &= fabs(mean(before, last, compared[i]) - mean(first, before, compared[i])) <= SAME_MEANS * c->limit;
+        agrees &=
+            fabs(mean(before, last, compared[i]) - mean(first, before, compared[i])) <= SAME_MEANS * c->limit;
     return agrees;
 }
 

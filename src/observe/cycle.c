@@ -4,8 +4,8 @@
  * several:
  *
  *      r |    A           A           A           A     the states at the maxima are compared with those of the
- *        |   / \   B     / \   B     / \   B     /      latest eight: this one, with two maxima to a cycle, comes
- *        |  /   \_/ \   /   \_/ \   /   \_/ \   /       back to the second before
+ *        |   / \   B     / \   B     / \   B     /      latest eight: this one, with two maxima to a cycle,
+ * comes |  /   \_/ \   /   \_/ \   /   \_/ \   /       back to the second before
  *        +------------------------------------------ t
  *
  * A state that is that of an earlier maximum completes a cycle; from then on the states at later maxima are
@@ -63,8 +63,8 @@ static void keep(fst_cycle *c, const double *state)
     c->seen += c->seen < FST_CYCLE_MAXIMA;
 }
 
-/* Which of the past maxima completes a cycle with this state, and *nearest, the distance of the nearest one; -1:
- * none. */
+/* Which of the past maxima completes a cycle with this state, and *nearest, the distance of the nearest one;
+ * -1: none. */
 static int find(const fst_cycle *c, const double *state, double *nearest)
 {
     *nearest = INFINITY;

@@ -7,11 +7,11 @@
 enum { FST_CYCLE_MAXIMA = 8 }; /* of r, that a cycle may have */
 
 typedef struct fst_cycle {
-    int watched; /* maxima of r are looked for */
-    int seen;    /* of those below, the first so many are known */
+    int watched;                                   /* maxima of r are looked for */
+    int seen;                                      /* of those below, the first so many are known */
     double past[FST_CYCLE_MAXIMA][FST_STATE_SIZE]; /* states at the latest maxima of r, the last one first */
-    int since;   /* maxima since a cycle was completed; -1: none was */
-    fst_mark latest; /* the last maximum, of the last step if that held one */
+    int since;                                     /* maxima since a cycle was completed; -1: none was */
+    fst_mark latest;                               /* the last maximum, of the last step if that held one */
     fst_closing closing;
 } fst_cycle;
 

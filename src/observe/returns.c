@@ -144,8 +144,7 @@ void fst_returns_step(fst_returns *r, const fst_span *span, fst_quadrature *q, f
         f_start == 0.0 ? 0.0 : fst_flow_locate(flow, fst_section_function, 0.0, 1.0, f_start, end[FST_X]);
     if (fst_twofold_difference(fst_flow_time(flow, x), from) < 0)
         return;
-    const int whole =
-        !span->states_only && (!span->asked_at_end || fst_returns_need_integrals(r, span, flow));
+    const int whole = !span->states_only && (!span->asked_at_end || fst_returns_need_integrals(r, span, flow));
     fst_mark_take(&r->crossing, q, flow, x, whole);
     r->crossed = 1;
     const int half = sign_of(r->crossing.state[FST_Y]);

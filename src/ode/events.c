@@ -64,7 +64,8 @@ double fst_flow_function_at(fst_flow *flow, double x, fst_state_function functio
     if (function == fst_section_function || function == fst_radial_function) {
         const int looked_at = function == fst_section_function ? 1 : 4; /* n need not be normalised for these */
         fst_flow_make_dense(flow);
-        fst_bead_evaluate_dense_double(looked_at, &flow->step.dense[0][FST_X], FST_STATE_SIZE, x, &state[FST_X]);
+        fst_bead_evaluate_dense_double(looked_at, &flow->step.dense[0][FST_X], FST_STATE_SIZE, x,
+                                       &state[FST_X]);
         return function(flow, state, NULL);
     }
     fst_flow_at(flow, x, state);

@@ -26,7 +26,6 @@ static inline double fst_whole_period(const fst_solution *s)
     return s->symmetric ? 2.0 * s->period : s->period;
 }
 
-
 /* Fill in the public description of a corrected orbit with its spectrum. */
 void fst_orbit_fill(const fst_description *d, const fst_solution *at, fst_orbit *orbit);
 

@@ -124,7 +124,8 @@ int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l)
 static int needs_integrals(const fst_row_worker *w, const fst_watched_run *run, int at_mark)
 {
     const fst_window *window = &run->window;
-    return !w->engine->fused || fst_settling_needs_integrals(run) || fst_returns_need_integrals(&window->returns, &window->span, run->flow) ||
+    return !w->engine->fused || fst_settling_needs_integrals(run) ||
+           fst_returns_need_integrals(&window->returns, &window->span, run->flow) ||
            (at_mark && fst_window_period_needs_integrals(window, run->flow));
 }
 

@@ -11,11 +11,11 @@
  *
  * A motion is known when its whole returns repeat (observe/closing.h); when it swings without turning, and the
  * maxima of r repeat (observe/cycle.h); or when the bead has stood still in the turning frame for some periods.
- * Maxima are looked for while Phi does not turn.  An orbit that does not close and chaos are never known in this
- * way; they take the whole run.
+ * Maxima are looked for while Phi does not turn.  An orbit that does not close and chaos are never known in
+ * this way; they take the whole run.
  *
- * If the motion is another one at the end of the short window, it was an unstable one that the bead passed. Then
- * nothing is known yet, and the run goes on.
+ * If the motion is another one at the end of the short window, it was an unstable one that the bead passed.
+ * Then nothing is known yet, and the run goes on.
  */
 #include "study/settle.h"
 
@@ -30,7 +30,8 @@ static const double LEAST_PERIODS = 5.5, LEAST_TURNS = 9.5;
 /* A window that is no shorter than this part of what is left of the run is not worth the trouble. */
 static const double WORTHWHILE = 0.5;
 /* Greatest |d(state)/dt| of a bead that stands still, in units of run.rtol or of the default tolerance (the
- * integrator's noise, docs/regimes.md); at the window's end it may be so many times as much: noise has peaks. */
+ * integrator's noise, docs/regimes.md); at the window's end it may be so many times as much: noise has peaks.
+ */
 static const double AT_REST = 100.0, DEFAULT_RTOL = 1e-10, STILL_AT_REST = 100.0;
 static const double GROWS = 1e-6; /* rate at which a deviation from rest grows */
 enum {
@@ -118,8 +119,8 @@ static double noise_of(const fst_watched_run *run)
     return AT_REST * fmax(DEFAULT_RTOL, run->params->run_rtol);
 }
 
-/* Whether the bead stands still at a place that it will leave.  Where n turns freely, or under dry friction, this
- * is not known. */
+/* Whether the bead stands still at a place that it will leave.  Where n turns freely, or under dry friction,
+ * this is not known. */
 static int is_repelled(const fst_watched_run *run)
 {
     if (fst_n_is_free(run) || run->model->coefficients.kinds.dry)
@@ -273,6 +274,5 @@ int fst_settling_is_sound(const fst_settling *s)
     return s->cycle.seen >= 0 && s->cycle.seen <= FST_CYCLE_MAXIMA && s->cycle.since >= -1 &&
            s->cycle.since < FST_CYCLE_MAXIMA && s->returns.count >= 0 && s->cycle.closing.count >= 0 &&
            s->returns.known >= 0 && s->returns.known <= FST_CLOSING_PAST + 1 && s->cycle.closing.known >= 0 &&
-           s->cycle.closing.known <= FST_CLOSING_PAST + 1 &&
-           (unsigned)s->as <= FST_SETTLED_REST;
+           s->cycle.closing.known <= FST_CLOSING_PAST + 1 && (unsigned)s->as <= FST_SETTLED_REST;
 }

@@ -1,15 +1,15 @@
 /* standstill.c - is a state of rest stable?
  *
- * A bead may come to an unstable place of rest as near as 1e-8 and leave it only a hundred turns later, when the
- * deviation that the place repels has grown again.  How fast deviations grow tells at once: with the Jacobian J of
- * the right-hand side at rest they are multiplied by exp(J t), whose norm goes as exp(rate t) when t is long.  So a
- * step's worth of it is squared again and again,
+ * A bead may come to an unstable place of rest as near as 1e-8 and leave it only a hundred turns later, when
+ * the deviation that the place repels has grown again.  How fast deviations grow tells at once: with the
+ * Jacobian J of the right-hand side at rest they are multiplied by exp(J t), whose norm goes as exp(rate t)
+ * when t is long.  So a step's worth of it is squared again and again,
  *
  *     M = exp(J h),   M^2 = exp(2 J h),   M^4,   ...   M^(2^k),   rate = log |M^(2^k)|/(2^k h),
  *
  * each product scaled to norm 1, the logarithms added up.  After 40 squarings a constant factor in the norm
- * changes the rate by less than 1e-10.  J conserves |n|: deviations along n, for which the rate is 0, are projected
- * out.
+ * changes the rate by less than 1e-10.  J conserves |n|: deviations along n, for which the rate is 0, are
+ * projected out.
  */
 #include "study/standstill.h"
 

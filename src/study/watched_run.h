@@ -24,9 +24,9 @@ typedef enum fst_settled_as {
 typedef struct fst_settling {
     int asked;
     fst_settled_as as;
-    double discard, until; /* the window and the end of the run, if the motion is not known before */
-    double settled_at;     /* drive periods after which it was known; NAN: it is not */
-    double way;            /* that the states had still to go then */
+    double discard, until;            /* the window and the end of the run, if the motion is not known before */
+    double settled_at;                /* drive periods after which it was known; NAN: it is not */
+    double way;                       /* that the states had still to go then */
     int64_t periods, crossings;       /* marks of periods in the window, and crossings, when it was looked at */
     int64_t at_rest, without_turning; /* the last periods in which the bead stood still, or Phi did not turn */
     fst_closing returns;
