@@ -27,7 +27,8 @@ POLL = 0.002
 
 def sized(run, seconds, size, most=10**7):
     """The least of size, 3 size, 9 size, ... for which run(size) takes at least that long."""
-    seconds /= float(os.environ.get("FESTOON_SHORTER", "1"))
+    shorter = float(os.environ.get("FESTOON_SHORTER", "1"))
+    seconds, size = seconds / shorter, max(min(size, 10), int(size / shorter))
     while True:
         began = time.monotonic()
         run(size)

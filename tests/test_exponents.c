@@ -1,5 +1,5 @@
 /* Lyapunov exponents: a few motions whose exponents are known exactly; two samples of one chaotic motion, which
- * must agree; and long computations, which must show progress and be stoppable. test_exponents_long.c has 200
+ * must agree; and long computations, which must show progress and be stoppable. test_exponents_long.c has 100
  * known motions. */
 #include "exponent_states.h"
 

@@ -1,7 +1,8 @@
-/* Error bars of Lyapunov exponents cover the exact values: 200 regular motions whose exponents are known. */
+/* Error bars of Lyapunov exponents cover the exact values: a hundred regular motions whose exponents are known.
+ */
 #include "exponent_states.h"
 
-enum { STATES = 200, MOST_SCENES = 400 };
+enum { STATES = 100, MOST_SCENES = 200 };
 
 typedef struct found {
     coverage spectrum, across;

@@ -1,6 +1,6 @@
 /* The coverage of the errors of a fit: of a hundred tables with known noise about 68 must give each parameter
- * within one standard deviation, and about 68 within the profile's interval.  A wild number in each changes
- * nothing of it. */
+ * within one standard deviation, and about 68 within the profile's interval.  A wild number in each of fifty
+ * changes nothing of it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,7 @@
 
 #include "fit_tables.h"
 
-enum { FITS = 100, ROWS = 8 };
+enum { FITS = 100, WILD_FITS = 50, ROWS = 8 };
 
 static const char *const keys[] = {"model.kappa", "friction.gamma"};
 
@@ -37,7 +37,7 @@ static void count(coverage *c, const fst_fit *fit, const double *truth)
     c->chi2 += fit->chi2 / fit->dof;
 }
 
-static coverage fit_many(const fst_params *truth_params, int wild)
+static coverage fit_many(const fst_params *truth_params, int fits, int wild)
 {
     const fst_params start = fst_default_params();
     const double strength = truth_params->model_kappa * pow(truth_params->friction_gamma, 2.0);
@@ -51,7 +51,7 @@ static coverage fit_many(const fst_params *truth_params, int wild)
     fst_fit_options options = fst_default_fit_options();
     options.free = keys;
     options.free_count = 2;
-    for (int i = 0; i < FITS; ++i) {
+    for (int i = 0; i < fits; ++i) {
         fst_fit fit;
         fst_error error;
         memcpy(noisy.rows, exact.rows, ROWS * sizeof *exact.rows);
@@ -71,19 +71,20 @@ static coverage fit_many(const fst_params *truth_params, int wild)
     (void)printf(
         "within one: %d %d %d, two: %d %d %d, interval: %d %d, outliers %d (wild ones %d), chi^2/dof %.3f\n",
         c.one[0], c.one[1], c.one[2], c.two[0], c.two[1], c.two[2], c.interval[0], c.interval[1], c.outliers,
-        c.named, c.chi2 / FITS);
+        c.named, c.chi2 / fits);
     return c;
 }
 
-/* Of 100 draws of 68.3 %, 54 to 82 come in 998 cases of 1000; of 95.4 %, at least 88. */
-static void check(const coverage *c)
+/* That many draws of 68.3 %, `fewest` to `most` of which come in 998 cases of 1000; of 95.4 %, at least 88 in
+ * 100. */
+static void check(const coverage *c, int fits, int fewest, int most)
 {
     for (int i = 0; i < 3; ++i) {
-        assert_in_range(c->one[i], 54, 82);
-        assert_in_range(c->two[i], 88, 100);
+        assert_in_range(c->one[i], fewest, most);
+        assert_in_range(c->two[i], (88 * fits + 99) / 100, fits);
     }
     for (int i = 0; i < 2; ++i)
-        assert_in_range(c->interval[i], 54, 82);
+        assert_in_range(c->interval[i], fewest, most);
 }
 
 static void test_coverage(void **state)
@@ -92,8 +93,8 @@ static void test_coverage(void **state)
     fst_params params = fst_default_params();
     params.model_kappa = 1.4;
     params.friction_gamma = 330.0;
-    const coverage c = fit_many(&params, 0);
-    check(&c);
+    const coverage c = fit_many(&params, FITS, 0);
+    check(&c, FITS, 54, 82);
     assert_in_range(c.outliers, 0, 2);
     assert_true(c.chi2 / FITS > 0.85 && c.chi2 / FITS < 1.15);
 }
@@ -104,10 +105,10 @@ static void test_coverage_beside_a_wild_number(void **state)
     fst_params params = fst_default_params();
     params.model_kappa = 1.8;
     params.friction_gamma = 270.0;
-    const coverage c = fit_many(&params, 1);
-    check(&c);
-    assert_int_equal(c.named, FITS);
-    assert_in_range(c.outliers, FITS, FITS + 3);
+    const coverage c = fit_many(&params, WILD_FITS, 1);
+    check(&c, WILD_FITS, 24, 43);
+    assert_int_equal(c.named, WILD_FITS);
+    assert_in_range(c.outliers, WILD_FITS, WILD_FITS + 2);
 }
 
 /* A lost minus makes a number wrong by a thousand errors: it drags the plain search far away, and the robust

@@ -11,23 +11,26 @@ import unittest
 from pathlib import Path
 
 FESTOON = os.environ["FESTOON"]
+REDUCED = tempfile.TemporaryDirectory()  # a reduced paper, made once
+
+
+def setUpModule():
+    subprocess.run([FESTOON, "paper", "--reduced", "-o", REDUCED.name], check=True, capture_output=True)
+
+
+def tearDownModule():
+    REDUCED.cleanup()
 
 
 class Commands(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.scratch = tempfile.TemporaryDirectory()
-        subprocess.run([FESTOON, "paper", "--reduced", "-o", cls.scratch.name], check=True, capture_output=True)
-        cls.paper = json.loads((Path(cls.scratch.name) / "paper.json").read_text())
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.scratch.cleanup()
+    def setUp(self):
+        self.paper = json.loads((Path(REDUCED.name) / "paper.json").read_text())
 
     def test_without_lapack(self):
         """Without LAPACK a sentence stands for every number that needs orbits, and the rest of the paper is there."""
-        alone = Path(self.scratch.name) / "alone"
-        alone.mkdir()
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        alone = Path(scratch.name)
         for name in Path(FESTOON).parent.iterdir():
             if name.is_file() and (name.name == "festoon" or ".so" in name.name) and "lapack" not in name.name:
                 shutil.copy2(name, alone / name.name)
@@ -74,17 +77,15 @@ class Browser(unittest.TestCase):
     @unittest.skipUnless(shutil.which("chromium"), "there is no chromium")
     def test_nothing_is_wider_than_a_phone(self):
         """In a browser, 390 pixels wide, no part of the report reaches beyond the edge."""
-        with tempfile.TemporaryDirectory() as scratch:
-            subprocess.run([FESTOON, "paper", "--reduced", "-o", scratch], check=True, capture_output=True)
-            for width in (390, 1000):
-                (Path(scratch) / "frame.html").write_text(FRAME.format(width))
-                page = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu",
-                                       "--allow-file-access-from-files", f"--user-data-dir={scratch}/browser",
-                                       "--virtual-time-budget=20000", "--dump-dom", f"file://{scratch}/frame.html"],
-                                      capture_output=True, text=True).stdout
-                said = json.loads(html.unescape(re.search(r'<pre id="said">(.*?)</pre>', page, re.S)[1]))
-                self.assertLessEqual(said[0], width, said)
-                self.assertEqual(said[1], [])
+        for width in (390, 1000):
+            (Path(REDUCED.name) / "frame.html").write_text(FRAME.format(width))
+            page = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu",
+                                   "--allow-file-access-from-files", f"--user-data-dir={REDUCED.name}/browser",
+                                   "--virtual-time-budget=20000", "--dump-dom", f"file://{REDUCED.name}/frame.html"],
+                                  capture_output=True, text=True).stdout
+            said = json.loads(html.unescape(re.search(r'<pre id="said">(.*?)</pre>', page, re.S)[1]))
+            self.assertLessEqual(said[0], width, said)
+            self.assertEqual(said[1], [])
 
 
 class Documentation(unittest.TestCase):

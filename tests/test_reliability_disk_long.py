@@ -19,10 +19,10 @@ class Campaigns(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr.decode() + done.stdout.decode())
 
     def test_bit_rot(self):
-        self.sample("rot.py", 100)
+        self.sample("rot.py", 60)
 
     def test_loss_of_power(self):
-        self.sample("power.py", 100)
+        self.sample("power.py", 60)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-"""Sweeps in adverse conditions: a hundred kills; any number of threads, lanes and ranks, in any order; disks that are
-full, read-only or on a network.
+"""Sweeps in adverse conditions: any number of threads, lanes and ranks, in any order; disks that are full, read-only or
+on a network; signals that follow each other.  (Kills by the dozen are those of test_reliability_kills_long.py.)
 
 Environment: FESTOON is the program, SOURCE_DIR the source tree.
 """
@@ -15,20 +15,11 @@ import subprocess
 import sys
 import unittest
 
-os.environ["FESTOON_KILLS"] = "34"  # databases, each killed three times
-os.environ["FESTOON_RANKS_ROUNDS"] = "10"
-
-import events  # noqa: E402
-import test_sweep_ranks  # noqa: E402
-from sweep_tools import FESTOON, SHORT, SMALL, Case, content_of, festoon  # noqa: E402
-from test_sweep_resume_threads import Resuming as Kills  # noqa: E402,F401
+import events
+import test_sweep_ranks
+from sweep_tools import FESTOON, SHORT, SMALL, Case, content_of, festoon
 
 HAVE_MPI = shutil.which("mpirun") and "mpi yes" in festoon("--version")[1]
-
-
-@unittest.skipUnless(HAVE_MPI, "no mpirun, or festoon was built without MPI")
-class RankDeaths(test_sweep_ranks.Deaths):
-    pass
 
 
 class Invariance(Case):

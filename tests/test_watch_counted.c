@@ -9,7 +9,7 @@
 enum {
     LONGEST_GAP = 12000, /* evaluations between two calls; a processor does 10^6 in a second or in less time */
     REST = 3000,         /* evaluations after the refusal */
-    MOMENTS = 8
+    MOMENTS = 5
 };
 
 typedef struct spy {

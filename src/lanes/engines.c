@@ -43,7 +43,7 @@ const fst_lane_engine *fst_dry_lane_engine_of(const fst_lane_engine *engine)
 {
 #ifdef FST_HAVE_LANES
     for (size_t i = 0; i < sizeof ALL / sizeof *ALL; ++i)
-        if (ALL[i].usual == engine)
+        if (ALL[i].usual->width == engine->width && ALL[i].usual->fused == engine->fused)
             return ALL[i].dry;
 #else
     (void)engine;

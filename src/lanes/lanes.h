@@ -95,6 +95,9 @@ typedef struct fst_lane_engine {
     /* The integrals of a lane up to the last observed step and over it, as those of one run. */
     void (*extract_integrals)(const void *batch, int lane, fst_integrals_double *to);
 
+    /* Put other integrals over the last observed step in the place of a lane's own. */
+    void (*set_increments)(void *batch, int lane, const double increments[FST_Q_COUNT]);
+
     /* The fast form locates extremes in lanes too: a step that may hold one waits in a place of its own, and
      * when all places are taken, sign times the extreme of each is found. */
     size_t waiting_bytes;

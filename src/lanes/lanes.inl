@@ -27,7 +27,7 @@
  * A round of a batch is
  *
  *     try_steps()   a try in every lane, accepted or rejected
- *     watch()       may the step hold an end of the run, a mark, a doubtful angle?
+ *     watch()       may the step hold an end of the run, a mark, a doubtful angle, a direction that turns fast?
  *     observe()     integrals over the step; may it hold a new extreme?
  *     ---           the caller looks closely at the few lanes for which the answer is yes
  *     advance()     the end of the step is the start of the next
@@ -318,6 +318,13 @@ static void extract_integrals(const void *memory, int lane, fst_integrals_double
         numbers[i] = from[i][lane];
 }
 
+static void set_increments(void *memory, int lane, const double *increments)
+{
+    batch *b = memory;
+    for (int i = 0; i < FST_Q_COUNT; ++i)
+        b->sums.increment[i][lane] = increments[i];
+}
+
 /* ------------------------------------------------------------------ steps */
 
 /* Whether steps measure their own time, so that no size can be chosen to land: the end of the way is found in
@@ -513,6 +520,10 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
         FN(moment_angle_point)(y, &u0, &w0);
         FN(moment_angle_point)(end, &u, &w);
         close |= wind(&b->turns[1], u0, w0, u, w) & observed;
+        const REAL from[2] = {u0, w0}, to[2] = {u, w};
+        const REAL pole = FN(passes_closely)(from, to, b->tolerance);
+        const REAL axis = FN(passes_closely)(&y[FST_X], &end[FST_X], b->tolerance);
+        close |= fst_wide_lanes_of(WIDE_LESS(zero, REAL_MAX(pole, axis))) & in_window;
         b->turns[1] = fst_wide_select(fst_wide_mask_of(observed), b->turns[1], b->turns_before[1]);
     }
     const REAL *l = b->bead_angle_least, *m = b->bead_angle_most, margin = R(1e-12);
@@ -558,6 +569,7 @@ const fst_lane_engine ENGINE = {
     .extract_path = extract_path,
     .extract_clock = extract_clock,
     .extract_integrals = extract_integrals,
+    .set_increments = set_increments,
 #if KNOWS_DRY
     .pass = pass,
     .make_anew = make_anew,

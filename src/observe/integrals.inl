@@ -84,3 +84,32 @@ static inline void FN(moment_angle_point)(const REAL *y, REAL *u, REAL *w)
     *u = -y[FST_NZ] * REAL_SQRT(y[FST_X] * y[FST_X] + y[FST_Y] * y[FST_Y]);
     *w = y[FST_X] * y[FST_NY] - y[FST_Y] * y[FST_NX];
 }
+
+/* Does a point that moves from a to b, nearly straight and evenly, pass the origin so closely that a rule with
+ * few places does not resolve how its direction turns?
+ *
+ *        a o-----------+-------o b        the way, w long
+ *            `  .      | b0   /
+ *        |a|      `  . |   /   |b|
+ *                      0
+ *
+ * Its distance from the origin is the root of a square with zeros where the way, continued to complex times,
+ * has them.  An ellipse through these with the ends of the step as foci has half axes whose sum is rho times
+ * half the step, and a rule of order p errs by about rho^-p.  |a| + |b| is w (rho + 1/rho)/2; here (|a| +
+ * |b|)^2 is taken as 2 (a^2 + b^2), which is no smaller.
+ */
+static inline REAL FN(passage_measure)(const REAL a[2], const REAL b[2], REAL limit2)
+{
+    const REAL way[2] = {b[0] - a[0], b[1] - a[1]};
+    const REAL sum2 = R(2.0) * (SUM_2(a[0], a[0], a[1], a[1]) + SUM_2(b[0], b[0], b[1], b[1]));
+    return limit2 * SUM_2(way[0], way[0], way[1], way[1]) - sum2;
+}
+
+/* Positive where the method's rule, of order 8, errs by more than the tolerance of the steps: rho^8 < 1/rtol,
+ * or
+ * (|a| + |b|)^2 < w^2 rtol^(-1/4)/4; at loose tolerances where the direction turns by a radian. */
+static inline REAL FN(passes_closely)(const REAL a[2], const REAL b[2], REAL rtol)
+{
+    const REAL limit2 = REAL_MAX(R(0.25) / REAL_SQRT(REAL_SQRT(rtol)), R(4.0));
+    return FN(passage_measure)(a, b, limit2);
+}

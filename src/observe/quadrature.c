@@ -19,6 +19,7 @@
  * bisected.
  */
 #include "observe/quadrature.h"
+#include "observe/passages.h"
 
 #include <string.h>
 
@@ -75,6 +76,20 @@ void fst_quadrature_set_references(fst_quadrature *q, const fst_flow *flow)
     q->sums.b_reference = seen.b_norm;
 }
 
+void fst_quadrature_resolve(fst_quadrature *q, fst_flow *flow)
+{
+    if (q->is_resolved || !q->passages)
+        return;
+    fst_passages_integrate(flow, q->passages, 1.0, q->sums.r_reference, q->sums.increment);
+    q->is_resolved = 1;
+}
+
+void fst_quadrature_look_for_passages(fst_quadrature *q, const fst_flow *flow)
+{
+    q->passages = fst_passages_of(flow);
+    q->is_resolved = 0;
+}
+
 void fst_quadrature_step(fst_quadrature *q, fst_flow *flow, int renew)
 {
     const fst_bead_step_double *s = &flow->step;
@@ -84,6 +99,9 @@ void fst_quadrature_step(fst_quadrature *q, fst_flow *flow, int renew)
     fst_integrate_step_double(&q->sums, s, 1);
     q->has_dense = 0;
     fst_quadrature_follow(q, flow, flow->step.end);
+    fst_quadrature_look_for_passages(q, flow);
+    if (!renew)
+        fst_quadrature_resolve(q, flow);
 }
 
 /* The dense output of the increments, unless it is there. */
@@ -110,12 +128,15 @@ void fst_quadrature_at(fst_quadrature *q, fst_flow *flow, double x, double integ
                        double *moment_angle)
 {
     double part[FST_Q_COUNT];
+    fst_quadrature_resolve(q, flow);
     if (x == 1.0) {
         memcpy(part, q->sums.increment, sizeof part);
         *moment_angle = fst_winding_angle(&q->moment_angle);
     } else {
         make_dense(q, flow);
         fst_bead_evaluate_dense_double(FST_Q_COUNT, &q->dense[0][0], FST_Q_COUNT, x, part);
+        if (q->passages)
+            fst_passages_integrate(flow, q->passages, x, q->sums.r_reference, part);
         fst_winding angle = q->moment_angle_start;
         double state[FST_STATE_SIZE];
         fst_flow_at(flow, x, state);

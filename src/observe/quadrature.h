@@ -13,6 +13,9 @@ typedef struct fst_quadrature {
     double between[FST_DENSE_PLACES - FST_PATH_PLACES][FST_Q_COUNT];
     double dense[8][FST_Q_COUNT];
     int has_dense;
+    /* What the last step passes closely (passages.h), and whether its increments have been integrated with
+     * that in view. */
+    int passages, is_resolved;
     /* Of a part of the window that was not observed (left_out.h), where there is one. */
     int lacks_part;
     double left_out[FST_Q_COUNT], left_out_moment_angle;
@@ -33,7 +36,12 @@ void fst_quadrature_follow(fst_quadrature *q, fst_flow *flow, const double *end)
 /* Take deviations of r and |B| from their values at the start of the flow's last or next step. */
 void fst_quadrature_set_references(fst_quadrature *q, const fst_flow *flow);
 
-/* Take in the flow's last step.  `renew`: deviations are taken from its start on. */
+/* What the flow's last step passes; and its increments with that in view, unless they are there. */
+void fst_quadrature_look_for_passages(fst_quadrature *q, const fst_flow *flow);
+void fst_quadrature_resolve(fst_quadrature *q, fst_flow *flow);
+
+/* Take in the flow's last step.  `renew`: deviations are taken from its start on, and nothing before them
+ * counts: the increments need no resolving unless a mark falls into the step. */
 void fst_quadrature_step(fst_quadrature *q, fst_flow *flow, int renew);
 
 /* The integrals up to the fraction x of the last step, and phi there. */

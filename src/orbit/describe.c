@@ -156,6 +156,7 @@ static fst_status go_round(round_trip *trip, const fst_family *family, double pe
         if (status != FST_OK)
             return status;
         fst_quadrature_step(&window->quadrature, trip->flow, trip->flow->accepted == 1);
+        fst_quadrature_resolve(&window->quadrature, trip->flow);
         if (extremes)
             fst_extremes_step(window->extremes, &window->quadrature, trip->flow, 0.0);
         look_at_step(trip->flow, &trip->extremes_met, out);

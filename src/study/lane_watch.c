@@ -5,7 +5,8 @@
  *     ending      the bead may have left the plate     step and path go to the run's flow, which looks exactly
  *     at_mark     a drive period ends                  a mark, and integrals for it if it will be kept
  *     close       X changed its sign, or an angle      the window looks for a crossing, as in fst_run(); the
- *                 is doubtful                          lane is told the turns that were counted
+ *                 is doubtful, or a direction          lane is told the turns that were counted, and the
+ *                 turns fast                           integrals over the step
  *     wandering   Phi may have left its range so far   the window widens the range, and tells the lane
  *     beaten      a record may be beaten               the portable form: the window seeks extremes;
  *                                                      the fast form: the step is set aside, and located later
@@ -195,12 +196,17 @@ static int watch(fst_row_worker *w, int l, fst_lane_events events)
     fst_quadrature_follow(q, flow, flow->step.end);
     if ((events.ending & fst_lane_bit(l)) && fst_worker_ends_run(w, b, l))
         return 1;
-    if (needs_integrals(w, run, (events.at_mark & fst_lane_bit(l)) != 0))
+    fst_quadrature_look_for_passages(q, flow);
+    if (q->passages || needs_integrals(w, run, (events.at_mark & fst_lane_bit(l)) != 0))
         extract_integrals(w, l, q);
+    if (fst_window_is_open(&run->window))
+        fst_quadrature_resolve(q, flow);
     if (!fst_window_is_open(&run->window)) /* crossings before it were not looked at */
         fst_returns_see_side(&run->window.returns, flow);
     run->window.activity = b->view.activity[l];
     fst_window_look(&run->window, flow, !w->engine->fused);
+    if (q->passages && q->is_resolved)
+        w->engine->set_increments(w->observed.memory, l, q->sums.increment);
     look_at_returns(w, l);
     if (!(w->settled & fst_lane_bit(l)))
         follow_window(w, l);

@@ -59,16 +59,17 @@ def has_fuzzer():
         return run("clang", "-fsanitize=fuzzer,address,undefined", source, "-o", source + ".x").returncode == 0
 
 
-def build(work, targets):
-    """Builds the targets in `work`, linked with libFuzzer to libraries that report their branches to it."""
+def build(work, targets, level):
+    """Builds the targets in `work`, linked with libFuzzer to libraries that report their branches to it.  `level`: of
+    optimisation."""
     tree = os.path.join(work, "build")
     done("cmake", "-S", SOURCE, "-B", tree, "-G", "Ninja", "-DCMAKE_C_COMPILER=clang", "-DCMAKE_BUILD_TYPE=Debug",
-         "-DCMAKE_C_FLAGS_DEBUG=-O1 -g", "-DFESTOON_SANITIZE=address,undefined,fuzzer-no-link")
+         f"-DCMAKE_C_FLAGS_DEBUG={level} -g1", "-DFESTOON_SANITIZE=address,undefined,fuzzer-no-link")
     done("cmake", "--build", tree, "--target", "festoon_internal")
     archive, = glob.glob(os.path.join(tree, "**", "libfestoon_internal.a"), recursive=True)
     libraries = done("pkg-config", "--libs", "yaml-0.1", "jansson", "sqlite3").split()
     for name in targets:
-        done("clang", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-Werror", "-O1", "-g",
+        done("clang", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-Werror", level, "-g1",
              "-fsanitize=fuzzer,address,undefined", "-fno-sanitize-recover=all", "-I", os.path.join(SOURCE, "include"),
              "-I", os.path.join(SOURCE, "src"), os.path.join(SOURCE, "tests", "fuzz", f"fuzz_{name}.c"), archive,
              *libraries, "-lm", "-ldl", "-lpthread", "-o", os.path.join(work, "fuzz_" + name))
@@ -168,7 +169,7 @@ def main():
         return 77
     work, targets = os.path.abspath(given.work), given.target or list(SHARES)
     os.makedirs(work, exist_ok=True)
-    build(work, targets)
+    build(work, targets, "-O0" if given.count < 1e6 else "-O1")  # a sample takes less time than optimisation
     state, found = State(work), 0
     whole = sum(SHARES[name] for name in targets)
     with tempfile.TemporaryDirectory(dir="/dev/shm" if os.access("/dev/shm", os.W_OK) else None) as folder:
