@@ -144,7 +144,8 @@ static inline REAL FN(reject_step)(FN(step_control) * c, REAL_MASK mask, REAL er
  */
 static inline REAL FN(damped_factor)(FN(step_control) * c, REAL_MASK mask, REAL factor)
 {
-    const REAL eighth = factor * R(1.0 / 0.9), sixteenth = REAL_OVER_SQRT(eighth, eighth);
+    const REAL inverse = R(1.0 / 0.9); /* of the 0.9 in it */
+    const REAL eighth = factor * inverse, sixteenth = REAL_OVER_SQRT(eighth, eighth);
     const REAL root = REAL_OVER_SQRT(sixteenth, sixteenth), before = c->root;
     c->root = REAL_SELECT(mask, root, before);
     return factor * REAL_ROUGH_RECIPROCAL(root * before);
