@@ -241,7 +241,7 @@ FST_API fst_status fst_params_check_part(const fst_params *params, int part, fst
 /* A part of a magnet as pictures show it, in m along the magnet's axes: its outline seen from above (a convex
  * polygon, anticlockwise; none of a dipole), between which heights it lies, and how it is magnetised (T; a
  * dipole: A m^2). */
-enum { FST_OUTLINE_MOST = 48 };
+enum { FST_OUTLINE_MOST = 192 };
 typedef struct fst_part_shape {
     int count; /* of corners */
     double corners[FST_OUTLINE_MOST][2];
@@ -573,12 +573,16 @@ typedef struct fst_row_job {
     double start[FST_STATE_SIZE];
 } fst_row_job;
 
+enum { FST_JOBS_LATER = -1 };
+
 /* Where runs come from and where their results go. */
 typedef struct fst_row_work {
     void *user;
     fst_arithmetic arithmetic;
     int lanes; /* runs side by side: 1, 4 or 8; 0: as many as suit the processor */
-    /* Fill in the next job and return 1; return 0 where there is none. */
+    /* Fill in the next job and return 1; return 0 where there is none, and FST_JOBS_LATER where some may come
+     * when others are done.  fst_rows() then goes on with the runs that it has, and asks again; it returns when
+     * it has none, and may be called again. */
     int (*next)(void *user, fst_row_job *job);
     /* Take a result; for a run that failed `status` and `error` say why.  Return 1 after filling in the job
      * that is to follow at once, otherwise 0. */
