@@ -21,6 +21,8 @@ static fst_params job_params(int i)
     p.model_kappa = 1.0 + 0.25 * (i % 4);
     if (i % 9 < TASKS_WITHOUT_DISCARD)
         p.run_discard = 0;
+    if (i % 4 == 1)
+        p.run_controller = FST_CONTROLLER_DAMPED;
     if (i % 6 == 3)
         p.model_dynamics = FST_DYNAMICS_FARAGO2020;
     if (i == 7)

@@ -101,6 +101,7 @@ typedef enum { FST_DYNAMICS_RIGID, FST_DYNAMICS_FARAGO2020 } fst_dynamics;
 typedef enum { FST_PATCH_POINT, FST_PATCH_HERTZ, FST_PATCH_PADE } fst_contact_patch;
 typedef enum { FST_SPIN_ROLLING, FST_SPIN_REST } fst_start_spin;
 typedef enum { FST_UNTIL_PERIODS, FST_UNTIL_SETTLED } fst_run_until;
+typedef enum { FST_CONTROLLER_PLAIN, FST_CONTROLLER_DAMPED } fst_controller;
 typedef enum { FST_METHOD_EVENTS, FST_METHOD_SPLITTING } fst_method;
 
 /* The kinds of unit that a parameter may carry (params.def). */
@@ -388,9 +389,10 @@ typedef struct fst_flow_options {
     /* Asked by each call of fst_flow_advance(), by the fraction of its time that is done (NULL: nobody is
      * asked).  After a status other than FST_OK the flow stands where it was last, and may go on. */
     const fst_progress *progress;
+    fst_controller controller; /* run.controller: how the next step's size follows from errors */
 } fst_flow_options;
 
-/* rtol = atol = 1e-10, no bound on the step, no ramp. */
+/* rtol = atol = 1e-10, no bound on the step, no ramp, the plain controller. */
 FST_API fst_flow_options fst_default_flow_options(void);
 
 typedef struct fst_flow fst_flow;

@@ -158,13 +158,15 @@ char *fst_json_dump(json_t *document, size_t flags)
 
 json_t *fst_json_run(const fst_params *params, const fst_run_result *result)
 {
-    char dynamics[48];
+    char dynamics[48], controller[48];
     json_t *run = json_object();
     json_object_set_new(run, "regime", text_or_null(fst_regime_name(result->regime)));
     json_object_set_new(run, "reason", text_or_null(result->reason));
     json_object_set_new(run, "symmetry", text_or_null(fst_symmetry_name(result->symmetry)));
     json_object_set_new(run, "dynamics",
                         text_or_null(choice_text(params, "model.dynamics", dynamics, sizeof dynamics)));
+    json_object_set_new(run, "controller",
+                        text_or_null(choice_text(params, "run.controller", controller, sizeof controller)));
     for (int i = 0; i < fst_result_count(); ++i) {
         const fst_result_info *info = fst_result_at(i);
         double value;

@@ -149,6 +149,10 @@ fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
                         "run.step = %g has no effect on run.method events, whose steps follow run.rtol: choose "
                         "splitting, or leave run.step out",
                         params->run_step);
+    if (params->run_method == FST_METHOD_SPLITTING && params->run_controller != FST_CONTROLLER_PLAIN)
+        return fst_fail(error, FST_BAD_INPUT, "run.controller",
+                        "run.controller damped has no effect with run.method splitting, whose steps are fixed: "
+                        "choose events, or leave run.controller out");
     if (params->run_method == FST_METHOD_SPLITTING && params->run_until == FST_UNTIL_SETTLED)
         return fst_fail(
             error, FST_BAD_INPUT, "run.until",

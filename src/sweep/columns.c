@@ -12,10 +12,11 @@
 const char *const fst_state_names[FST_STATE_SIZE] = {"X", "Y", "vX", "vY", "nX", "nY", "nZ", "WX", "WY", "WZ"};
 
 static const char FIRST[] =
-    "status TEXT, carried INTEGER, regime TEXT, symmetry TEXT, reason TEXT, dynamics TEXT, never_slips INTEGER";
+    "status TEXT, carried INTEGER, regime TEXT, symmetry TEXT, reason TEXT, dynamics TEXT, controller TEXT, "
+    "never_slips INTEGER";
 static const char COUNTS[] =
     "returns INTEGER, rhs_calls INTEGER, steps_accepted INTEGER, steps_rejected INTEGER";
-enum { FIRST_COUNT = 7, COUNT_COUNT = 4 };
+enum { FIRST_COUNT = 8, COUNT_COUNT = 4 };
 
 static int is_choice(const fst_grid *grid, int axis)
 {
@@ -162,6 +163,8 @@ void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, c
     bind_text(&b, fst_symmetry_name(r->symmetry));
     bind_text(&b, r->reason);
     name_choice("model.dynamics", record->dynamics, name, sizeof name);
+    bind_text(&b, name);
+    name_choice("run.controller", record->controller, name, sizeof name);
     bind_text(&b, name);
     if (r->never_slips < 0)
         bind_null(&b);
