@@ -36,7 +36,7 @@ static fst_params job_params(int i)
     if (i == 6 || i == 15) {
         p.run_until = FST_UNTIL_SETTLED;
         p.run_periods = 60;
-        p.run_rtol = 1e-7;
+        p.run_rtol = 1e-9;
     }
     return p;
 }

@@ -240,7 +240,7 @@ FST_API fst_status fst_params_check_part(const fst_params *params, int part, fst
 /* A part of a magnet as pictures show it, in m along the magnet's axes: its outline seen from above (a convex
  * polygon, anticlockwise; none of a dipole), between which heights it lies, and how it is magnetised (T; a
  * dipole: A m^2). */
-enum { FST_OUTLINE_MOST = 48 };
+enum { FST_OUTLINE_MOST = 192 };
 typedef struct fst_part_shape {
     int count; /* of corners */
     double corners[FST_OUTLINE_MOST][2];

@@ -528,8 +528,12 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     const unsigned inside = fst_wide_lanes_of(WIDE_LESS(margin, -REAL_MAX(-after_least, -before_most)));
     const unsigned quiet = accepted & ~(close | at_mark);
     b->activity = fst_wide_select(fst_wide_mask_of(quiet), REAL_MAX(speed, b->activity), b->activity);
-    const fst_lane_events events = {accepted & ending, accepted & at_mark, accepted & close,
-                                    accepted & ~inside};
+    const REAL outward = y[FST_X] * y[FST_VX] + y[FST_Y] * y[FST_VY],
+               after = end[FST_X] * end[FST_VX] + end[FST_Y] * end[FST_VY];
+    const unsigned at_maximum =
+        fst_wide_lanes_of(WIDE_LESS(zero, outward)) & fst_wide_lanes_of(WIDE_LESS_EQUAL(after, zero));
+    const fst_lane_events events = {accepted & ending, accepted & at_mark, accepted & close, accepted & ~inside,
+                                    accepted & at_maximum};
     return events;
 }
 
