@@ -118,14 +118,18 @@ static int is_filled(const map *m, int64_t row, int64_t column)
 
 /* ------------------------------------------------------------------ drawing */
 
-/* The upper end of a box that ends with cell `last`.  Boxes overlap by about a pixel, so that no seams show. */
-static double upper_end(const side *s, const fst_sweep_axis *axis, int64_t last)
+/* The upper end of a box that ends with cell `last`.  Boxes overlap by about a pixel, so that no seams show;
+ * between different cells not by more than a part of one.  Filled cells of different regimes never touch,
+ * because what was computed lies between them, and is drawn over them. */
+static double upper_end(const side *s, const fst_sweep_axis *axis, int64_t last, int filled)
 {
     const double edge = s->edges[last + 1];
     if (last + 1 == s->count)
         return edge;
     const double pixel = 1e-3 * axis_length(axis, s->edges[0], s->edges[s->count]);
-    const double beyond = fmin(pixel, 0.3 * axis_length(axis, edge, s->edges[last + 2]));
+    const double part = 0.3 * axis_length(axis, edge, s->edges[last + 2]);
+    const double beyond =
+        filled ? fmin(2.0 * pixel, axis_length(axis, edge, s->edges[s->count])) : fmin(pixel, part);
     return axis->logarithmic ? edge * exp(beyond) : edge + beyond;
 }
 
@@ -147,8 +151,8 @@ static void write_cells(fst_figure_file *figure, const map *m, int regime, int f
             if (regime < 0 ? isfinite(value) : value == regime && kind == filled)
                 (void)fprintf(figure->data, "%.7g %.7g %.9g %.9g %.9g %.9g %.7g\n",
                               m->right.places[column].value, m->up.places[row].value, m->right.edges[column],
-                              upper_end(&m->right, &m->axes[1], next - 1), m->up.edges[row],
-                              upper_end(&m->up, &m->axes[0], row), value * m->factor);
+                              upper_end(&m->right, &m->axes[1], next - 1, kind), m->up.edges[row],
+                              upper_end(&m->up, &m->axes[0], row, kind), value * m->factor);
             column = next;
         }
 }
