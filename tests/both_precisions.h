@@ -18,6 +18,7 @@
 #undef REAL_BITS
 #undef REAL_AS_BITS
 #undef REAL_OF_BITS
+#undef REAL_PAIR
 
 #include "physics_ld.h"
 
