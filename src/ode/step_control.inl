@@ -29,7 +29,7 @@ typedef struct FN(step_control) {
     REAL lands;       /* 1 where the present try ends at the end of the way, else 0 */
     REAL rejections;  /* tries of the present step that failed */
     REAL worst_error; /* error of the last of them, infinity where a number was not finite */
-    REAL root;        /* error of the last accepted step to the power -1/32: see damped_factor() */
+    REAL root;        /* error of the last accepted step to the power 1/32: see damped_factor() */
 } FN(step_control);
 
 #ifndef STEP_LEAST
@@ -142,8 +142,10 @@ static inline REAL FN(reject_step)(FN(step_control) * c, REAL_MASK mask, REAL er
  */
 static inline REAL FN(damped_factor)(FN(step_control) * c, REAL_MASK mask, REAL factor)
 {
-    const REAL eighth = factor * R(1.0 / 0.9), sixteenth = REAL_OVER_SQRT(eighth, eighth);
-    const REAL root = REAL_OVER_SQRT(sixteenth, sixteenth), before = c->root;
-    c->root = REAL_SELECT(mask, root, before);
-    return factor * REAL_ROUGH_RECIPROCAL(root * before);
+    const REAL one = R(1.0), before = c->root;
+    const REAL sixteenth = REAL_OVER_SQRT(one, factor * R(1.0 / 0.9)); /* e^(1/16) */
+    const REAL root = REAL_OVER_SQRT(one, sixteenth);                  /* e^(-1/32) */
+    const REAL half = REAL_OVER_SQRT(one, root);
+    c->root = REAL_SELECT(mask, half * half, before);
+    return ((factor * sixteenth) * root) * before;
 }
