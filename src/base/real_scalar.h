@@ -11,7 +11,6 @@
 #define REAL_EVERYWHERE 1     /* the mask of all lanes */
 #define REAL_ANY(mask) (mask) /* whether a mask holds in some lane */
 #define REAL_SELECT(mask, yes, no) ((mask) ? (yes) : (no))
-#define REAL_SUMS_BESIDE 1                      /* sums of errors that are added up at the same time */
 #define REAL_ROUGH_RECIPROCAL(x) (R(1.0) / (x)) /* lanes may compute this to fewer digits */
 #define REAL_OVER_SQRT(a, x) ((a) / REAL_SQRT(x))
 #define RHS_KIND static inline

@@ -39,7 +39,6 @@
 #undef REAL_NEGMULADD
 #undef REAL_ROUGH_RECIPROCAL
 #undef REAL_OVER_SQRT
-#undef REAL_SUMS_BESIDE
 #undef REAL_ROOT
 #undef REAL_RECIPROCAL
 #undef REAL_QUOTIENT
@@ -263,14 +262,13 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_QUOTIENT(a, b) fst_wide_quotient(a, b)
 #define REAL_ESTIMATE_RECIPROCAL_SQRT(x) fst_wide_estimate_reciprocal_sqrt(x)
 #define REAL_DIVIDER_IS_FREE (FST_LANES == 4)
+#define REAL_FEW_REGISTERS (FST_LANES == 4)
 #define REAL_INVERSE_FIFTH(x, estimate) fst_wide_inverse_fifth(x, estimate)
 #define REAL_INVERSE(x, estimate) fst_wide_inverse(x, estimate)
 #define REAL_ROUGH_RECIPROCAL(x) fst_wide_rough_reciprocal(x)
 #define REAL_OVER_SQRT(a, x) ((a)*fst_wide_rough_reciprocal_sqrt(x)) /* to four digits */
 #define REAL_INVERSE_EIGHTH_ROOT(x) fst_wide_inverse_eighth_root(x)
-#define REAL_SUMS_BESIDE 3 /* so that none waits long for the one before it */
 #else
-#define REAL_SUMS_BESIDE 1
 #define REAL_RECIPROCAL_SQRT(x) (R(1.0) / REAL_SQRT(x))
 #define REAL_ROOT(x, inverse) REAL_SQRT(x)
 #define REAL_RECIPROCAL(x) (R(1.0) / (x))

@@ -158,15 +158,8 @@ static inline REAL STEP_NAME(step_error)(const STEP_NAME(step) * s, REAL rtol, c
         square5[i] = r5 * r5;
         square3[i] = r3 * r3;
     }
-    /* One sum after the other or, where that is the way of a kind of number, several beside each other. */
-    enum { SUMS = REAL_SUMS_BESIDE };
-    for (int first = 0; first < SUMS; ++first)
-        for (int i = first + SUMS; i < STEP_DIM; i += SUMS) {
-            square5[first] = square5[first] + square5[i];
-            square3[first] = square3[first] + square3[i];
-        }
     REAL sum5 = square5[0], sum3 = square3[0];
-    for (int i = 1; i < SUMS; ++i) {
+    for (int i = 1; i < STEP_DIM; ++i) {
         sum5 = sum5 + square5[i];
         sum3 = sum3 + square3[i];
     }

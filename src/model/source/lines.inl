@@ -123,29 +123,46 @@ static inline REAL FN(inverse_seventh)(REAL distance2, REAL begun, REAL inverse5
     return inverse5 * LINES_INVERSE2(distance2, begun);
 }
 
-/* Of one end, at Y = y + k lambda with k = 2, 1, 0, -1, -2. */
-typedef struct FN(five) {
-    REAL inverse5[5], inverse7[5];
-} FN(five);
+/* One of five lines, for both ends. */
+typedef struct FN(fifth) {
+    REAL distance2[2], begun[2], inverse5[2], inverse7[2];
+} FN(fifth);
 
-static inline __attribute__((always_inline)) void FN(see_fifth_line)(FN(five) five[2], int i, REAL dy,
-                                                                     const REAL across2[2])
+static inline __attribute__((always_inline)) void FN(finish_fifth)(FN(fifth) * line, int end)
 {
-    for (int end = 0; end < 2; ++end) {
-        const int divides = REAL_DIVIDER_IS_FREE && end == 1;
-        const REAL distance2 = dy * dy + across2[end], begun = FN(begin_inverse)(distance2, divides);
-        const REAL inverse5 = FN(inverse_fifth)(distance2, begun, divides);
-        five[end].inverse5[i] = inverse5;
-        five[end].inverse7[i] = FN(inverse_seventh)(distance2, begun, inverse5, divides);
-    }
+    const int divides = REAL_DIVIDER_IS_FREE && end == 1;
+    const REAL distance2 = line->distance2[end], begun = line->begun[end];
+    line->inverse5[end] = FN(inverse_fifth)(distance2, begun, divides);
+    line->inverse7[end] = FN(inverse_seventh)(distance2, begun, line->inverse5[end], divides);
 }
 
-/* The moments of five lines: first the moments t_m = lambda^m sum of k^m/|d|^5 about the middle line, then
- * these shifted by y (binomial formula).  This takes a fifth fewer operations than adding up each s_m. */
-static inline __attribute__((always_inline)) FN(moments)
-    FN(moments_of_five)(const FN(five) * five, REAL y, REAL spacing)
+/* With few registers each line is finished at once; else what takes long is begun for all lines before the
+ * first is finished. */
+static inline __attribute__((always_inline)) void FN(see_fifth)(FN(fifth) * line, REAL dy,
+                                                                const REAL across2[2])
 {
-    const REAL *inverse5 = five->inverse5, *inverse7 = five->inverse7, spacing2 = spacing * spacing;
+    for (int end = 0; end < 2; ++end) {
+        line->distance2[end] = dy * dy + across2[end];
+        line->begun[end] = FN(begin_inverse)(line->distance2[end], REAL_DIVIDER_IS_FREE && end == 1);
+    }
+    for (int end = 0; REAL_FEW_REGISTERS && end < 2; ++end)
+        FN(finish_fifth)(line, end);
+}
+
+/* The moments of five lines at Y = y + k lambda, k = 2, 1, 0, -1, -2: first the moments t_m = lambda^m sum of
+ * k^m/|d|^5 about the middle line, then these shifted by y (binomial formula).  This takes a fifth fewer
+ * operations than adding up each s_m. */
+static inline __attribute__((always_inline)) FN(moments)
+    FN(moments_of_five)(FN(fifth) lines[5], int end, REAL y, REAL spacing)
+{
+    REAL inverse5[5], inverse7[5];
+    for (int i = 0; i < 5; ++i) {
+        if (!REAL_FEW_REGISTERS)
+            FN(finish_fifth)(&lines[i], end);
+        inverse5[i] = lines[i].inverse5[end];
+        inverse7[i] = lines[i].inverse7[end];
+    }
+    const REAL spacing2 = spacing * spacing;
     const REAL outer = inverse5[0] + inverse5[4], outer_odd = inverse5[0] - inverse5[4];
     const REAL inner = inverse5[1] + inverse5[3], inner_odd = inverse5[1] - inverse5[3];
     const REAL t0 = (outer + inner) + inverse5[2], t1 = spacing * REAL_MULADD(R(2.0), outer_odd, inner_odd);
@@ -173,14 +190,14 @@ FN(moments_of_lines)(const FN(lines) * lines, int count, REAL y, const REAL acro
 #ifdef REAL_INVERSE_FIFTH
     if (count == 5) { /* the paper's: straight on, and of strength 1 each */
         const REAL spacing = lines->spacing;
-        FN(five) five[2];
-        FN(see_fifth_line)(five, 0, REAL_MULADD(R(2.0), spacing, y), across2);
-        FN(see_fifth_line)(five, 4, REAL_NEGMULADD(R(2.0), spacing, y), across2);
-        FN(see_fifth_line)(five, 1, y + spacing, across2);
-        FN(see_fifth_line)(five, 3, y - spacing, across2);
-        FN(see_fifth_line)(five, 2, y, across2);
+        FN(fifth) seen[5];
+        FN(see_fifth)(&seen[0], REAL_MULADD(R(2.0), spacing, y), across2);
+        FN(see_fifth)(&seen[4], REAL_NEGMULADD(R(2.0), spacing, y), across2);
+        FN(see_fifth)(&seen[1], y + spacing, across2);
+        FN(see_fifth)(&seen[3], y - spacing, across2);
+        FN(see_fifth)(&seen[2], y, across2);
         for (int end = 0; end < 2; ++end)
-            moments[end] = FN(moments_of_five)(&five[end], y, spacing);
+            moments[end] = FN(moments_of_five)(seen, end, y, spacing);
         return R(1.0);
     }
     const REAL zero = R(0.0);
