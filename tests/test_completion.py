@@ -59,6 +59,11 @@ class Completion(Case):
         keys = [row["key"] + "=" for row in schema]
         self.assertGreater(len(keys), 30)
         self.assertEqual(self.offered("run", "--set", ""), keys)
+        self.assertIn("magnet.parts[0].size[2]=", keys)
+        self.assertEqual(self.offered("run", "--set", "magnet.parts[0].ki"), ["magnet.parts[0].kind="])
+        self.assertEqual(self.offered("run", "--set", "magnet.parts[0].kind", "=", "c"), ["cuboid", "cylinder"])
+        with open(self.path("magnet.parts0.kind="), "w", encoding="utf-8"):  # what the key is as a pattern
+            self.assertEqual(self.offered("run", "--set", ""), keys)
         self.assertEqual(self.offered("run", "--set", "drive."), ["drive.frequency=", "drive.omega="])
         self.assertEqual(self.offered("sweep", "--over", "start.p"), ["start.phi="])
         # Readline breaks words at "=".
@@ -86,7 +91,8 @@ class Completion(Case):
     def test_every_choice_is_one(self):
         """What the script offers for an option is not refused as an unknown word."""
         with open(self.script, encoding="utf-8") as file:
-            choices = re.findall(r"^\s+([a-z]+\.[a-z_]+)=\*\) _festoon_words \"\$2\" \"\$3\" (.*) ;;$", file.read(), re.M)
+            script = file.read()
+        choices = re.findall(r"^\s+'([a-z]+\.[a-z_0[\].]+)='\*\) _festoon_words \"\$2\" \"\$3\" (.*) ;;$", script, re.M)
         self.assertGreater(len(choices), 4)
         for key, names in choices:
             for name in names.split():

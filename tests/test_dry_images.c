@@ -48,6 +48,7 @@ static fst_params job_params(int i)
     p.run_periods = i < 10 ? 20 : 6;
     p.run_discard = 4;
     p.run_rtol = 1e-8;
+    p.run_controller = i % 3 ? FST_CONTROLLER_PLAIN : FST_CONTROLLER_DAMPED;
     if (i >= 12)
         special_rows(i - 12, &p);
     return p;

@@ -1,4 +1,5 @@
-/* Error bars of Lyapunov exponents cover the exact values: a hundred regular motions whose exponents are known. */
+/* Error bars of Lyapunov exponents cover the exact values: a hundred regular motions whose exponents are known.
+ */
 #include "exponent_states.h"
 
 enum { STATES = 100, MOST_SCENES = 200 };

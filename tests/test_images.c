@@ -9,7 +9,7 @@
 #include "same_results.h"
 #include "study/run_image.h"
 
-enum { JOBS = 24, TASKS_WITHOUT_DISCARD = 3, LIBRATING = 16, REPEATING = 20 };
+enum { JOBS = 24, TASKS_WITHOUT_DISCARD = 3, SETTLING = 12, LIBRATING = 16, REPEATING = 20 };
 
 /* Low and high drives, both dynamics, orbits that librate, do not close or are chaotic (which need an
  * exponent), beads that leave the plate, and a scene that is refused. */
@@ -21,12 +21,22 @@ static fst_params job_params(int i)
     p.model_kappa = 1.0 + 0.25 * (i % 4);
     if (i % 9 < TASKS_WITHOUT_DISCARD)
         p.run_discard = 0;
+    if (i % 4 == 1)
+        p.run_controller = FST_CONTROLLER_DAMPED;
     if (i % 6 == 3)
         p.model_dynamics = FST_DYNAMICS_FARAGO2020;
     if (i == 7)
         p.magnet_lines = 3; /* shares no batch with the others */
     if (i == 13)
         p.start_r = p.model_eps = 0.2; /* a start in free rolling does not exist here */
+    if (i == SETTLING) {
+        p = fst_default_params(); /* a libration that is known by the maxima of r */
+        p.drive_frequency = 7.29;
+        p.model_kappa = 1.035;
+        p.run_periods = 120;
+        p.run_rtol = 1e-8;
+        p.run_until = FST_UNTIL_SETTLED;
+    }
     if (i >= REPEATING) {
         p = fst_default_params(); /* these repeat themselves, and are not observed for a part of their windows
                                    */
@@ -228,6 +238,8 @@ static void test_bits(void **state)
         for (int i = 0; i < JOBS; ++i)
             exponents += whole.statuses[i] == FST_OK && !isnan(whole.results[i].largest_exponent);
         assert_true(exponents > 2);
+        assert_int_equal(whole.results[SETTLING].regime, FST_REGIME_LIBRATING);
+        assert_true(whole.results[SETTLING].settled_at > 20.0);
         for (int patience = 3; patience < 30; patience += 17) {
             do_all(&parts, kinds[k].arithmetic, lanes, others, patience);
             assert_true(parts.broken_off > 3);

@@ -25,6 +25,8 @@ static fst_params job_params(int i)
     }
     if (i % 8 == 3)
         p.plate_radius = 0.0225; /* close to the start: ejected */
+    if (i % 4 == 3)
+        p.run_controller = FST_CONTROLLER_DAMPED;
     if (i == 9)
         p.friction_law = FST_FRICTION_NONE;
     if (i == 11)
@@ -36,7 +38,7 @@ static fst_params job_params(int i)
     if (i == 6 || i == 15) {
         p.run_until = FST_UNTIL_SETTLED;
         p.run_periods = 60;
-        p.run_rtol = 1e-7;
+        p.run_rtol = 1e-9;
     }
     return p;
 }

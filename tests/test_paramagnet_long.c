@@ -1,7 +1,8 @@
 /* test_paramagnet_long.c - the search for a paramagnetic bead that counter-rotates, at length.
  *
- * Thousands of starts over drives, strengths and places; none is left circling against the magnet.  And the law
- * of the transient: a weak bead forgets its free rolling the more slowly, the weaker it is, but it does.
+ * More than a thousand starts over drives, strengths and places; none is left circling against the magnet.  And
+ * the law of the transient: a weak bead forgets its free rolling the more slowly, the weaker it is, but it
+ * does.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +14,7 @@
 #include "host/parallel.h"
 #include "paper/paramagnet.h"
 
-enum { STARTS = 3000 };
+enum { STARTS = 1500 };
 
 static fst_status search_piece(void *user, int index, fst_error *error)
 {
@@ -21,7 +22,7 @@ static fst_status search_piece(void *user, int index, fst_error *error)
     return fst_search_one(index, FST_DYNAMICS_RIGID, &entries[index], error);
 }
 
-static void thousands_of_starts_do_not_counter_rotate(void **unused)
+static void many_starts_do_not_counter_rotate(void **unused)
 {
     (void)unused;
     static fst_search_entry entries[STARTS];
@@ -45,7 +46,7 @@ static void thousands_of_starts_do_not_counter_rotate(void **unused)
     print_message("with %d, standing %d, away %d; %d against the magnet at first, the last for %.0f periods\n",
                   fates[FST_FATE_WITH], fates[FST_FATE_STANDING], fates[FST_FATE_AWAY], at_first, longest);
     assert_int_equal(fates[FST_FATE_COUNTER], 0);
-    assert_true(at_first > 50); /* the search must meet beads that circle against the magnet at first */
+    assert_true(at_first > 150); /* the search must meet beads that circle against the magnet at first */
 }
 
 /* Drive periods after which a bead of strength a, rolling against the magnet at the start, has stopped doing
@@ -86,7 +87,7 @@ static void weak_beads_turn_later_but_turn(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(thousands_of_starts_do_not_counter_rotate),
+        cmocka_unit_test(many_starts_do_not_counter_rotate),
         cmocka_unit_test(weak_beads_turn_later_but_turn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

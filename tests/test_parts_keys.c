@@ -237,6 +237,17 @@ static void keys_are_set(void **state)
     p.magnet_shape = FST_MAGNET_LINES;
     assert_int_equal(fst_params_check_effects(&p, &error), FST_BAD_INPUT);
     CHECK_CONTAINS(error.sentence, "magnet.parts has no effect with magnet.shape lines");
+    static const char *const of_lines[][2] = {
+        {"magnet.lines", "7"}, {"magnet.width", "0.03"}, {"model.lambda", "0.4"}};
+    for (size_t i = 0; i < sizeof of_lines / sizeof *of_lines; ++i) {
+        p = whole();
+        p.magnet_shape = FST_MAGNET_PARTS;
+        assert_int_equal(fst_params_check_effects(&p, &error), FST_OK);
+        assert_int_equal(fst_params_set(&p, of_lines[i][0], of_lines[i][1], &error), FST_OK);
+        assert_int_equal(fst_params_check_effects(&p, &error), FST_BAD_INPUT);
+        assert_string_equal(error.where, of_lines[i][0]);
+        CHECK_CONTAINS(error.sentence, "has no effect with magnet.shape parts: choose lines");
+    }
 }
 
 static fst_groups groups_of(const fst_params *p)
@@ -452,8 +463,16 @@ static void parts_are_seen(void **state)
     part = (fst_magnet_part){.kind = FST_PART_SPHERE, .size = {0.02}, .rotation = {30, 0, 1, 0}};
     seen = fst_part_seen(&part);
     assert_int_equal(seen.count, FST_OUTLINE_MOST);
-    for (int k = 0; k < seen.count; ++k)
-        CHECK_CLOSE(hypot(seen.corners[k][0], seen.corners[k][1]), 0.01, 1e-15);
+    for (int k = 0; k < seen.count; ++k) {
+        const double *a = seen.corners[k], *b = seen.corners[(k + 1) % seen.count];
+        CHECK_CLOSE(hypot(a[0], a[1]), 0.01, 1e-15);
+        assert_true(hypot(0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])) > 0.999 * 0.01); /* round to a pixel */
+    }
+    part.kind = FST_PART_CYLINDER;
+    part.size[1] = 0.005;
+    part.rotation[0] = 0;
+    seen = fst_part_seen(&part);
+    assert_true(seen.count >= 90); /* both rims in one */
     part = (fst_magnet_part){.kind = FST_PART_CYLINDER, .size = {0.02, 0.03}, .rotation = {90, 1, 0, 0}};
     seen = fst_part_seen(&part); /* lying: its axis along -y */
     CHECK_CLOSE(seen.high, 0.01, 1e-15);

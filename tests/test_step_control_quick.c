@@ -41,6 +41,24 @@ static void test_factors(void **state)
     CHECK_CLOSE(fst_step_factor_double(1e300), 1.0 / 6.0, 0.0);
 }
 
+/* Damped: 0.9 e^(-3/32) e_0^(1/32), where e_0 is the error of the accepted step before, 1 before the first. */
+static void test_damped_factors(void **state)
+{
+    (void)state;
+    static const double errors[] = {0.5, 0.02, 0.9, 0.3};
+    fst_step_control_double plain = control_of(1.0), damped = control_of(1.0);
+    damped.damped = 1.0;
+    double before = 1.0;
+    for (int i = 0; i < 4; ++i) {
+        const double e = errors[i], factor = fst_step_factor_double(e);
+        assert_true(fst_factor_in_use_double(&plain, REAL_EVERYWHERE, factor) == factor);
+        CHECK_CLOSE(fst_factor_in_use_double(&damped, REAL_EVERYWHERE, factor),
+                    0.9 * pow(e, -3.0 / 32.0) * pow(before, 1.0 / 32.0), 1e-15);
+        before = e;
+    }
+    assert_true(plain.root == 1.0);
+}
+
 /* A step that was shortened to land leaves a longer proposal as it was. After a failed try the next step of a
  * run must not grow; that of a tangent may. */
 static void test_proposals(void **state)
@@ -89,9 +107,8 @@ static void test_giving_up(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_planning),
-        cmocka_unit_test(test_factors),
-        cmocka_unit_test(test_proposals),
+        cmocka_unit_test(test_planning),       cmocka_unit_test(test_factors),
+        cmocka_unit_test(test_damped_factors), cmocka_unit_test(test_proposals),
         cmocka_unit_test(test_giving_up),
     };
     return cmocka_run_group_tests_name("step_control", tests, NULL, NULL);

@@ -251,7 +251,7 @@ class Exports(Case):
                 text = row[name]
                 if text == "" or (name == "status" and text != "done"):
                     self.assertTrue(math.isnan(value), name)
-                elif name in ("status", "regime", "symmetry", "dynamics", "model.dynamics"):
+                elif name in ("status", "regime", "symmetry", "dynamics", "model.dynamics", "controller"):
                     self.assertEqual(codes[int(value)], text)
                 else:
                     self.assertEqual(value, float(text), name)

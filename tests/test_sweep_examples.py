@@ -16,8 +16,8 @@ EXAMPLES = os.path.join(os.environ["SOURCE_DIR"], "examples")
 
 
 class Examples(Case):
-    def run_example(self, name, count, **environment):
-        done = subprocess.run([os.path.join(EXAMPLES, name), str(count)], cwd=self.directory, timeout=1000,
+    def run_example(self, name, *counts, **environment):
+        done = subprocess.run([os.path.join(EXAMPLES, name), *map(str, counts)], cwd=self.directory, timeout=1000,
                               env=dict(os.environ, FESTOON=FESTOON, **environment), stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -48,6 +48,11 @@ class Examples(Case):
         self.assertEqual(self.query("sweep-frequency-kappa.db", "SELECT count(*) FROM rows"), [(16,)])
         self.is_png("sweep-frequency-kappa.png")
         self.is_png("sweep-frequency-kappa-radius.png")
+
+    def test_refined(self):
+        self.assertIn("of 81", self.run_example("sweep-refined.sh", 9, 1))
+        self.assertIn("0 of them new", self.run_example("sweep-refined.sh", 9, 2))
+        self.is_png("sweep-refined.png")
 
     def test_basins(self):
         """Half a turn apart, starts end on orbits that are each other's image: opposite <n_z>, equal <r>."""

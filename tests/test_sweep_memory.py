@@ -73,6 +73,15 @@ class Memory(Case):
             self.assertGreaterEqual(events.rows(self.path(f"{count}.db")), FEW)
             self.assertLess(large - small, MEBIBYTES, (small, large))
 
+    def test_refined(self):
+        """The memory of a refined sweep follows the points that it computes, some thousand of a thousand million."""
+        status, small = peak(*self.command(FEW))
+        self.assertEqual(status, 0)
+        status, large = peak(*self.command(1000000000, "--refine", "20"))
+        self.assertEqual(status, 0)
+        self.assertTrue(900 < events.rows(self.path("1000000000.db")) < 10000)
+        self.assertLess(large - small, MEBIBYTES, (small, large))
+
     def test_chains(self):
         words = ["--over", "model.kappa=1,2", "--carry", "up"]
         status, small = peak(*self.command(FEW, *words))

@@ -70,7 +70,7 @@ class Over(Case):
 
 class Keys(Over):
     def test_every_key_of_the_schema(self):
-        keys = {row["key"]: row for row in json.loads(self.good("schema", "--json"))}
+        keys = {row["key"]: row for row in json.loads(self.good("schema", "--json")) if not row["parts"]}
         numbers = {key for key, row in keys.items() if row["kind"] == "real"}
         self.assertEqual(numbers, set(RANGES))
         self.assertEqual({key for key, row in keys.items() if row["kind"] == "integer" or row["kind"] == "int"},

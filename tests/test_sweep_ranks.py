@@ -81,6 +81,15 @@ class SameRows(RankCase):
         self.assertIn('"added": 0', self.sweep(3, "a.db", *SMALL, "--json"))
 
 
+    def test_refined_sweeps(self):
+        words = [*SHORT, "--set", "plate.radius=6cm", "--over", "start.r=0.3:2.9:33", "--over", "model.kappa=0.2:2:22",
+                 "--refine", "3"]
+        self.good("sweep", *words, "-o", self.path("alone.db"))
+        for ranks in (2, 3):
+            self.sweep(ranks, f"{ranks}.db", *words)
+            self.assertEqual(self.rows(f"{ranks}.db"), self.rows("alone.db"))
+
+
 class Deaths(RankCase):
     def whole(self, count):
         """The rows of so many points, computed by one process."""

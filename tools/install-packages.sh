@@ -35,7 +35,7 @@ bench_packages="$build_packages g++ gnuplot-nox libgsl-dev libboost-dev python3-
 docs_packages="$build_packages doxygen"
 format_packages="clang-format"
 deb_packages="$build_packages $python_packages dpkg-dev debhelper dh-python lintian"
-ci_packages="$long_packages dpkg-dev debhelper dh-python lintian zsh fish clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev libboost-dev librsvg2-bin"
+ci_packages="$long_packages make dpkg-dev debhelper dh-python lintian zsh fish clang libclang-rt-14-dev clang-format valgrind doxygen libgsl-dev libboost-dev librsvg2-bin"
 
 only_list=
 if [ "${1-}" = --list ]; then

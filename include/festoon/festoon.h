@@ -101,6 +101,7 @@ typedef enum { FST_DYNAMICS_RIGID, FST_DYNAMICS_FARAGO2020 } fst_dynamics;
 typedef enum { FST_PATCH_POINT, FST_PATCH_HERTZ, FST_PATCH_PADE } fst_contact_patch;
 typedef enum { FST_SPIN_ROLLING, FST_SPIN_REST } fst_start_spin;
 typedef enum { FST_UNTIL_PERIODS, FST_UNTIL_SETTLED } fst_run_until;
+typedef enum { FST_CONTROLLER_PLAIN, FST_CONTROLLER_DAMPED } fst_controller;
 typedef enum { FST_METHOD_EVENTS, FST_METHOD_SPLITTING } fst_method;
 
 /* The kinds of unit that a parameter may carry (params.def). */
@@ -240,7 +241,7 @@ FST_API fst_status fst_params_check_part(const fst_params *params, int part, fst
 /* A part of a magnet as pictures show it, in m along the magnet's axes: its outline seen from above (a convex
  * polygon, anticlockwise; none of a dipole), between which heights it lies, and how it is magnetised (T; a
  * dipole: A m^2). */
-enum { FST_OUTLINE_MOST = 48 };
+enum { FST_OUTLINE_MOST = 192 };
 typedef struct fst_part_shape {
     int count; /* of corners */
     double corners[FST_OUTLINE_MOST][2];
@@ -388,9 +389,10 @@ typedef struct fst_flow_options {
     /* Asked by each call of fst_flow_advance(), by the fraction of its time that is done (NULL: nobody is
      * asked).  After a status other than FST_OK the flow stands where it was last, and may go on. */
     const fst_progress *progress;
+    fst_controller controller; /* run.controller: how the next step's size follows from errors */
 } fst_flow_options;
 
-/* rtol = atol = 1e-10, no bound on the step, no ramp. */
+/* rtol = atol = 1e-10, no bound on the step, no ramp, the plain controller. */
 FST_API fst_flow_options fst_default_flow_options(void);
 
 typedef struct fst_flow fst_flow;
@@ -571,12 +573,16 @@ typedef struct fst_row_job {
     double start[FST_STATE_SIZE];
 } fst_row_job;
 
+enum { FST_JOBS_LATER = -1 };
+
 /* Where runs come from and where their results go. */
 typedef struct fst_row_work {
     void *user;
     fst_arithmetic arithmetic;
     int lanes; /* runs side by side: 1, 4 or 8; 0: as many as suit the processor */
-    /* Fill in the next job and return 1; return 0 where there is none. */
+    /* Fill in the next job and return 1; return 0 where there is none, and FST_JOBS_LATER where some may come
+     * when others are done.  fst_rows() then goes on with the runs that it has, and asks again; it returns when
+     * it has none, and may be called again. */
     int (*next)(void *user, fst_row_job *job);
     /* Take a result; for a run that failed `status` and `error` say why.  Return 1 after filling in the job
      * that is to follow at once, otherwise 0. */

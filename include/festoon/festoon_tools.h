@@ -307,6 +307,9 @@ typedef enum { FST_CARRY_NO, FST_CARRY_UP, FST_CARRY_DOWN } fst_carry;
 /* How far a sweep is, or how it ended. */
 typedef struct fst_sweep_counts {
     int64_t points, there; /* points of the grid, and how many of them have a row */
+    /* Points that this call wants to have rows, as far as it is known; how many of them have one; and about how
+     * many it will be in the end.  Without refining these are `points`, `there` and `points`. */
+    int64_t wanted, computed, expected;
     int64_t added, failed; /* rows added by this call, and how many of these are runs that failed */
     double seconds;        /* since the beginning of the call */
     double processor_seconds, journal_seconds; /* processor time of this process, and how much of it the thread
@@ -339,6 +342,14 @@ typedef struct fst_sweep_options {
      * goes on from there; 3 by default.  With n threads in all ranks and n > 8, (n + 7)/8 times as many,
      * rounded down. */
     double checkpoint_seconds;
+    /* 0: every point is computed.  N: first every 2^N-th point of each axis LO:HI:COUNT (and its last one),
+     * then those between, halving the distance N times, where the key `refine_by` (NULL: the regime) differs
+     * between neighbours: a number by more than `refine_step`, in its scaled unit.  Other axes are not refined:
+     * each combination of their values is refined by itself.  The points follow from the rows alone.  A later
+     * call on the file may refine otherwise, or not: it keeps all rows, and adds what it lacks. */
+    int refine;
+    const char *refine_by;
+    double refine_step;
 } fst_sweep_options;
 FST_API fst_sweep_options fst_default_sweep_options(void);
 
@@ -377,9 +388,19 @@ FST_API fst_status fst_sweep_export_keys(const char *path, const char *const *ke
 typedef struct fst_sweep_table {
     fst_grid *grid;
     double *values;
+    unsigned char *computed; /* by point: 1 where there is a row */
+    int64_t rows;
+    int refine; /* as in the options of the last fst_sweep() */
 } fst_sweep_table;
 FST_API fst_status fst_sweep_read(const char *path, const char *const *keys, int count, fst_sweep_table *table,
                                   fst_error *error);
+
+/* The same, of at most FST_SWEEP_FILLED_KEYS keys, where a refined sweep has also values for the points
+ * between: in a cell that was not refined, regimes and symmetries are those of its corners if these agree, and
+ * numbers are interpolated between them.  Others stay NAN. */
+enum { FST_SWEEP_FILLED_KEYS = 8 };
+FST_API fst_status fst_sweep_read_filled(const char *path, const char *const *keys, int count,
+                                         fst_sweep_table *table, fst_error *error);
 FST_API void fst_sweep_table_free(fst_sweep_table *table);
 
 /* Read only the grid; free it with fst_grid_free(). */

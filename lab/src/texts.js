@@ -56,7 +56,7 @@ const EN = {
         "contact.radius": "Radius of the patch", "contact.modulus": "Contact modulus", "impact.restitution": "Bounce", "model.dynamics": "Equations",
         "model.kappa": "Magnetic strength κ", "model.eps": "Scaled radius ε", "model.h": "Scaled height h", "model.lambda": "Scaled spacing λ",
         "plate.radius": "Radius of the plate", "plate.gravity": "Gravity", "start.r": "Start: distance", "start.phi": "Start: angle Φ", "start.spin": "Start: spin",
-        "run.periods": "Turns of a run", "run.discard": "Turns left out", "run.rtol": "Tolerance", "run.samples": "Samples a turn", "run.method": "Method", "run.step": "Step", "run.until": "End of a run",
+        "run.periods": "Turns of a run", "run.discard": "Turns left out", "run.rtol": "Tolerance", "run.samples": "Samples a turn", "run.method": "Method", "run.step": "Step", "run.until": "End of a run", "run.controller": "Step control",
     },
     groups: { bead: "Bead", magnet: "Magnet", drive: "Drive", friction: "Friction", contact: "Contact", impact: "Impact", model: "Model", plate: "Plate", start: "Start", run: "Run" },
     about: (name) => `About: ${name}`, slider: (name) => `${name}, slider`, notGiven: "not given",

@@ -139,7 +139,9 @@ def _about_sweep(s: Any) -> str:
     base = Bead._of(lib.fst_grid_base(s._grid)[0], s._map)
     varied = [axis.key for axis in s.axes]
     words = "" if "model.dynamics" in varied else f"dynamics {base.model__dynamics}, "
-    return f"{words}{s.size} runs of {base.run__periods:g} turns of the magnet"
+    count = int(s.computed.sum())
+    part = "" if s.complete else f" at {100 * count / s.size:.3g} % of {s.size} points"
+    return f"{words}{count} runs of {base.run__periods:g} turns of the magnet{part}"
 
 
 def _regime_marks(ax: Any, x: Any, y: Any, regimes: Any) -> None:
@@ -184,16 +186,19 @@ def _curves(s: Any, y: str, sides: List[_Side], units: str, free: bool, ax: Any)
 def _map(s: Any, y: str, sides: List[_Side], units: str, ax: Any) -> Any:
     right, up = sides
     values, label, words = _sweep_values(s, y, units)
-    values = values if up.along == 0 else values.T
-    for side, along in ((up, 0), (right, 1)):
+    between = np.full(s.shape, np.nan) if s._between is None else s._between[s._points]
+    both = np.stack([values, between])
+    both = both if up.along == 0 else both.transpose(0, 2, 1)
+    for side, along in ((up, 1), (right, 2)):
         order = np.unique(side.values, return_index=True)[1]
-        values, side.values = np.take(values, order, axis=along), side.values[order]
+        both, side.values = np.take(both, order, axis=along), side.values[order]
+    values, between = both
     ax = _style.axes(ax, 6.0, 5.0)
     title = f"{words} over {right.words} and {up.words}"
     _style.dress(ax, title[0].upper() + title[1:], _about_sweep(s), right.label, up.label)
     ax.grid(False)
     if y == "regime":
-        _regime_cells(ax, right.edges(), up.edges(), values)
+        _regime_cells(ax, right.edges(), up.edges(), values, between, "failed" if s.complete else "not run, or failed")
     elif not np.isfinite(values).any():
         raise BadInput("y", f"no run of this sweep has a value of {y}")
     else:
@@ -205,16 +210,25 @@ def _map(s: Any, y: str, sides: List[_Side], units: str, ax: Any) -> Any:
     return ax
 
 
-def _regime_cells(ax: Any, x: Any, y: Any, values: Any) -> None:
-    from matplotlib.colors import ListedColormap
+def _regime_cells(ax: Any, x: Any, y: Any, values: Any, between: Any, lacking: str) -> None:
+    """Cells in the colours of their regimes; paler those without a run, between runs that agree."""
+    from matplotlib.colors import ListedColormap, to_rgb
     from matplotlib.patches import Patch
 
     looks = [_style.look("regime", i) for i in range(len(REGIMES))]
     colours = ListedColormap([colour for _, colour in looks])
     colours.set_bad("white")
     ax.pcolormesh(x, y, values, cmap=colours, vmin=-0.5, vmax=len(looks) - 0.5, rasterized=True)
+    has_pale = bool(np.isfinite(between).any())
+    pale = ListedColormap([0.5 + 0.5 * np.array(to_rgb(colour)) for _, colour in looks])
+    pale.set_bad((1.0, 1.0, 1.0, 0.0))
+    if has_pale:
+        ax.pcolormesh(x, y, between, cmap=pale, vmin=-0.5, vmax=len(looks) - 0.5, rasterized=True)
+    values = np.where(np.isfinite(values), values, between)
     there = np.unique(values[np.isfinite(values)]).astype(int)
     handles = [Patch(color=looks[i][1], label=looks[i][0]) for i in there]
+    if has_pale:
+        handles.append(Patch(color=pale(0), label="paler: not run"))
     if not np.isfinite(values).all():
-        handles.append(Patch(facecolor="white", edgecolor="#888888", label="failed"))
+        handles.append(Patch(facecolor="white", edgecolor="#888888", label=lacking))
     _style.key_below(ax, handles)

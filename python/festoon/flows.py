@@ -15,13 +15,15 @@ STOPS = {
     "edge": lib.FST_STOP_EDGE,
     "lift-off": lib.FST_STOP_LIFT_OFF,
 }
+CONTROLLERS = {"plain": lib.FST_CONTROLLER_PLAIN, "damped": lib.FST_CONTROLLER_DAMPED}
 NAMES = {number: name for name, number in STOPS.items()}
 
 
 class Flow:
     """A trajectory from a state at t = 0 (that of start.*, unless given), in the turning frame.
 
-    Options are those of the integration: rtol and atol (one number or ten), first_step, greatest_step, ramp;
+    Options are those of the integration: rtol and atol (one number or ten), first_step, greatest_step, ramp,
+    and controller, "plain" or "damped" (run.controller);
     `progress` is told of each advance().
 
     >>> flow = Bead().flow()
@@ -38,8 +40,14 @@ class Flow:
         self.stop = ""
         chosen = options_of(lib.fst_default_flow_options())
         for name, value in options.items():
-            if name not in ("rtol", "atol", "first_step", "greatest_step", "ramp"):
-                raise BadInput("flow", f'unknown option "{name}": rtol, atol, first_step, greatest_step, ramp')
+            if name not in ("rtol", "atol", "first_step", "greatest_step", "ramp", "controller"):
+                raise BadInput(
+                    "flow", f'unknown option "{name}": rtol, atol, first_step, greatest_step, ramp, controller'
+                )
+            if name == "controller":
+                if value not in CONTROLLERS:
+                    raise BadInput("flow", f'unknown controller "{value}": plain or damped')
+                value = CONTROLLERS[value]
             if name == "atol":
                 value = list(np.broadcast_to(np.asarray(value, float), lib.FST_STATE_SIZE))
             setattr(chosen, name, value)

@@ -85,6 +85,8 @@ class Sweep(SweepNumbers):
 
     def __init__(self, rows: Any, grid: Any, owner: Any, field_map: Any = None) -> None:
         self._rows, self._grid, self._owner, self._map = rows, grid, owner, field_map
+        #: Of a refined sweep: by point the regime of runs around it that agree, where none was made; else NaN.
+        self._between: Any = None
         self.axes = [Axis(grid, i) for i in range(lib.fst_grid_axis_count(grid))]
         #: The name and the length of each dimension.
         self.dims: Tuple[str, ...] = ()
@@ -217,6 +219,11 @@ class Sweep(SweepNumbers):
     def failed(self) -> Any:
         """Where a run failed."""
         return self._status() > lib.FST_OK
+
+    @property
+    def computed(self) -> Any:
+        """Where a run was made, failed or not: everywhere, unless the sweep was refined or interrupted."""
+        return self._status() != NOT_RUN
 
     @property
     def complete(self) -> bool:
@@ -404,6 +411,7 @@ def _into_file(
     threads: int,
     lanes: int,
     portable: bool,
+    refining: Tuple[int, Optional[str], float],
     progress: Progress,
 ) -> Sweep:
     options = options_of(lib.fst_default_sweep_options())
@@ -414,6 +422,9 @@ def _into_file(
 
         raise BadInput("fst_sweep_options.carry", f'unknown direction "{carry}": up or down')
     options.carry, options.threads, options.lanes = CARRY[carry], threads, lanes
+    levels, by, step = refining
+    key = ffi.new("char[]", by.encode()) if by else ffi.NULL
+    options.refine, options.refine_by, options.refine_step = levels, key, step
     if portable:
         options.arithmetic = lib.FST_ARITHMETIC_PORTABLE
     counts = ffi.new("fst_sweep_counts *")
@@ -432,6 +443,9 @@ def sweep(
     lanes: int = 0,
     portable: bool = False,
     seed: int = 0,
+    refine: int = 0,
+    refine_by: Optional[str] = None,
+    refine_step: float = 0.0,
     progress: Progress = None,
     **axes: Any,
 ) -> Sweep:
@@ -450,6 +464,11 @@ def sweep(
         Arithmetic that gives the bits of Bead.run() on every machine; slower.
     seed
         Of random axes.
+    refine
+        N: compute every 2**N-th value of each axis "LO:HI:COUNT" first, then those between, N times, where the
+        regime differs between neighbours.  Numbers are NaN at points that were not `computed`.
+    refine_by, refine_step
+        Refine where this number differs by more than the step, instead.
 
     A run that fails is a row of NaN with an error, not an exception.  Ctrl-C raises `Interrupted`, whose
     `partial` is the sweep with the rows that were done.
@@ -462,12 +481,13 @@ def sweep(
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]
     count = threads or len(os.sched_getaffinity(0))
     grid = _new_grid(bead, texts, seed)
+    refining = (refine, refine_by, refine_step)
     if file is not None:
-        return _into_file(bead, texts, file, seed, carry, count, lanes, portable, progress)
-    if carry is not None:
+        return _into_file(bead, texts, file, seed, carry, count, lanes, portable, refining, progress)
+    if carry is not None or refine != 0:
         with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
             path = os.path.join(folder, "sweep.db")
-            return _into_file(bead, texts, path, seed, carry, count, lanes, portable, progress)
+            return _into_file(bead, texts, path, seed, carry, count, lanes, portable, refining, progress)
     return _in_memory(grid, bead._map, count, lanes, portable, progress)
 
 
@@ -496,6 +516,23 @@ def _fill(row: Any, given: Mapping[str, Any], texts: Mapping[str, int]) -> None:
     result.final_state = given["final_state"]
 
 
+def _regimes_between(path: Path) -> Any:
+    """The regimes that a refined sweep gives to points without a run; None: it is not refined, or damaged."""
+    keys, _kept = strings(["regime"])
+    table = ffi.new("fst_sweep_table *")
+    if lib.fst_sweep_read_filled(path_bytes(path), keys, 1, table, new_error()) != lib.FST_OK:
+        return None
+    try:
+        if table.refine == 0:
+            return None
+        count = int(lib.fst_grid_points(table.grid))
+        values = np.frombuffer(ffi.buffer(table.values, 8 * count)).copy()
+        values[np.frombuffer(ffi.buffer(table.computed, count), np.uint8) == 1] = np.nan
+        return values
+    finally:
+        lib.fst_sweep_table_free(table)
+
+
 def read_sweep(path: Path) -> Sweep:
     """Read a sweep's database."""
     found = ffi.new("fst_grid **")
@@ -517,4 +554,6 @@ def read_sweep(path: Path) -> Sweep:
     texts = {text_of(lib.fst_status_text(i)): i for i in range(lib.FST_INTERRUPTED + 1)}
     for row in given:
         _fill(rows[row["point"]], row, texts)
-    return _sweep_of(batch, grid)
+    made = _sweep_of(batch, grid)
+    made._between = _regimes_between(path)
+    return made

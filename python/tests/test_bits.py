@@ -27,6 +27,7 @@ def same(ours, theirs):
     [
         {"frequency": "8 Hz"},
         {"kappa": 1.2, "omega": 0.3, "model__dynamics": "farago2020"},
+        {"omega": 0.405, "run__controller": "damped"},
         {"friction__law": "coulomb", "friction__mu": 0.1, "run__periods": 30},
     ],
 )

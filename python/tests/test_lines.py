@@ -236,6 +236,25 @@ def test_sweep_in_a_file_goes_on(tmp_path):
     assert carried.mean_r[0] == first.mean_r[0] and carried.mean_r[1] != first.mean_r[1]
 
 
+def test_a_refined_sweep(bead):
+    bead = bead.replace(plate__radius="6 cm", run__periods=4, run__discard=2)
+    axes = {"start__r": "0.3:2.9:33", "kappa": "0.2:2:22"}
+    whole = fs.sweep(bead, **axes)
+    part = fs.sweep(bead, **axes, refine=3)
+    assert part.shape == whole.shape and not part.complete and whole.computed.all()
+    assert 0.2 < part.computed.mean() < 0.7
+    assert np.array_equal(part.mean_r[part.computed], whole.mean_r[part.computed], equal_nan=True)
+    assert np.isnan(part.mean_r[~part.computed]).all()
+    # Where runs around a point agree, its regime is known, as the whole sweep has it but for missed islands.
+    names = np.array([*fs.sweeps.REGIMES, ""])
+    between = part._between.reshape(part.shape)
+    known = np.isfinite(between)
+    assert not (known & part.computed).any() and known.mean() > 0.3
+    assert (names[between[known].astype(int)] != whole.regime[known]).sum() <= 15
+    with pytest.raises(fs.BadInput, match="by how much"):
+        fs.sweep(bead, **axes, refine=3, refine_by="mean_r")
+
+
 def test_progress_is_told(bead):
     told = []
     fs.sweep(bead, frequency="9:12:8", progress=lambda fraction, what: told.append(fraction))

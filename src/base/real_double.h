@@ -56,7 +56,8 @@ static inline double fst_double_of_bits(uint64_t bits)
     return x;
 }
 
-#define REAL_BITS uint64_t /* a double as the computer stores it: sign, exponent, fraction */
+#define REAL_PAIR fst_two_doubles /* two numbers that are stored at once */
+#define REAL_BITS uint64_t        /* a double as the computer stores it: sign, exponent, fraction */
 #define REAL_AS_BITS(x) fst_bits_of_double(x)
 #define REAL_OF_BITS(bits) fst_double_of_bits(bits)
 

@@ -44,6 +44,7 @@
 #undef REAL_QUOTIENT
 #undef RHS_KIND
 #undef REAL_BITS
+#undef REAL_PAIR
 #undef REAL_AS_BITS
 #undef REAL_OF_BITS
 

@@ -95,7 +95,7 @@ static void print_value(FILE *out, const option *row)
         (void)fputs("_festoon_key \"$value\" \"$lead\"", out);
         break;
     case VALUE_KEYS:
-        (void)fputs("_festoon_list \"$rest\" \"$lead\" ${_festoon_keys//=/}", out);
+        (void)fputs("_festoon_list \"$rest\" \"$lead\" \"${_festoon_keys[@]%=}\"", out);
         break;
     case VALUE_RESULTS:
         (void)fputs("_festoon_list \"$rest\" \"$lead\" $_festoon_results", out);
@@ -120,16 +120,16 @@ static void print_settings(FILE *out)
     (void)fputs("_festoon_key() {\n"
                 "    [[ $1 == *=* ]] && return\n"
                 "    compopt -o nospace 2>/dev/null\n"
-                "    _festoon_words \"$1\" \"$2\" $_festoon_keys\n"
+                "    _festoon_words \"$1\" \"$2\" \"${_festoon_keys[@]}\"\n"
                 "}\n\n"
                 "# $1: all of KEY=VALUE; $2: what is typed of the value; $3: what goes before it.\n"
                 "_festoon_setting() {\n"
                 "    case $1 in\n",
                 out);
-    for (int i = 0; i < fst_param_count(); ++i)
-        if (fst_param_at(i)->kind == FST_KIND_CHOICE) {
-            (void)fprintf(out, "    %s=*) _festoon_words \"$2\" \"$3\"", fst_param_at(i)->key);
-            print_words(out, fst_param_at(i)->names, " ", "");
+    for (int i = 0; offered_param(i); ++i)
+        if (offered_param(i)->kind == FST_KIND_CHOICE) {
+            (void)fprintf(out, "    '%s='*) _festoon_words \"$2\" \"$3\"", offered_param(i)->key);
+            print_words(out, offered_param(i)->names, " ", "");
             (void)fputs(" ;;\n", out);
         }
     (void)fputs("    *) _festoon_key \"$1\" \"$3\" ;;\n"
@@ -145,9 +145,9 @@ void print_bash(FILE *out)
     (void)fputs("_festoon_commands='", out);
     for (const command *const *row = all_commands; *row; ++row)
         (void)fprintf(out, "%s ", (*row)->name);
-    (void)fputs("help completion --help --version'\n_festoon_keys='", out);
-    print_keys(out, "", "= ");
-    (void)fputs("'\n_festoon_results='", out);
+    (void)fputs("help completion --help --version'\n_festoon_keys=(", out);
+    print_keys(out, " '", "='");
+    (void)fputs(")\n_festoon_results='", out);
     print_results(out, "", " ");
     (void)fputs("'\n_festoon_columns='", out);
     print_columns(out, "", " ");

@@ -13,8 +13,8 @@ static void print_description(FILE *out, const char *text)
 /* KEY= of each parameter, or KEY=CHOICE. */
 static void print_settings(FILE *out)
 {
-    for (int i = 0; i < fst_param_count(); ++i) {
-        const fst_param_info *info = fst_param_at(i);
+    for (int i = 0; offered_param(i); ++i) {
+        const fst_param_info *info = offered_param(i);
         char before[64];
         (void)snprintf(before, sizeof before, " %s=", info->key);
         if (info->kind == FST_KIND_CHOICE)

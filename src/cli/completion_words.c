@@ -15,7 +15,7 @@ value_kind kind_of_value(const option *row)
         return VALUE_KEY;
     if (strcmp(row->value, "KEY,KEY") == 0)
         return VALUE_KEYS;
-    if (strcmp(row->value, "KEY,...") == 0)
+    if (strcmp(row->value, "KEY,...") == 0 || strcmp(row->value, "KEY[:STEP]") == 0)
         return VALUE_RESULTS;
     if (strcmp(row->value, "COLUMN") == 0)
         return VALUE_COLUMN;
@@ -37,10 +37,15 @@ void print_words(FILE *out, const char *list, const char *before, const char *be
     }
 }
 
+const fst_param_info *offered_param(int index)
+{
+    return index < fst_param_count() || fst_param_part(index) == 0 ? fst_param_at(index) : NULL;
+}
+
 void print_keys(FILE *out, const char *before, const char *behind)
 {
-    for (int i = 0; i < fst_param_count(); ++i)
-        (void)fprintf(out, "%s%s%s", before, fst_param_at(i)->key, behind);
+    for (int i = 0; offered_param(i); ++i)
+        (void)fprintf(out, "%s%s%s", before, offered_param(i)->key, behind);
 }
 
 void print_results(FILE *out, const char *before, const char *behind)

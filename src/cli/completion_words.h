@@ -22,7 +22,11 @@ value_kind kind_of_value(const option *row);
 /* Print what stands between the bars of "a|b|c", a word each: `before`, the word, `behind`. */
 void print_words(FILE *out, const char *list, const char *before, const char *behind);
 
-/* The same for the keys of all parameters, for the results of a run, and for the columns of a trajectory. */
+/* The parameters that are offered: all, and behind them those of a magnet's first part, which the others have
+ * too. NULL behind the last. */
+const fst_param_info *offered_param(int index);
+
+/* The same for their keys, for the results of a run, and for the columns of a trajectory. */
 void print_keys(FILE *out, const char *before, const char *behind);
 void print_results(FILE *out, const char *before, const char *behind);
 void print_columns(FILE *out, const char *before, const char *behind);

@@ -73,13 +73,13 @@ static void print_settings(FILE *out)
     (void)fputs("_festoon_key() {\n"
                 "    compset -P '*=' || compadd -S = -q -- ",
                 out);
-    print_keys(out, "", " ");
+    print_keys(out, "'", "' ");
     (void)fputs("\n}\n\n"
                 "_festoon_keys() {\n"
                 "    compset -P '*,'\n"
                 "    compadd -S , -q -- ",
                 out);
-    print_keys(out, "", " ");
+    print_keys(out, "'", "' ");
     (void)fputs("\n}\n\n"
                 "_festoon_results() {\n"
                 "    compset -P '*,'\n"
@@ -94,10 +94,10 @@ static void print_settings(FILE *out)
                 "    fi\n"
                 "    case ${${IPREFIX%=}##*=} in\n",
                 out);
-    for (int i = 0; i < fst_param_count(); ++i)
-        if (fst_param_at(i)->kind == FST_KIND_CHOICE) {
-            (void)fprintf(out, "    %s) compadd --", fst_param_at(i)->key);
-            print_words(out, fst_param_at(i)->names, " ", "");
+    for (int i = 0; offered_param(i); ++i)
+        if (offered_param(i)->kind == FST_KIND_CHOICE) {
+            (void)fprintf(out, "    '%s') compadd --", offered_param(i)->key);
+            print_words(out, offered_param(i)->names, " ", "");
             (void)fputs(" ;;\n", out);
         }
     (void)fputs("    esac\n}\n\n", out);

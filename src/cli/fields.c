@@ -11,6 +11,8 @@ static const struct {
     {"fst_grid.axes", "--over"},
     {"fst_sweep_options.lanes", "--lanes"},
     {"fst_sweep_options.carry", "--carry"},
+    {"fst_sweep_options.refine", "--refine"},
+    {"fst_sweep_options.refine_by", "--refine-by"},
     {"fst_sweep_options.checkpoint_seconds", "--checkpoint"},
     {"fst_sweep_export.out", "-o"},
     {"fst_sweep_read.keys", "--key"},

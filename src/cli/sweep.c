@@ -12,6 +12,10 @@ static const option options[] = {
     {"output", 'o', "FILE.db", "the database; the same command again goes on with it"},
     {"carry", '\0', "up|down",
      "start each point from the end of its neighbour along the first --over (hysteresis)"},
+    {"refine", '\0', "N",
+     "compute every 2^N-th value of each LO:HI:COUNT first, then N times between where the regime changes"},
+    {"refine-by", '\0', "KEY[:STEP]",
+     "refine where KEY changes instead: regime, symmetry, or a number that changes by more than STEP"},
     {"threads", '\0', "N", "number of threads (as many as this process has processors)"},
     {"seed", '\0', "N", "seed of the random values (1)"},
     {"portable", '\0', NULL,
@@ -49,7 +53,30 @@ static fst_status read_arithmetic(const char *word, fst_arithmetic *arithmetic, 
     return fail(error, FST_BAD_INPUT, "--arithmetic", "\"%.40s\" must be portable, avx2 or avx512", word);
 }
 
-static fst_status read_sweep(const arguments *given, const char **axes, fst_sweep_options *sweep,
+/* --refine N and --refine-by KEY[:STEP]; the key is copied to `key`. */
+static fst_status read_refining(const arguments *given, char key[64], fst_sweep_options *sweep,
+                                fst_error *error)
+{
+    const char *by = option_value(given, "refine-by");
+    double levels = 0;
+    fst_status status = read_whole(given, "refine", 1, 28, &levels, error);
+    sweep->refine = (int)levels;
+    if (status != FST_OK || !by)
+        return status;
+    if (sweep->refine == 0)
+        return fail(error, FST_BAD_INPUT, "--refine-by", "this belongs to --refine N, which is missing");
+    const size_t length = strcspn(by, ":");
+    (void)snprintf(key, 64, "%.*s", (int)(length < 63 ? length : 63), by);
+    sweep->refine_by = key;
+    if (by[length] == ':') {
+        status = read_numbers("--refine-by", by + length + 1, &sweep->refine_step, 1, error);
+        if (status == FST_OK && !(sweep->refine_step > 0))
+            status = fail(error, FST_BAD_INPUT, "--refine-by", "the step in \"%.80s\" must be positive", by);
+    }
+    return status;
+}
+
+static fst_status read_sweep(const arguments *given, const char **axes, char key[64], fst_sweep_options *sweep,
                              fst_error *error)
 {
     *sweep = fst_default_sweep_options();
@@ -72,6 +99,8 @@ static fst_status read_sweep(const arguments *given, const char **axes, fst_swee
     sweep->threads = (int)threads;
     sweep->seed = (uint64_t)seed;
     sweep->lanes = (int)lanes;
+    if (status == FST_OK)
+        status = read_refining(given, key, sweep, error);
     if (option_value(given, "portable"))
         sweep->arithmetic = FST_ARITHMETIC_PORTABLE;
     const char *arithmetic = option_value(given, "arithmetic");
@@ -120,7 +149,7 @@ static void look_for_contradiction(display *shown, const fst_params *params, con
 static fst_status show(void *user, double fraction, const char *part, fst_error *error)
 {
     (void)part;
-    char what[64];
+    char what[96];
     display *all = user;
     const fst_sweep_counts *p = &all->counts;
     warn_once(all, p->rank);
@@ -128,28 +157,34 @@ static fst_status show(void *user, double fraction, const char *part, fst_error 
         return interrupted() ? fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
     /* The fraction counts all rows, but the time left follows from the speed of this call. */
     const double rate = p->seconds > 0 ? (double)p->added / p->seconds : 0.0;
-    (void)snprintf(what, sizeof what, "%lld of %lld points, %.3g a second", (long long)p->there,
-                   (long long)p->points, rate);
-    return progress_show_left(&all->line, fraction, rate > 0 ? (double)(p->points - p->there) / rate : INFINITY,
-                              what, error);
+    const char *about = p->expected > p->wanted ? "about " : "";
+    (void)snprintf(what, sizeof what, "%lld of %s%lld points, %.3g a second", (long long)p->computed, about,
+                   (long long)p->expected, rate);
+    return progress_show_left(&all->line, fraction,
+                              rate > 0 ? (double)(p->expected - p->computed) / rate : INFINITY, what, error);
 }
 
-static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, int json)
+static void print_sweep(FILE *out, const char *path, const fst_sweep_counts *p, int refined, int json)
 {
     if (json) {
         (void)fprintf(
             out,
-            "{\n  \"points\": %lld,\n  \"rows\": %lld,\n  \"added\": %lld,\n  \"failed\": %lld,\n"
+            "{\n  \"points\": %lld,\n  \"computed\": %lld,\n  \"rows\": %lld,\n  \"added\": %lld,\n  "
+            "\"failed\": %lld,\n"
             "  \"lost\": %lld,\n"
             "  \"seconds\": %.17g,\n  \"processor_seconds\": %.17g,\n  \"journal_seconds\": %.17g\n}\n",
-            (long long)p->points, (long long)p->there, (long long)p->added, (long long)p->failed,
-            (long long)p->lost, p->seconds, p->processor_seconds, p->journal_seconds);
+            (long long)p->points, (long long)p->computed, (long long)p->there, (long long)p->added,
+            (long long)p->failed, (long long)p->lost, p->seconds, p->processor_seconds, p->journal_seconds);
         return;
     }
     char name[SHOWN_SIZE];
     path = shown(path, name);
-    (void)fprintf(out, "%s: all %lld points", path, (long long)p->points);
-    if (p->added < p->points)
+    if (refined)
+        (void)fprintf(out, "%s: %lld points, %.3g %% of %lld", path, (long long)p->computed,
+                      100.0 * (double)p->computed / (double)p->points, (long long)p->points);
+    else
+        (void)fprintf(out, "%s: all %lld points", path, (long long)p->points);
+    if (p->added < p->computed)
         (void)fprintf(out, ", %lld of them new", (long long)p->added);
     if (p->failed > 0)
         (void)fprintf(out, "; %lld runs failed, their rows say why", (long long)p->failed);
@@ -170,12 +205,13 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
     fst_sweep_options sweep;
+    char key[64];
     const char *axes[OPTION_LIMIT], *path = option_value(given, "output");
     if (!path)
         return fail(error, FST_BAD_INPUT, "", "say where the rows go: -o FILE.db");
     fst_status status = read_scene(given, operand(given), &params, error);
     if (status == FST_OK)
-        status = read_sweep(given, axes, &sweep, error);
+        status = read_sweep(given, axes, key, &sweep, error);
     if (status != FST_OK)
         return status;
     display shown = {.to_warn = 0};
@@ -197,10 +233,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         tell_of_repair(path, &shown.counts);
     if (status == FST_INTERRUPTED)
         return fail(error, FST_INTERRUPTED, path,
-                    "interrupted with %lld of %lld points done; the same command goes on",
-                    (long long)shown.counts.there, (long long)shown.counts.points);
+                    "interrupted with %lld of %s%lld points done; the same command goes on",
+                    (long long)shown.counts.computed, sweep.refine ? "about " : "",
+                    (long long)shown.counts.expected);
     if (status == FST_OK)
-        print_sweep(out, path, &shown.counts, option_value(given, "json") != NULL);
+        print_sweep(out, path, &shown.counts, sweep.refine > 0, option_value(given, "json") != NULL);
     return status;
 }
 
@@ -220,7 +257,9 @@ const command sweep_command = {
         "are\n"
         "shared between processes; interrupted, mpirun has a status of its own, and what was committed stays "
         "all\n"
-        "the same.\n",
+        "the same.  --refine N computes the boundaries of a map and leaves out what lies between points that "
+        "agree;\n"
+        "what is smaller than 2^N points may be missed.  Another N goes on with the same file.\n",
     .options = options,
     .most_operands = 1,
     .perform = perform,

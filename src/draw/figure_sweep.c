@@ -51,7 +51,8 @@ fst_status fst_figure_sweep(const char *path, const char *const *keys, int count
     if (status != FST_OK)
         return status;
     fst_sweep_table table;
-    status = fst_sweep_read(path, shown, shown_count, &table, error);
+    status = varied == 1 ? fst_sweep_read(path, shown, shown_count, &table, error)
+                         : fst_sweep_read_filled(path, shown, shown_count, &table, error);
     if (status != FST_OK)
         return status;
     status = varied == 1 ? fst_figure_sweep_curves(&table, quantities, shown_count, &axes[0], out, error)

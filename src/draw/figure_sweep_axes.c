@@ -77,8 +77,9 @@ void fst_sweep_words(const char *label, char words[128])
         *unit = '\0';
 }
 
-void fst_sweep_about(const fst_grid *grid, char *about, size_t size)
+void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
 {
+    const fst_grid *grid = table->grid;
     const fst_params *base = fst_grid_base(grid);
     const size_t used = strlen(about);
     (void)snprintf(about + used, size - used, "%s%s", used ? "; " : "",
@@ -86,8 +87,12 @@ void fst_sweep_about(const fst_grid *grid, char *about, size_t size)
     if (!varies(grid, "model.dynamics"))
         (void)snprintf(about + strlen(about), size - strlen(about), "%s, ",
                        fst_dynamics_name((fst_dynamics)base->model_dynamics));
+    const int64_t points = fst_grid_points(grid);
     (void)snprintf(about + strlen(about), size - strlen(about), "%lld runs of %g turns of the magnet",
-                   (long long)fst_grid_points(grid), base->run_periods);
+                   (long long)(table->refine ? table->rows : points), base->run_periods);
+    if (table->refine)
+        (void)snprintf(about + strlen(about), size - strlen(about), " at %.3g %% of %lld points",
+                       100.0 * (double)table->rows / (double)points, (long long)points);
 }
 
 double fst_sweep_axis_value(const fst_grid *grid, const fst_sweep_axis *axis, int64_t point)

@@ -24,8 +24,8 @@ fst_shown_units fst_sweep_units(const fst_grid *grid);
 /* A label without its unit, "drive frequency". */
 void fst_sweep_words(const char *label, char words[128]);
 
-/* Add to `about` what is the same at all points. */
-void fst_sweep_about(const fst_grid *grid, char *about, size_t size);
+/* Add to `about` what is the same at all points, and how many were computed. */
+void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size);
 
 /* FST_BAD_INPUT: a varied parameter changes the wanted units. */
 fst_status fst_sweep_axis_of(const fst_grid *grid, int index, fst_shown_units units, fst_sweep_axis *axis,

@@ -15,7 +15,8 @@ typedef struct drawing {
     fst_chart_curve curves[MOST_KEYS * REGIMES];
     fst_chart_panel panels[MOST_KEYS];
     int curve_count, panel_count;
-    size_t points, step; /* how many are drawn: every `step`-th point of the sweep */
+    size_t points;   /* how many are drawn */
+    int64_t *chosen; /* which ones */
     char title[192], about[256];
     char tics[MOST_KEYS][256]; /* of panels whose values are names */
 } drawing;
@@ -70,7 +71,7 @@ static void add_panels(drawing *d, const fst_sweep_table *table, const fst_sweep
             regime = table->values + (size_t)k * all;
     for (int k = 0; k < count; ++k)
         for (size_t i = 0; i < d->points; ++i)
-            table->values[(size_t)k * all + i] = table->values[(size_t)k * all + i * d->step];
+            table->values[(size_t)k * all + i] = table->values[(size_t)k * all + (size_t)d->chosen[i]];
     for (int k = 0; k < count; ++k) {
         double *values = table->values + (size_t)k * all;
         if (strcmp(quantities[k].key, "regime") == 0 && k > 0)
@@ -109,7 +110,7 @@ static void lay_abscissa(drawing *d, const fst_grid *grid, const fst_sweep_axis 
     *low = INFINITY;
     *high = -INFINITY;
     for (size_t i = 0; i < d->points; ++i) {
-        d->x[i] = fst_sweep_axis_value(grid, axis, (int64_t)(i * d->step));
+        d->x[i] = fst_sweep_axis_value(grid, axis, d->chosen[i]);
         *low = fmin(*low, d->x[i]);
         *high = fmax(*high, d->x[i]);
     }
@@ -129,20 +130,37 @@ static double scale_of_drive(const fst_grid *grid, const fst_sweep_axis *axis)
     return in_hertz ? factor : 0.0;
 }
 
+/* Every `step`-th point; of a refined sweep, of those that were computed. */
+static void choose_points(const fst_sweep_table *table, size_t step, int64_t *chosen)
+{
+    const int64_t points = fst_grid_points(table->grid);
+    size_t seen = 0, count = 0;
+    for (int64_t i = 0; i < points; ++i)
+        if (!table->refine || table->computed[i]) {
+            if (seen % step == 0)
+                chosen[count++] = i;
+            ++seen;
+        }
+}
+
 fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep_quantity *quantities,
                                    int count, const fst_sweep_axis *axis, const char *out, fst_error *error)
 {
     drawing *d = calloc(1, sizeof *d);
-    const size_t all = (size_t)fst_grid_points(table->grid), step = (all + MOST_POINTS - 1) / MOST_POINTS;
-    const size_t points = (all + step - 1) / step;
-    double *memory = malloc((1 + MOST_KEYS * REGIMES) * points * sizeof *memory);
-    if (!d || !memory) {
+    const size_t all = (size_t)(table->refine ? table->rows : fst_grid_points(table->grid));
+    const size_t step = all > 0 ? (all + MOST_POINTS - 1) / MOST_POINTS : 1,
+                 points = all / step + (all % step > 0);
+    double *memory = malloc((1 + MOST_KEYS * REGIMES) * (points + 1) * sizeof *memory);
+    int64_t *chosen = malloc((points + 1) * sizeof *chosen);
+    if (!d || !memory || !chosen) {
         free(d);
+        free(chosen);
         free(memory);
         return fst_fail(error, FST_NO_MEMORY, out, "no memory for %zu points", points);
     }
     d->points = points;
-    d->step = step;
+    d->chosen = chosen;
+    choose_points(table, step, chosen);
     d->x = memory;
     d->by_regime = memory + points;
     double low, high;
@@ -150,7 +168,7 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
     char words[128];
     fst_sweep_words(axis->label, words);
     (void)snprintf(d->title, sizeof d->title, "Sweep over the %s", words);
-    fst_sweep_about(table->grid, d->about, sizeof d->about);
+    fst_sweep_about(table, d->about, sizeof d->about);
     if (step > 1)
         (void)snprintf(d->about + strlen(d->about), sizeof d->about - strlen(d->about),
                        "; drawn: one point of %zu", step);
@@ -173,6 +191,7 @@ fst_status fst_figure_sweep_curves(const fst_sweep_table *table, const fst_sweep
     const fst_status status = d->panel_count > 0 ? fst_figure_chart(out, &chart, error)
                                                  : fst_fail(error, FST_BAD_INPUT, out,
                                                             "no point of the sweep has a value to draw yet");
+    free(chosen);
     free(memory);
     free(d);
     return status;

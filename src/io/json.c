@@ -158,13 +158,15 @@ char *fst_json_dump(json_t *document, size_t flags)
 
 json_t *fst_json_run(const fst_params *params, const fst_run_result *result)
 {
-    char dynamics[48];
+    char dynamics[48], controller[48];
     json_t *run = json_object();
     json_object_set_new(run, "regime", text_or_null(fst_regime_name(result->regime)));
     json_object_set_new(run, "reason", text_or_null(result->reason));
     json_object_set_new(run, "symmetry", text_or_null(fst_symmetry_name(result->symmetry)));
     json_object_set_new(run, "dynamics",
                         text_or_null(choice_text(params, "model.dynamics", dynamics, sizeof dynamics)));
+    json_object_set_new(run, "controller",
+                        text_or_null(choice_text(params, "run.controller", controller, sizeof controller)));
     for (int i = 0; i < fst_result_count(); ++i) {
         const fst_result_info *info = fst_result_at(i);
         double value;
@@ -324,40 +326,51 @@ char *fst_field_json(const fst_model *model, double x, double y, fst_shown_units
     return fst_json_dump(document, JSON_INDENT(2));
 }
 
-char *fst_schema_json(void)
+static json_t *schema_default(const fst_param_info *info, int index)
+{
+    const fst_params defaults = fst_default_params();
+    char text[64];
+    if (info->kind == FST_KIND_INT)
+        return json_integer((json_int_t)info->initial);
+    if (info->kind != FST_KIND_CHOICE)
+        return fst_json_number(info->initial);
+    (void)fst_params_get(&defaults, index, text, sizeof text);
+    return text[0] ? json_string(text) : json_null();
+}
+
+static json_t *schema_row(int index)
 {
     static const char *const kinds[] = {[FST_KIND_REAL] = "real",
                                         [FST_KIND_INT] = "integer",
                                         [FST_KIND_CHOICE] = "choice",
                                         [FST_KIND_TEXT] = "text"};
-    fst_params defaults = fst_default_params();
-    json_t *schema = json_array();
-    for (int i = 0; i < fst_param_count(); ++i) {
-        const fst_param_info *info = fst_param_at(i);
-        char text[64];
-        int choice = info->kind == FST_KIND_CHOICE, integer = info->kind == FST_KIND_INT;
-        (void)fst_params_get(&defaults, i, text, sizeof text);
-        json_t *row = json_object();
-        json_object_set_new(row, "key", json_string(info->key));
-        json_object_set_new(row, "kind", json_string(kinds[info->kind]));
-        const int limits = !choice && info->kind != FST_KIND_TEXT;
-        json_object_set_new(row, "unit", limits ? json_string(fst_unit_name(info->unit)) : json_null());
-        json_object_set_new(row, "default",
-                            choice    ? json_string(text)
-                            : integer ? json_integer((json_int_t)info->initial)
-                                      : fst_json_number(info->initial));
-        json_object_set_new(row, "min", limits ? fst_json_number(info->least) : json_null());
-        json_object_set_new(row, "max", limits ? fst_json_number(info->greatest) : json_null());
-        json_object_set_new(row, "doc", json_string(info->doc));
-        json_t *names = choice ? json_array() : json_null();
-        for (const char *name = choice ? info->names : ""; *name; name += strspn(name, "|")) {
-            size_t length = strcspn(name, "|");
-            json_array_append_new(names, json_stringn(name, length));
-            name += length;
-        }
-        json_object_set_new(row, "names", names);
-        json_object_set_new(row, "other_form", text_or_null(fst_param_other_form(info->key)));
-        json_array_append_new(schema, row);
+    const fst_param_info *info = fst_param_at(index);
+    const int choice = info->kind == FST_KIND_CHOICE, limits = !choice && info->kind != FST_KIND_TEXT;
+    json_t *row = json_object();
+    json_object_set_new(row, "key", json_string(info->key));
+    json_object_set_new(row, "kind", json_string(kinds[info->kind]));
+    json_object_set_new(row, "unit", limits ? json_string(fst_unit_name(info->unit)) : json_null());
+    json_object_set_new(row, "default", schema_default(info, index));
+    json_object_set_new(row, "min", limits ? fst_json_number(info->least) : json_null());
+    json_object_set_new(row, "max", limits ? fst_json_number(info->greatest) : json_null());
+    json_object_set_new(row, "doc", json_string(info->doc));
+    json_t *names = choice ? json_array() : json_null();
+    for (const char *name = choice ? info->names : ""; *name; name += strspn(name, "|")) {
+        size_t length = strcspn(name, "|");
+        json_array_append_new(names, json_stringn(name, length));
+        name += length;
     }
+    json_object_set_new(row, "names", names);
+    json_object_set_new(row, "other_form", text_or_null(fst_param_other_form(info->key)));
+    /* of a key of the first part: how many parts may have it */
+    json_object_set_new(row, "parts", fst_param_part(index) == 0 ? json_integer(FST_PARTS_MAX) : json_null());
+    return row;
+}
+
+char *fst_schema_json(void)
+{
+    json_t *schema = json_array();
+    for (int i = 0; i < fst_param_count() || fst_param_part(i) == 0; ++i)
+        json_array_append_new(schema, schema_row(i));
     return fst_json_dump(schema, JSON_INDENT(2));
 }

@@ -35,6 +35,7 @@ typedef struct fst_lane_events {
     unsigned close;     /* worth a close look: it may be ending, it has reached its limit of time, X has changed
                            its sign in the window, or an angle is doubtful */
     unsigned wandering; /* Phi may have left its bounds */
+    unsigned at_maximum; /* r may have passed a maximum */
 } fst_lane_events;
 
 /* Lanes, one bit each. */

@@ -159,7 +159,8 @@ static void load_clock(batch *b, int lane, const fst_flow *flow, double t_limit)
     b->t_limit[lane] = t_limit;
     b->control.proposal[lane] = flow->control.proposal;
     b->control.greatest[lane] = flow->control.greatest;
-    b->control.root[lane] = 1.0;
+    b->control.root[lane] = flow->control.root;
+    b->control.damped[lane] = flow->control.damped;
     b->norm_drift[lane] = flow->norm_drift;
     b->accepted[lane] = (double)flow->accepted;
     b->rejected[lane] = (double)flow->rejected;
@@ -269,6 +270,9 @@ static void extract_clock(const void *memory, int lane, fst_flow *flow)
     flow->control.proposal = b->control.proposal[lane];
     flow->control.size = b->control.size[lane];
     flow->control.worst_error = b->control.worst_error[lane];
+#ifndef FST_FUSED /* there a run that changes its lane begins with 1 */
+    flow->control.root = b->control.root[lane];
+#endif
     flow->norm_drift = b->norm_drift[lane];
     const uint64_t accepted = (uint64_t)b->accepted[lane], rejected = (uint64_t)b->rejected[lane];
     /* The flow has counted what came before the lane, and what was extracted already. */
@@ -423,7 +427,7 @@ static fst_lane_tries try_steps(void *memory)
 #ifdef FST_FUSED
     accept(b, accepted, FN(damped_factor)(&b->control, accepted, factor));
 #else
-    accept(b, accepted, factor);
+    accept(b, accepted, FN(factor_in_use)(&b->control, accepted, factor));
 #endif
     tries.accepted |= tries.anew;
     b->norm_drift = fst_wide_add_where(fst_wide_mask_of(tries.accepted), b->norm_drift, b->drift);
@@ -537,8 +541,12 @@ static fst_lane_events watch(void *memory, unsigned accepted, unsigned observed,
     const unsigned inside = fst_wide_lanes_of(WIDE_LESS(margin, -REAL_MAX(-after_least, -before_most)));
     const unsigned quiet = accepted & ~(close | at_mark);
     b->activity = fst_wide_select(fst_wide_mask_of(quiet), REAL_MAX(speed, b->activity), b->activity);
-    const fst_lane_events events = {accepted & ending, accepted & at_mark, accepted & close,
-                                    accepted & ~inside};
+    const REAL outward = y[FST_X] * y[FST_VX] + y[FST_Y] * y[FST_VY],
+               after = end[FST_X] * end[FST_VX] + end[FST_Y] * end[FST_VY];
+    const unsigned at_maximum =
+        fst_wide_lanes_of(WIDE_LESS(zero, outward)) & fst_wide_lanes_of(WIDE_LESS_EQUAL(after, zero));
+    const fst_lane_events events = {accepted & ending, accepted & at_mark, accepted & close, accepted & ~inside,
+                                    accepted & at_maximum};
     return events;
 }
 

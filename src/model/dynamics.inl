@@ -174,20 +174,22 @@ static inline void FN(resist_rolling)(const FN(coefficients) * c, const REAL w[3
     FN(resist)(&c->resistance, w, at->load, at->balance, at->torque);
 }
 
+/* The contact as the law sees it; `dry` is kinds.dry.  Where that is known to be 0 nothing of it need lie in
+ * memory. */
 static inline __attribute__((always_inline)) FN(contact)
-    FN(contact_of)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p)
+    FN(contact_by)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p, int dry)
 {
     const REAL *n = y + FST_NX, *w = y + FST_WX;
     FN(contact) at;
     FN(slip)(c, y, at.slip);
     at.load = FN(load)(c, p->force);
-    if (HAS(c->kinds, flies))
+    if (dry && HAS(c->kinds, flies))
         at.load = REAL_SELECT(FN(in_flight)(c), R(0.0), at.load);
     at.push[0] = at.push[1] = at.torque[0] = at.torque[1] = at.torque[2] = R(0.0);
     at.balance[0] = at.balance[1] = R(0.0);
-    at.patch = HAS(c->kinds, patch);
+    at.patch = dry ? HAS(c->kinds, patch) : FST_PATCH_POINT;
     at.pivot = w[2];
-    if (HAS(c->kinds, dry)) {
+    if (dry) {
         REAL turning[3], lost[3] = {R(0.0), R(0.0), R(0.0)};
         FN(cross)(n, p->b, turning);
         for (int i = 0; i < 3; ++i)
@@ -206,6 +208,12 @@ static inline __attribute__((always_inline)) FN(contact)
             at.torque[2] = FN(coulomb_pivoting)(&c->law.coulomb, &at, turning[2] + lost[2] / c->torque);
     }
     return at;
+}
+
+static inline __attribute__((always_inline)) FN(contact)
+    FN(contact_of)(const FN(coefficients) * c, const REAL *y, const FN(pull) * p)
+{
+    return FN(contact_by)(c, y, p, HAS(c->kinds, dry));
 }
 
 /* ------------------------------------------------------------------ the motion */
@@ -257,17 +265,17 @@ static inline void FN(keep_at_rest)(const FN(coefficients) * c, REAL *dy)
     }
 }
 
-/* The derivatives of the velocities v and W, by the magnet's pull at the state. */
-static inline __attribute__((always_inline)) void FN(dynamics)(const FN(coefficients) * c, REAL omega,
-                                                               const REAL *y, const FN(pull) * p, REAL *dy)
+/* The derivatives of the velocities v and W, by the magnet's pull at the state; `dry` is kinds.dry. */
+static inline __attribute__((always_inline)) void
+FN(dynamics_by)(const FN(coefficients) * c, REAL omega, const REAL *y, const FN(pull) * p, REAL *dy, int dry)
 {
     const REAL *n = y + FST_NX, *w = y + FST_WX;
-    const FN(contact) contact = FN(contact_of)(c, y, p);
+    const FN(contact) contact = FN(contact_by)(c, y, p, dry);
     REAL friction[2], twist[3];
     FN(friction)(&c->law, &c->kinds, &contact, friction);
     FN(cross)(n, p->b, twist);
     FN(accelerations)(c, omega, y, p->force, friction, p->strength, twist, dy);
-    for (int i = 0; HAS(c->kinds, dry) && i < 3; ++i)
+    for (int i = 0; dry && i < 3; ++i)
         dy[FST_WX + i] = REAL_MULADD(c->torque, contact.torque[i], dy[FST_WX + i]);
     if (c->kinds.gyroscopic_term_lost) {
         REAL lost[3];
@@ -275,8 +283,22 @@ static inline __attribute__((always_inline)) void FN(dynamics)(const FN(coeffici
         for (int i = 0; i < 3; ++i)
             dy[FST_WX + i] = dy[FST_WX + i] + lost[i];
     }
-    if (HAS(c->kinds, resists))
+    if (dry && HAS(c->kinds, resists))
         FN(keep_at_rest)(c, dy);
+}
+
+static inline __attribute__((always_inline)) void FN(dynamics)(const FN(coefficients) * c, REAL omega,
+                                                               const REAL *y, const FN(pull) * p, REAL *dy)
+{
+#ifdef REAL_IS_SCALAR
+    if (!c->kinds.dry) { /* by code of its own, which is shorter */
+        if (c->kinds.contact == FST_FRICTION_COULOMB || c->kinds.contact == FST_FRICTION_ROLLING)
+            __builtin_unreachable();
+        FN(dynamics_by)(c, omega, y, p, dy, 0);
+        return;
+    }
+#endif
+    FN(dynamics_by)(c, omega, y, p, dy, HAS(c->kinds, dry));
 }
 
 /* How much a contact moves, squared: of a point |V|^2, of a disc what patch.inl has. */
@@ -341,9 +363,24 @@ static inline void FN(find_rest)(FN(coefficients) * c, const REAL *state, const 
 /* d(state)/dt at the drive `omega`; the magnet's pull is left in `p` for a caller that observes the state. */
 RHS_KIND void FN(rhs)(const FN(coefficients) * c, REAL omega, const REAL *y, REAL *dy, FN(pull) * p)
 {
-    FN(kinematics)(omega, y, dy);
+#ifdef REAL_PAIR
+    /* What is stored one by one cannot be read in pairs, as the sums over stages do, before it has reached the
+     * cache: the processor would wait for that in every evaluation. */
+    REAL slope[FST_STATE_SIZE];
+    _Static_assert(FST_STATE_SIZE % 2 == 0, "a state is stored in pairs");
+#else
+    REAL *slope = dy;
+#endif
+    FN(kinematics)(omega, y, slope);
     FN(magnetic_pull)(c, y, p);
-    FN(dynamics)(c, omega, y, p, dy);
+    FN(dynamics)(c, omega, y, p, slope);
+#ifdef REAL_PAIR
+    _Pragma("GCC unroll 8") for (int i = 0; i < FST_STATE_SIZE; i += 2)
+    {
+        const REAL_PAIR pair = {slope[i], slope[i + 1]};
+        memcpy(dy + i, &pair, sizeof pair);
+    }
+#endif
 }
 
 #ifdef REAL_FORCES_AHEAD

@@ -89,6 +89,27 @@ static fst_status check_contact(const fst_params *params, const char *key, doubl
                     key, value, of, choice, key);
 }
 
+/* What only lines have. */
+static fst_status check_lines(const fst_params *params, fst_error *error)
+{
+    const fst_params usual = fst_default_params();
+    const struct {
+        const char *key;
+        double value;
+        int given;
+    } keys[] = {{"magnet.lines", params->magnet_lines, params->magnet_lines != usual.magnet_lines},
+                {"magnet.width", params->magnet_width, params->magnet_width != usual.magnet_width},
+                {"model.lambda", params->model_lambda, !isnan(params->model_lambda)}};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; ++i) {
+        const char *of, *choice = keys[i].given ? fst_param_missing_choice(params, keys[i].key, &of) : NULL;
+        if (choice)
+            return fst_fail(error, FST_BAD_INPUT, keys[i].key,
+                            "%s = %g has no effect with magnet.shape parts: choose %s, or leave %s out",
+                            keys[i].key, keys[i].value, choice, keys[i].key);
+    }
+    return FST_OK;
+}
+
 fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
 {
     const char *of;
@@ -99,6 +120,8 @@ fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
             error, FST_BAD_INPUT, "magnet.parts",
             "magnet.parts has no effect with magnet.shape %s: choose parts, or leave magnet.parts out", shape);
     }
+    if (check_lines(params, error) != FST_OK)
+        return FST_BAD_INPUT;
     const struct {
         const char *key;
         double value;
@@ -126,6 +149,10 @@ fst_status fst_params_check_effects(const fst_params *params, fst_error *error)
                         "run.step = %g has no effect on run.method events, whose steps follow run.rtol: choose "
                         "splitting, or leave run.step out",
                         params->run_step);
+    if (params->run_method == FST_METHOD_SPLITTING && params->run_controller != FST_CONTROLLER_PLAIN)
+        return fst_fail(error, FST_BAD_INPUT, "run.controller",
+                        "run.controller damped has no effect with run.method splitting, whose steps are fixed: "
+                        "choose events, or leave run.controller out");
     if (params->run_method == FST_METHOD_SPLITTING && params->run_until == FST_UNTIL_SETTLED)
         return fst_fail(
             error, FST_BAD_INPUT, "run.until",

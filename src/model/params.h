@@ -6,7 +6,7 @@
 
 /* The cookies of the definition structs: set by the fst_default_*() functions. */
 #define FST_PARAMS_COOKIE 0xfe570001u
-#define FST_FLOW_OPTIONS_COOKIE 0xfe570002u
+#define FST_FLOW_OPTIONS_COOKIE 0xfe570003u
 #define FST_RUN_OPTIONS_COOKIE 0xfe570003u
 #define FST_BRANCH_OPTIONS_COOKIE 0xfe570004u
 

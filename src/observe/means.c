@@ -195,9 +195,9 @@ static void fill_contact(const fst_window *w, const fst_mark_series *series, fst
         result->effective_rate = result->mean_friction_power / slip2;
     result->flying = mean(first, last, FST_Q_FLYING);
     result->mean_impact_power = (last->impact_loss - first->impact_loss) / time_between(first, last);
-    if (series == &w->returns.marks)
+    if (series == &w->returns.marks && !w->returns.of_cycles)
         result->impacts_per_return = (double)(last->impacts - first->impacts) / (double)(series->offered - 1);
-    if (series == &w->returns.marks)
+    if (series == &w->returns.marks && !w->returns.of_cycles)
         result->captures_per_return = (double)captures / (double)(series->offered - 1);
 }
 

@@ -79,7 +79,9 @@ void fst_returns_see_side(fst_returns *r, const fst_flow *flow)
 static int is_needed(const fst_returns *r, const fst_span *span, const fst_flow *flow)
 {
     const fst_mark_series *marks = &r->marks;
-    if (!span->asked_at_end || marks->offered % marks->stride == 0 ||
+    if (span->states_only)
+        return 0;
+    if (!span->asked_at_end || r->need_whole || marks->offered % marks->stride == 0 ||
         fst_left_out_needs_integrals(&r->left_out))
         return 1;
     const double turning = fst_twofold_difference(flow->t, marks->kept[0].t);
@@ -142,7 +144,7 @@ void fst_returns_step(fst_returns *r, const fst_span *span, fst_quadrature *q, f
         f_start == 0.0 ? 0.0 : fst_flow_locate(flow, fst_section_function, 0.0, 1.0, f_start, end[FST_X]);
     if (fst_twofold_difference(fst_flow_time(flow, x), from) < 0)
         return;
-    const int whole = !span->asked_at_end || fst_returns_need_integrals(r, span, flow);
+    const int whole = !span->states_only && (!span->asked_at_end || fst_returns_need_integrals(r, span, flow));
     fst_mark_take(&r->crossing, q, flow, x, whole);
     r->crossed = 1;
     const int half = sign_of(r->crossing.state[FST_Y]);
@@ -150,7 +152,7 @@ void fst_returns_step(fst_returns *r, const fst_span *span, fst_quadrature *q, f
         pass_left_out(r);
     judge_alternation(r, half, half > 0 ? -side : side);
     keep_section(r, &r->crossing, half);
-    if (r->crossings % 2 == 0)
+    if (r->crossings % 2 == 0 || r->of_cycles)
         return;
     if (r->left_out.state == FST_LEFT_OUT_FIRST || r->left_out.state == FST_LEFT_OUT_SECOND)
         fst_left_out_end(&r->left_out, &r->crossing, &r->marks, q);
@@ -160,7 +162,7 @@ void fst_returns_step(fst_returns *r, const fst_span *span, fst_quadrature *q, f
 
 int fst_returns_are_regular(const fst_returns *r, fst_twofold now)
 {
-    if (r->irregular || r->crossings < LEAST_CROSSINGS)
+    if (r->irregular || r->of_cycles || r->crossings < LEAST_CROSSINGS)
         return 0;
     /* Turning that stopped within the window is not regular: the last crossing may lie two returns back. */
     const double turning = fst_twofold_difference(r->marks.latest.t, r->marks.kept[0].t);

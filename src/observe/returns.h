@@ -18,6 +18,8 @@ typedef struct fst_returns {
     int crossed;                    /* the last step holds a crossing: `crossing` */
     fst_mark crossing;
     fst_mark_series marks; /* one mark a whole return */
+    int need_whole;        /* the next whole return is to be marked with its integrals */
+    int of_cycles; /* the marks are those of whole cycles of a libration (cycle.h), offered from outside */
     fst_left_out left_out; /* returns that nobody looked at */
 } fst_returns;
 

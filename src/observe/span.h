@@ -7,6 +7,7 @@ typedef struct fst_span {
     /* Nothing is asked of the window before `until`: marks that will not be kept are then taken without
      * integrals, or not at all. */
     int asked_at_end;
+    int states_only; /* nothing but states is observed: marks have no integrals, and there are no extremes */
 } fst_span;
 
 #endif

@@ -43,8 +43,8 @@ void fst_window_mark(fst_window *w, fst_flow *flow, double x, fst_mark *mark)
 
 const fst_mark_series *fst_window_series(const fst_window *w, fst_twofold now)
 {
-    return fst_returns_are_regular(&w->returns, now) && w->returns.marks.offered >= 2 ? &w->returns.marks
-                                                                                      : &w->periods;
+    const int repeats = w->returns.of_cycles || fst_returns_are_regular(&w->returns, now);
+    return repeats && w->returns.marks.offered >= 2 ? &w->returns.marks : &w->periods;
 }
 
 /* ------------------------------------------------------------------ drive periods */
@@ -52,8 +52,8 @@ const fst_mark_series *fst_window_series(const fst_window *w, fst_twofold now)
 /* Whether the mark of a whole period is needed whole: it will be kept, or is the last. */
 static int is_period_needed(const fst_window *w, int64_t period)
 {
-    if (!w->span.asked_at_end)
-        return 1;
+    if (!w->span.asked_at_end || w->span.states_only)
+        return !w->span.states_only;
     const double last = floor((w->span.until * (1.0 + 1e-12) - w->span.from) / w->period);
     return period >= (int64_t)last || period % fst_marks_stride((int64_t)last + 1) == 0;
 }
@@ -138,6 +138,7 @@ void fst_window_look(fst_window *w, fst_flow *flow, int seek_extremes)
 
 void fst_window_step(fst_window *w, fst_flow *flow)
 {
-    fst_quadrature_step(&w->quadrature, flow, !fst_window_is_open(w));
-    fst_window_look(w, flow, 1);
+    if (!w->span.states_only)
+        fst_quadrature_step(&w->quadrature, flow, !fst_window_is_open(w));
+    fst_window_look(w, flow, !w->span.states_only);
 }

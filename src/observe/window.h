@@ -44,8 +44,8 @@ static inline double fst_window_next_mark(const fst_window *w)
     return w->span.from + (double)w->periods.offered * w->period;
 }
 
-/* The marks between which the means are taken: of whole returns where Phi has turned regularly until `now`,
- * else of drive periods. */
+/* The marks between which the means are taken: of whole returns where Phi has turned regularly until `now`, of
+ * whole cycles where they are marked, else of drive periods. */
 const fst_mark_series *fst_window_series(const fst_window *w, fst_twofold now);
 
 /* Snapshot at the fraction x of the flow's last step. */

@@ -28,6 +28,13 @@ double fst_section_function(const fst_flow *flow, const double *state, const fst
     return state[FST_X];
 }
 
+double fst_radial_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
+{
+    (void)flow;
+    (void)p;
+    return state[FST_X] * state[FST_VX] + state[FST_Y] * state[FST_VY];
+}
+
 double fst_edge_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
 {
     (void)p;
@@ -54,9 +61,11 @@ double fst_flow_function_at(fst_flow *flow, double x, fst_state_function functio
     if (x == 1.0)
         return function(flow, flow->step.end, FST_PATH_PULL(&flow->step, FST_PATH_END));
     double state[FST_STATE_SIZE];
-    if (function == fst_section_function) { /* all that it looks at; n need not be normalised for that */
+    if (function == fst_section_function || function == fst_radial_function) {
+        const int looked_at = function == fst_section_function ? 1 : 4; /* n need not be normalised for these */
         fst_flow_make_dense(flow);
-        fst_bead_evaluate_dense_double(1, &flow->step.dense[0][FST_X], FST_STATE_SIZE, x, &state[FST_X]);
+        fst_bead_evaluate_dense_double(looked_at, &flow->step.dense[0][FST_X], FST_STATE_SIZE, x,
+                                       &state[FST_X]);
         return function(flow, state, NULL);
     }
     fst_flow_at(flow, x, state);

@@ -167,9 +167,10 @@ typedef double (*fst_step_function)(fst_flow *flow, double x, const void *what);
 double fst_flow_extreme(fst_flow *flow, fst_step_function function, const void *what, double sign, double lo,
                         double hi, double *value);
 
-/* The functions of the events: X; plate radius minus r; the normal load.  And the radius of the map of the
- * field minus r, for what knows no plate. */
+/* The functions of the events: X; the radial velocity times r, zero where r is extreme; plate radius minus r;
+ * the normal load.  And the radius of the map of the field minus r, for what knows no plate. */
 double fst_section_function(const fst_flow *flow, const double *state, const fst_pull_double *p);
+double fst_radial_function(const fst_flow *flow, const double *state, const fst_pull_double *p);
 double fst_edge_function(const fst_flow *flow, const double *state, const fst_pull_double *p);
 double fst_map_function(const fst_flow *flow, const double *state, const fst_pull_double *p);
 double fst_load_function(const fst_flow *flow, const double *state, const fst_pull_double *p);

@@ -155,7 +155,9 @@ static inline int FLOW_NAME(try_until_good)(FLOW_NAME(type) * flow, REAL rest)
         const REAL error = FLOW_ERROR(flow), factor = FN(step_factor)(error);
         if (error <= R(1.0)) {
             flow->norm_drift += FLOW_FINISH(s);
-            FN(accept_step)(control, REAL_EVERYWHERE, factor, FST_HOLD_AFTER_REJECTION);
+            FN(accept_step)
+            (control, REAL_EVERYWHERE, FN(factor_in_use)(control, REAL_EVERYWHERE, factor),
+             FST_HOLD_AFTER_REJECTION);
             return 1;
         }
         flow->rejected += 1;

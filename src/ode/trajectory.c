@@ -61,6 +61,7 @@ fst_status fst_flow_new(const fst_model *model, const fst_flow_options *options,
     made->contact.next_mode = made->contact.next_roll = -1;
     fst_contact_put_down(made, s->y);
     fst_bead_flow_begin(made, options->first_step, options->greatest_step);
+    made->control.damped = options->controller == FST_CONTROLLER_DAMPED ? 1.0 : 0.0;
     made->bead_angle.x = s->y[FST_X];
     made->bead_angle.y = s->y[FST_Y];
     made->bead_angle_start = made->bead_angle;

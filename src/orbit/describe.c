@@ -37,13 +37,6 @@
 #include "observe/means.h"
 #include "study/conclude.h"
 
-double fst_radial_function(const fst_flow *flow, const double *state, const fst_pull_double *p)
-{
-    (void)flow;
-    (void)p;
-    return state[FST_X] * state[FST_VX] + state[FST_Y] * state[FST_VY];
-}
-
 /* Distance from the axis where r is least, with the side on which the axis lies. */
 static double signed_distance(const fst_flow *flow, const double *y)
 {

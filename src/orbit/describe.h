@@ -26,9 +26,6 @@ static inline double fst_whole_period(const fst_solution *s)
     return s->symmetric ? 2.0 * s->period : s->period;
 }
 
-/* The radial velocity times r, for fst_flow_locate(): zero where r is extreme. */
-double fst_radial_function(const fst_flow *flow, const double *state, const fst_pull_double *p);
-
 /* Fill in the public description of a corrected orbit with its spectrum. */
 void fst_orbit_fill(const fst_description *d, const fst_solution *at, fst_orbit *orbit);
 

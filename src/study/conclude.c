@@ -8,6 +8,7 @@
 #include "base/constants.h"
 #include "base/error.h"
 #include "study/regime.h"
+#include "study/settle.h"
 
 static const fst_result_info RESULTS[] = {
 #define FST_RESULT(name, unit, doc) {#name, unit, doc, offsetof(fst_run_result, name)},
@@ -134,6 +135,7 @@ fst_status fst_conclude(const fst_watched_run *run, const fst_exponent *exponent
         return FST_OK;
     }
     fst_means_fill(&run->window, series, run->params, result);
+    fst_settling_widen_errors(run, result);
     result->returns = run->window.returns.crossings;
     if (exponent && exponent->failed)
         return fst_fail(error, FST_STEP_UNDERFLOW, "Lyapunov exponent",

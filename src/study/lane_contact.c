@@ -99,6 +99,7 @@ int fst_worker_land(fst_row_worker *w, fst_lane_batch *b, int l)
         hand_to_window(w, l);
         fst_quadrature_step(&run->window.quadrature, flow, !fst_window_is_open(&run->window));
         fst_window_look(&run->window, flow, looks_for_extremes);
+        fst_worker_look_at_settling(w, l);
     } else {
         fst_window_pass(&run->window, &flow->bead_angle, fst_flow_speed(flow));
         b->view.activity[l] = run->window.activity;

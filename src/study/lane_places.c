@@ -40,6 +40,8 @@ void fst_worker_vacate(fst_row_worker *w, fst_lane_batch *b, int l)
 {
     w->engine->release(b->memory, l);
     b->occupied -= 1;
+    if (b == &w->run_up)
+        w->seeking &= ~fst_lane_bit(l);
     if (b == &w->observed) {
         w->in_window &= ~fst_lane_bit(l);
         w->tracked &= ~fst_lane_bit(l);
@@ -110,7 +112,7 @@ fst_beginning fst_worker_begin(fst_row_worker *w, fst_lane *at, fst_status *stat
     at->run = run;
     w->kind = run->model->coefficients;
     run->window.span.asked_at_end = 1;
-    if (!w->usual->fused && !run->settling.asked)
+    if (!w->usual->fused)
         run->window.returns.left_out.state = FST_LEFT_OUT_NEVER;
     return FST_BEGUN;
 }
@@ -158,10 +160,15 @@ static void enter_run_up(fst_row_worker *w, int l, fst_lane *from)
     fst_lane_batch *b = &w->run_up;
     fst_worker_move_run(&b->lanes[l], from);
     b->occupied += 1;
-    w->engine->load(b->memory, l, b->lanes[l].run->flow, b->lanes[l].run->window.span.from);
+    const fst_window *window = &b->lanes[l].run->window;
+    const int seeks = window->span.states_only;
+    w->engine->load(b->memory, l, b->lanes[l].run->flow, seeks ? window->span.until : window->span.from);
     if (b->lanes[l].image)
         fst_worker_restore(w, b, l);
-    const fst_window *window = &b->lanes[l].run->window;
+    if (seeks) {
+        w->seeking |= fst_lane_bit(l);
+        b->view.next_mark[l] = fst_window_next_mark(window);
+    }
     if (window->returns.left_out.state == FST_LEFT_OUT_AWAY)
         b->view.next_mark[l] = fst_left_out_until(&window->returns.left_out, &window->span);
 }
@@ -169,7 +176,8 @@ static void enter_run_up(fst_row_worker *w, int l, fst_lane *from)
 /* A run that was begun, or taken up, goes to its place. */
 void fst_worker_place(fst_row_worker *w, fst_lane *fresh)
 {
-    const int runs_up = w->engine->fused && fresh->run->window.span.from > 0;
+    const fst_span *span = &fresh->run->window.span;
+    const int runs_up = w->engine->fused && (span->states_only || span->from > 0);
     const fst_run_station station = fresh->image ? fresh->place.station
                                     : runs_up    ? FST_STATION_RUN_UP
                                                  : FST_STATION_READY;
@@ -192,9 +200,11 @@ static int admit(fst_row_worker *w)
     for (int has_job = 0;;) {
         if (!has_job && w->waiting_count > 0) {
             fresh.job = w->waiting[--w->waiting_count];
-        } else if (!has_job && (w->no_more || !w->work->next(w->work->user, &fresh.job))) {
-            w->no_more = 1;
-            return 0;
+        } else if (!has_job) {
+            const int came = w->no_more ? 0 : w->work->next(w->work->user, &fresh.job);
+            w->no_more = came == 0;
+            if (came <= 0)
+                return 0;
         }
         fst_status status;
         fst_error error = {FST_OK, "", ""};

@@ -203,10 +203,10 @@ static void begin_anew(fst_row_worker *w, int l)
 }
 
 /* A run begins another window (settle.h). */
-static void watch_anew(fst_row_worker *w, int l)
+static void watch_anew(fst_row_worker *w, fst_lane_batch *b, int l)
 {
-    fst_worker_vacate(w, &w->observed, l);
-    fst_worker_move_run(&w->ready[w->ready_count++], &w->observed.lanes[l]);
+    fst_worker_vacate(w, b, l);
+    fst_worker_move_run(&w->ready[w->ready_count++], &b->lanes[l]);
 }
 
 /* Make a step in every lane whose run is observed. */
@@ -233,6 +233,8 @@ static void step_observed(fst_row_worker *w)
         const unsigned bit = fst_lane_bit(l);
         if (contacts.landed & bit)
             (void)fst_worker_land(w, b, l);
+        if (w->settled & bit)
+            continue;
         if ((over | contacts.landed) & bit)
             conclude(w, b, l);
         else if (tries.failed & bit)
@@ -242,7 +244,7 @@ static void step_observed(fst_row_worker *w)
     }
     for (int l = 0; (w->leaving | w->failed | w->settled) != 0 && l < w->engine->width; ++l) {
         if (w->settled & fst_lane_bit(l))
-            watch_anew(w, l);
+            watch_anew(w, &w->observed, l);
         else if (w->failed & fst_lane_bit(l))
             begin_anew(w, l);
         else if (w->leaving & fst_lane_bit(l))
@@ -268,18 +270,25 @@ static void open_window(fst_row_worker *w, int l)
     fst_worker_move_run(&w->ready[w->ready_count++], &b->lanes[l]);
 }
 
-/* Look at the steps that may hold something; the lanes whose runs are over. */
-static unsigned look_at_run_up(fst_row_worker *w, fst_lane_events events)
+/* Look at the steps that may hold something; the lanes whose runs are over, and those whose runs begin to be
+ * observed: *anew. */
+static unsigned look_at_run_up(fst_row_worker *w, fst_lane_events events, unsigned *anew)
 {
     fst_lane_batch *b = &w->run_up;
-    const unsigned worth = events.close | events.at_mark;
+    unsigned worth = events.close | events.at_mark;
+    for (int l = 0; (events.at_maximum & w->seeking) >> l != 0; ++l)
+        if (events.at_maximum & w->seeking & fst_lane_bit(l) && b->lanes[l].run->settling.cycle.watched)
+            worth |= fst_lane_bit(l);
     unsigned over = 0;
     for (int l = 0; (worth >> l) != 0; ++l)
         if (worth & fst_lane_bit(l)) {
             fst_worker_extract_step(w, b, l);
             b->view.turns[0][l] = (double)b->lanes[l].run->flow->bead_angle.turns;
-            b->view.activity[l] = fmax(b->view.activity[l], b->view.speed[l]);
+            if (!(w->seeking & fst_lane_bit(l)))
+                b->view.activity[l] = fmax(b->view.activity[l], b->view.speed[l]);
             over |= (events.ending & fst_lane_bit(l)) && fst_worker_ends_run(w, b, l) ? fst_lane_bit(l) : 0;
+            if (w->seeking & ~over & fst_lane_bit(l) && fst_worker_seek(w, l))
+                *anew |= fst_lane_bit(l);
         }
     return over;
 }
@@ -291,12 +300,17 @@ static void step_run_up(fst_row_worker *w)
     const fst_lane_tries tries = w->engine->try_steps(b->memory);
     const fst_lane_contacts contacts = fst_worker_look_at_contacts(w, b, tries);
     const unsigned accepted = tries.accepted | contacts.passed, landed = tries.landed | contacts.landed;
-    const fst_lane_events events = w->engine->watch(b->memory, accepted, 0, 0);
-    const unsigned over = look_at_run_up(w, events), back = events.at_mark & ~(over | landed);
+    const fst_lane_events events = w->engine->watch(b->memory, accepted, 0, w->seeking);
+    unsigned anew = 0;
+    const unsigned over = look_at_run_up(w, events, &anew);
+    const unsigned back = events.at_mark & ~(over | landed | w->seeking);
     w->engine->advance(b->memory, accepted & ~(over | landed));
-    for (int l = 0; (over | landed | back | tries.failed | contacts.turned) != 0 && l < w->engine->width; ++l) {
+    for (int l = 0; (over | landed | back | anew | tries.failed | contacts.turned) != 0 && l < w->engine->width;
+         ++l) {
         const unsigned bit = fst_lane_bit(l);
-        if (over & bit || (contacts.landed & bit && fst_worker_land(w, b, l)))
+        if (anew & bit)
+            watch_anew(w, b, l);
+        else if (over & bit || (contacts.landed & bit && fst_worker_land(w, b, l)))
             conclude(w, b, l);
         else if (landed & bit)
             open_window(w, l);

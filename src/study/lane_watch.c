@@ -124,7 +124,8 @@ int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l)
 static int needs_integrals(const fst_row_worker *w, const fst_watched_run *run, int at_mark)
 {
     const fst_window *window = &run->window;
-    return !w->engine->fused || fst_returns_need_integrals(&window->returns, &window->span, run->flow) ||
+    return !w->engine->fused || fst_settling_needs_integrals(run) ||
+           fst_returns_need_integrals(&window->returns, &window->span, run->flow) ||
            (at_mark && fst_window_period_needs_integrals(window, run->flow));
 }
 
@@ -147,7 +148,7 @@ static void follow_window(fst_row_worker *w, int l)
     b->view.next_mark[l] = fst_window_next_mark(&run->window);
     w->in_window |= is_open ? fst_lane_bit(l) : 0;
     w->tracked &= ~fst_lane_bit(l);
-    if (is_open && !(w->engine->fused && repeats(run)))
+    if (is_open && !(w->engine->fused && repeats(run)) && fst_settling_seeks_extremes(run))
         w->tracked |= fst_lane_bit(l);
     if (!w->engine->fused)
         keep_records(w, l, &run->window);
@@ -164,18 +165,32 @@ static void forget_window(fst_row_worker *w, int l)
             w->pending[i].lane = -1;
 }
 
+void fst_worker_look_at_settling(fst_row_worker *w, int l)
+{
+    if (fst_settling_look(w->observed.lanes[l].run))
+        forget_window(w, l);
+}
+
+int fst_worker_seek(fst_row_worker *w, int l)
+{
+    fst_lane_batch *b = &w->run_up;
+    fst_watched_run *run = b->lanes[l].run;
+    run->window.activity = b->view.activity[l];
+    fst_window_look(&run->window, run->flow, 0);
+    const int anew = fst_settling_look(run);
+    b->view.activity[l] = run->window.activity;
+    b->view.next_mark[l] = fst_window_next_mark(&run->window);
+    return anew;
+}
+
 /* After a return: may the run go on unobserved, or did it do so wrongly? */
 static void look_at_returns(fst_row_worker *w, int l)
 {
     fst_watched_run *run = w->observed.lanes[l].run;
     fst_window *window = &run->window;
     fst_returns *returns = &window->returns;
-    if (run->settling.asked) {
-        if (fst_settling_look(run))
-            forget_window(w, l);
-        return;
-    }
-    if (!w->engine->fused || !returns->crossed || returns->crossings % 2 == 0)
+    fst_worker_look_at_settling(w, l);
+    if (run->settling.asked || !w->engine->fused || !returns->crossed || returns->crossings % 2 == 0)
         return;
     if (fst_left_out_begin(&returns->left_out, &returns->marks, &window->span))
         w->leaving |= fst_lane_bit(l);
@@ -199,12 +214,12 @@ static int watch(fst_row_worker *w, int l, fst_lane_events events)
     fst_quadrature_look_for_passages(q, flow);
     if (q->passages || needs_integrals(w, run, (events.at_mark & fst_lane_bit(l)) != 0))
         extract_integrals(w, l, q);
-    if (fst_window_is_open(&run->window))
+    if (fst_window_is_open(&run->window) && !run->window.span.states_only)
         fst_quadrature_resolve(q, flow);
     if (!fst_window_is_open(&run->window)) /* crossings before it were not looked at */
         fst_returns_see_side(&run->window.returns, flow);
     run->window.activity = b->view.activity[l];
-    fst_window_look(&run->window, flow, !w->engine->fused);
+    fst_window_look(&run->window, flow, !w->engine->fused && fst_settling_seeks_extremes(run));
     if (q->passages && q->is_resolved)
         w->engine->set_increments(w->observed.memory, l, q->sums.increment);
     look_at_returns(w, l);
@@ -229,8 +244,10 @@ unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events)
 {
     const unsigned wandering = events.wandering & w->in_window & ~w->turning;
     unsigned over = 0;
-    for (int l = 0; ((events.close | events.at_mark | wandering) >> l) != 0; ++l) {
+    for (int l = 0; ((events.close | events.at_mark | events.at_maximum | wandering) >> l) != 0; ++l) {
         int close = (events.close & fst_lane_bit(l)) != 0;
+        if (events.at_maximum & fst_lane_bit(l))
+            close |= w->observed.lanes[l].run->settling.cycle.watched;
         if (!close && events.at_mark & fst_lane_bit(l)) {
             w->engine->extract_clock(w->observed.memory, l, w->observed.lanes[l].run->flow);
             close = fst_window_period_needs_integrals(&w->observed.lanes[l].run->window,

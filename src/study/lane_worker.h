@@ -37,6 +37,7 @@ typedef struct fst_row_worker {
     const fst_lane_engine *engine;      /* the one of the runs at work */
     fst_lane_batch run_up;              /* the fast form: runs before their windows */
     fst_lane_batch observed;            /* the others */
+    unsigned seeking; /* lanes of run_up, one bit each: their runs end once they have settled */
     /* Lanes of the observed batch, one bit each: */
     unsigned in_window;                 /* the window is open */
     unsigned tracked;                   /* extremes are looked for */
@@ -136,6 +137,13 @@ int fst_worker_land(fst_row_worker *w, fst_lane_batch *b, int l);
 
 /* Look at the accepted steps of the observed runs that may hold something; the lanes whose runs are over. */
 unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events);
+
+/* After a step of an observed run was looked at that ends once it has settled: does another window begin? */
+void fst_worker_look_at_settling(fst_row_worker *w, int l);
+
+/* The same for a step of a run before its window that ends once it has settled: 1 if it begins another window.
+ * The step is in the run's flow. */
+int fst_worker_seek(fst_row_worker *w, int l);
 
 /* The fast form: set the steps aside in which a record may be beaten; locate the extremes of those that are. */
 void fst_worker_set_aside(fst_row_worker *w, const unsigned *beaten);

@@ -3,6 +3,7 @@
  * The questions are asked in this order, and the first answer stands; docs/regimes.md gives the reasons.
  *
  *     does the bead stand still at the end?          -> locked (unless the speed grows: undecided)
+ *     is it known to repeat in cycles (settle.h)?    -> librating
  *     does Phi turn regularly?                       decide_turning()
  *         do the means still drift?                      -> undecided
  *         do half or whole returns close?                -> counter-rotating or corotating, S2 or S1
@@ -56,8 +57,7 @@ enum {
     LEAST_PERIODS_WITHOUT_FRICTION = 100 /* without friction, for a wide libration and for chaos */
 };
 
-/* Whether anything takes energy from the motion: friction, unless its contact never slips. */
-static int is_braked(const fst_watched_run *run)
+int fst_is_braked(const fst_watched_run *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
     if (!c->kinds.dry)
@@ -90,7 +90,7 @@ static chaos test_chaos(const fst_watched_run *run, const fst_exponent *known, f
     result->rhs_calls += known->rhs_calls;
     result->largest_exponent = exponent;
     result->largest_exponent_error = standard_error;
-    const int friction = is_braked(run);
+    const int friction = fst_is_braked(run);
     const double growth = exponent * known->duration;
     const double quiet = friction ? QUIET : QUIET_WITHOUT_FRICTION;
     const chaos found = exponent > SIGNIFICANT * known->chance && growth > GROWTH ? CHAOTIC
@@ -172,7 +172,7 @@ static decision decide_open(const fst_watched_run *run, const fst_exponent *expo
                hidden.what, hidden.change, hidden.turns, hidden.mean, hidden.noise);
         return DECIDED;
     }
-    if (!is_braked(run)) {
+    if (!fst_is_braked(run)) {
         REASON(
             "Phi turned regularly %lld times on an orbit that does not close (whole returns differ by %.2g): "
             "without friction nothing holds the bead to such an orbit, and it may leave it at any time",
@@ -304,7 +304,7 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
     const chaos found = test_chaos(run, exponent, result);
     if (found != REGULAR)
         return found == NOT_KNOWN ? NEEDS_EXPONENT : DECIDED;
-    const int friction = is_braked(run);
+    const int friction = fst_is_braked(run);
     if (!friction && run->window.greatest_bead_angle - run->window.least_bead_angle > WIDE &&
         marks->offered <= LEAST_PERIODS_WITHOUT_FRICTION) {
         REASON("Phi stays within %.4g rad, but nothing damps so wide a motion, which may turn out chaotic: run "
@@ -318,11 +318,15 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
     return DECIDED;
 }
 
-/* Greatest component of d(state)/dt at the end.  Where nothing acts on n, its turning does not count. */
-static double speed_at_end(const fst_watched_run *run)
+int fst_n_is_free(const fst_watched_run *run)
 {
     const fst_coefficients_double *c = &run->flow->step.context.coefficients;
-    const int n_is_free = c->hard == 0.0 && c->twice_b == 0.0;
+    return c->hard == 0.0 && c->twice_b == 0.0;
+}
+
+double fst_speed_at_end(const fst_watched_run *run)
+{
+    const int n_is_free = fst_n_is_free(run);
     double speed = 0.0, slope[FST_STATE_SIZE];
     fst_flow_slope(run->flow, slope);
     for (int i = 0; i < FST_STATE_SIZE; ++i) {
@@ -333,6 +337,19 @@ static double speed_at_end(const fst_watched_run *run)
     return speed;
 }
 
+/* The motion swings, and each cycle repeats the one before: that is regular without an exponent. */
+static decision decide_cycle(const fst_watched_run *run, fst_run_result *result)
+{
+    const fst_mark_series *cycles = &run->window.returns.marks;
+    const double turns = fst_twofold_difference(cycles->latest.t, cycles->kept[0].t) / run->window.period;
+    result->regime = FST_REGIME_LIBRATING;
+    REASON("Phi stays within %.4g rad and the motion repeats itself every %.4g turns of the magnet: successive "
+           "cycles differ by %.2g",
+           run->window.greatest_bead_angle - run->window.least_bead_angle,
+           turns / (double)(cycles->offered - 1), cycles->latest.full_distance);
+    return DECIDED;
+}
+
 static decision decide(const fst_watched_run *run, const fst_exponent *exponent, fst_run_result *result)
 {
     result->regime = FST_REGIME_UNDECIDED;
@@ -341,7 +358,7 @@ static decision decide(const fst_watched_run *run, const fst_exponent *exponent,
                LEAST_PERIODS);
         return DECIDED;
     }
-    const double speed = speed_at_end(run), at_rest = fmax(AT_REST, run->params->run_rtol);
+    const double speed = fst_speed_at_end(run), at_rest = fmax(AT_REST, run->params->run_rtol);
     const fst_mark_series *marks = &run->window.periods;
     const double lately = activity_over(marks, 1 + (marks->count - 1) / 2, marks->count);
     if (speed < at_rest && lately > LEAVING * run->params->run_rtol && fst_speed_grows(run)) {
@@ -362,6 +379,8 @@ static decision decide(const fst_watched_run *run, const fst_exponent *exponent,
             REASON("at rest in the turning frame: |d(state)/dt| = %.2g", speed);
         return DECIDED;
     }
+    if (run->window.returns.of_cycles)
+        return decide_cycle(run, result);
     if (fst_returns_are_regular(&run->window.returns, run->flow->t))
         return decide_turning(run, exponent, result);
     if (run->window.greatest_bead_angle - run->window.least_bead_angle < FST_TWO_PI)

@@ -20,12 +20,12 @@ fst_arithmetic fst_best_arithmetic(void)
 static fst_status single_rows(const fst_row_work *work, const fst_row_images *images, fst_error *error)
 {
     fst_row_job job;
-    int more = work->next(work->user, &job);
+    int more = work->next(work->user, &job) > 0;
     while (more) {
         const fst_status status = fst_row_alone(work, images, &job, &more, error);
         if (status != FST_OK)
             return status;
-        more = more || work->next(work->user, &job);
+        more = more || work->next(work->user, &job) > 0;
     }
     return FST_OK;
 }

@@ -59,7 +59,7 @@ static fst_status simulate(fst_simulation *s, fst_error *error)
         fst_flow_begin_ramp(s->run.flow, s->ramp.rate);
     }
     if (status == FST_OK)
-        status = fst_simulation_until(s, s->run.window.span.until, error);
+        status = fst_simulation_until(s, s->run.settling.until, error);
     return status;
 }
 

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "study/settle.h"
+
 typedef struct image {
     uint64_t layout;
     fst_run_place place;
@@ -122,7 +124,8 @@ static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
            (unsigned)i->place.station < FST_STATION_COUNT &&
            (i->place.station == FST_STATION_ALONE) ==
                (numbers == 0 && i->place.station != FST_STATION_PARKED) &&
-           is_sound_series(&i->window.returns.marks) && is_sound_series(&i->window.periods);
+           is_sound_series(&i->window.returns.marks) && is_sound_series(&i->window.periods) &&
+           fst_settling_is_sound(&i->settling);
 }
 
 /* The coefficients of a run that begins, with the mode of its contact in the image, which is kept in the law's

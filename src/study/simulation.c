@@ -90,7 +90,7 @@ static fst_status report_progress(fst_simulation *s, fst_error *error)
     const fst_flow *flow = s->run.flow;
     if (!progress || flow->accepted % 64 != 0)
         return FST_OK;
-    const double done = s->ramp.waits ? fst_ramp_progress(&s->ramp) : flow->t.high / s->run.window.span.until;
+    const double done = s->ramp.waits ? fst_ramp_progress(&s->ramp) : flow->t.high / s->run.settling.until;
     const double share = s->ramp.rate != 0.0 ? 1.0 : FST_RUN_SHARE; /* a ramp needs no exponent */
     return fst_tell(progress, share * done, NULL, error);
 }
@@ -114,7 +114,8 @@ fst_status fst_simulation_until(fst_simulation *s, double t, fst_error *error)
 {
     fst_status status = FST_OK;
     while (status == FST_OK && !s->run.end.happened) {
-        const fst_twofold end = {fmin(t, s->run.window.span.until), 0.0}; /* a run may settle before t */
+        const fst_window *window = &s->run.window; /* a run may settle before t, or look at another window */
+        const fst_twofold end = {fmin(t, window->span.until), 0.0};
         if (fst_twofold_difference(end, s->run.flow->t) <= 0)
             break;
         status = fst_simulation_step(s, end.high, error);

@@ -30,6 +30,7 @@ typedef struct source {
     fst_row_job left[MOST_LEFT]; /* jobs that were taken but are of the other side, or could not begin yet */
     int left_count;
     int exhausted; /* the work has no more jobs */
+    int later;     /* it has none at the moment */
 } source;
 
 /* Take a job of the present side from the queue. */
@@ -44,7 +45,8 @@ static int take_left(source *s, fst_row_job *job)
     return 0;
 }
 
-/* The next job of the present side; 0 also where one of the other side is first, which waits from then on. */
+/* The next job of the present side, as fst_row_work.next; 0 also where one of the other side is first, which
+ * waits from then on. */
 static int next_job(void *user, fst_row_job *job)
 {
     source *s = user;
@@ -52,10 +54,11 @@ static int next_job(void *user, fst_row_job *job)
         return 1;
     if (s->left_count > 0 || s->exhausted)
         return 0;
-    if (!s->work->next(s->work->user, job)) {
-        s->exhausted = 1;
-        return 0;
-    }
+    const int came = s->work->next(s->work->user, job);
+    s->exhausted = came == 0;
+    s->later = came < 0;
+    if (came <= 0)
+        return came;
     if (job->params.run_method == s->method)
         return 1;
     s->left[s->left_count++] = *job;
@@ -139,7 +142,7 @@ static void fill(batch *b)
     if (b->occupied == 0)
         b->job_waits = 0;
     for (int i = 0; i < b->engine->width && !b->job_waits; ++i)
-        while (!b->lanes[i].busy && !b->job_waits && next_job(b->from, &b->lanes[i].job))
+        while (!b->lanes[i].busy && !b->job_waits && next_job(b->from, &b->lanes[i].job) > 0)
             (void)begin(b, i);
 }
 
@@ -188,6 +191,12 @@ static fst_status splitting_side(source *from, const fst_splitting_engine *engin
     return status;
 }
 
+/* Whether there is something to do now. */
+static int is_unfinished(const source *s)
+{
+    return s->left_count > 0 || !(s->exhausted || s->later);
+}
+
 fst_status fst_rows_by_method(const fst_row_work *work, const fst_row_images *images,
                               const fst_splitting_engine *engine, fst_event_rows *by_events, void *user,
                               fst_error *error)
@@ -201,11 +210,11 @@ fst_status fst_rows_by_method(const fst_row_work *work, const fst_row_images *im
     side.next = next_job;
     side.done = job_done;
     fst_status status = FST_OK;
-    while (status == FST_OK && (s->left_count > 0 || !s->exhausted)) {
+    while (status == FST_OK && is_unfinished(s)) {
         s->method = FST_METHOD_EVENTS;
         status = by_events(&side, images, user, error);
         s->method = FST_METHOD_SPLITTING;
-        if (status == FST_OK && (s->left_count > 0 || !s->exhausted))
+        if (status == FST_OK && is_unfinished(s))
             status = splitting_side(s, engine, error);
     }
     free(s);

@@ -34,6 +34,7 @@ fst_status fst_watched_run_begin(fst_watched_run *run, const fst_params *params,
         return status;
     fst_flow_options o = fst_default_flow_options();
     o.rtol = params->run_rtol;
+    o.controller = (fst_controller)params->run_controller;
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         o.atol[i] = params->run_rtol;
     status = fst_flow_new(run->model, &o, state, &run->flow, error);

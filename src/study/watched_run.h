@@ -2,6 +2,7 @@
 #ifndef FST_STUDY_WATCHED_RUN_H
 #define FST_STUDY_WATCHED_RUN_H
 
+#include "observe/cycle.h"
 #include "observe/window.h"
 
 /* The bead left the plate in the last step. */
@@ -11,13 +12,25 @@ typedef struct fst_run_end {
     double fraction;   /* where in the step */
 } fst_run_end;
 
+/* What a motion is known to be. */
+typedef enum fst_settled_as {
+    FST_SETTLED_NOT,
+    FST_SETTLED_RETURNS, /* whole returns repeat */
+    FST_SETTLED_CYCLE,   /* a libration repeats */
+    FST_SETTLED_REST     /* the bead stands still */
+} fst_settled_as;
+
 /* Of a run that ends once its motion is known (settle.h). */
 typedef struct fst_settling {
     int asked;
-    double discard;    /* when its window opens if the motion is not known before */
-    double settled_at; /* drive periods after which it was known; NAN: it is not */
-    int64_t periods;   /* marks of periods in the window when it was looked at, */
-    int64_t at_rest;   /* and the last of them in which the bead stood still */
+    fst_settled_as as;
+    double discard, until;            /* the window and the end of the run, if the motion is not known before */
+    double settled_at;                /* drive periods after which it was known; NAN: it is not */
+    double way;                       /* that the states had still to go then */
+    int64_t periods, crossings;       /* marks of periods in the window, and crossings, when it was looked at */
+    int64_t at_rest, without_turning; /* the last periods in which the bead stood still, or Phi did not turn */
+    fst_closing returns;
+    fst_cycle cycle;
 } fst_settling;
 
 typedef struct fst_watched_run {

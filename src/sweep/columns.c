@@ -7,14 +7,16 @@
 #include <string.h>
 
 #include "base/checksum.h"
+#include "base/error.h"
 
 const char *const fst_state_names[FST_STATE_SIZE] = {"X", "Y", "vX", "vY", "nX", "nY", "nZ", "WX", "WY", "WZ"};
 
 static const char FIRST[] =
-    "status TEXT, carried INTEGER, regime TEXT, symmetry TEXT, reason TEXT, dynamics TEXT, never_slips INTEGER";
+    "status TEXT, carried INTEGER, regime TEXT, symmetry TEXT, reason TEXT, dynamics TEXT, controller TEXT, "
+    "never_slips INTEGER";
 static const char COUNTS[] =
     "returns INTEGER, rhs_calls INTEGER, steps_accepted INTEGER, steps_rejected INTEGER";
-enum { FIRST_COUNT = 7, COUNT_COUNT = 4 };
+enum { FIRST_COUNT = 8, COUNT_COUNT = 4 };
 
 static int is_choice(const fst_grid *grid, int axis)
 {
@@ -162,6 +164,8 @@ void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, c
     bind_text(&b, r->reason);
     name_choice("model.dynamics", record->dynamics, name, sizeof name);
     bind_text(&b, name);
+    name_choice("run.controller", record->controller, name, sizeof name);
+    bind_text(&b, name);
     if (r->never_slips < 0)
         bind_null(&b);
     else
@@ -253,4 +257,32 @@ int fst_sweep_row_is_sound(sqlite3_stmt *row, const fst_grid *grid, uint64_t see
     return point >= 0 && point < fst_grid_points(grid) && has_axes_of_point(row, grid, point) &&
            sqlite3_column_type(row, count) == SQLITE_INTEGER &&
            (uint64_t)sqlite3_column_int64(row, count) == fst_sweep_row_checksum(row, count, seed);
+}
+
+fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *error)
+{
+    char names[4096] = "regime|symmetry|rhs_calls", nearest[48];
+    for (int i = 0; i < fst_result_count(); ++i) {
+        const size_t used = strlen(names);
+        (void)snprintf(names + used, sizeof names - used, "|%s", fst_result_at(i)->name);
+    }
+    if (fst_nearest_name(key, names, nearest, sizeof nearest) == 0)
+        return FST_OK;
+    return fst_fail(error, FST_BAD_INPUT, where, "unknown key \"%.60s\"; the nearest is %s", key, nearest);
+}
+
+double fst_sweep_number(sqlite3_stmt *rows, int column)
+{
+    if (sqlite3_column_type(rows, column) == SQLITE_NULL)
+        return NAN;
+    if (sqlite3_column_type(rows, column) != SQLITE_TEXT)
+        return sqlite3_column_double(rows, column);
+    const char *text = (const char *)sqlite3_column_text(rows, column);
+    for (int i = FST_REGIME_UNDECIDED; i <= FST_REGIME_LIFTED; ++i)
+        if (strcmp(text, fst_regime_name((fst_regime)i)) == 0)
+            return i;
+    for (int i = FST_SYMMETRY_S1; i <= FST_SYMMETRY_S2; ++i)
+        if (strcmp(text, fst_symmetry_name((fst_symmetry)i)) == 0)
+            return i;
+    return NAN;
 }

@@ -22,6 +22,12 @@ char *fst_sweep_state_sql(void);
 /* Bind a record and its checksum, which begins with `seed`, to the inserting statement. */
 void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, const fst_sweep_record *record);
 
+/* A value of a row that was read as a number, regimes and symmetries by their index; NAN: undefined. */
+double fst_sweep_number(sqlite3_stmt *row, int column);
+
+/* Whether rows have this key.  FST_BAD_INPUT: no; the sentence names the nearest one. */
+fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *error);
+
 /* The checksum of the first `count` values of a row that was read. */
 uint64_t fst_sweep_row_checksum(sqlite3_stmt *row, int count, uint64_t seed);
 

@@ -190,6 +190,7 @@ static const char *codes_of(const char *column)
         {"regime", "undecided|locked|librating|counter-rotating|corotating|chaotic|ejected|lifted"},
         {"symmetry", "none|S1|S2"},
         {"dynamics", "rigid|farago2020"},
+        {"controller", "plain|damped"},
         {"status", "done"}};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; ++i)
         if (strcmp(lists[i][0], column) == 0)

@@ -121,6 +121,8 @@ static fst_status write_rows(const table_writer *w, fst_error *error)
         const fst_scales scales = fst_scales_of(&params);
         if (point == 0)
             write_head(w, &scales);
+        if (w->table.refine && !w->table.computed[point])
+            continue;
         for (int i = 0; i < fst_grid_axis_count(grid); ++i)
             write_parameter(w, i, point, &params);
         for (int i = 0; i < w->count; ++i) {
@@ -135,7 +137,7 @@ fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int 
                                  const char *out, FILE *stream, fst_error *error)
 {
     static const char *const usual[] = {"regime", "mean_r", "std_r", "mean_alpha_dot"};
-    table_writer w = {keys, count, units, {NULL, NULL}, stream};
+    table_writer w = {.keys = keys, .count = count, .units = units, .stream = stream};
     if (count == 0) {
         w.keys = usual;
         w.count = (int)(sizeof usual / sizeof *usual);

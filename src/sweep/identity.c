@@ -157,7 +157,8 @@ uint64_t fst_identity_checksum(const fst_identity_lines *lines)
 {
     uint64_t sum = 0;
     for (int i = 0; i < lines->count; ++i) {
-        if (!lines->values[i] || strcmp(lines->keys[i], "checksum") == 0)
+        if (!lines->values[i] || strcmp(lines->keys[i], "checksum") == 0 ||
+            strcmp(lines->keys[i], "refine") == 0)
             continue;
         sum = fst_checksum_bytes(sum, lines->keys[i], strlen(lines->keys[i]));
         sum = fst_checksum_bytes(sum, lines->values[i], strlen(lines->values[i]));

@@ -26,7 +26,8 @@ void fst_identity_free(fst_identity_lines *lines);
 /* The text of a key, or NULL. */
 const char *fst_identity_text(const fst_identity_lines *lines, const char *key);
 
-/* The checksum of the lines, with which the checksum of each row begins. */
+/* The checksum of the lines, with which the checksum of each row begins.  The line `refine` is left out: it may
+ * change (refined.c). */
 uint64_t fst_identity_checksum(const fst_identity_lines *lines);
 
 /* The grid that scene and axes describe. */

@@ -37,6 +37,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -50,12 +51,13 @@
 #include "sweep/file.h"
 #include "sweep/lock.h"
 #include "sweep/make.h"
+#include "sweep/refined.h"
 
 struct fst_journal {
     fst_sweep_file file;
     int descriptor; /* holds the lock; closed after SQLite's own, because closing any descriptor ends SQLite's
                        locks */
-    sqlite3_stmt *insert, *next, *state;
+    sqlite3_stmt *insert, *next, *state, *value;
     const fst_grid *grid;
     char *path; /* the name that the user gave */
     int in_transaction;
@@ -106,7 +108,8 @@ static void finalize(fst_journal *journal)
     (void)sqlite3_finalize(journal->insert);
     (void)sqlite3_finalize(journal->next);
     (void)sqlite3_finalize(journal->state);
-    journal->insert = journal->next = journal->state = NULL;
+    (void)sqlite3_finalize(journal->value);
+    journal->insert = journal->next = journal->state = journal->value = NULL;
 }
 
 static void release(fst_journal *journal)
@@ -291,6 +294,48 @@ fst_status fst_journal_add(fst_journal *journal, const fst_sweep_record *record,
     const fst_status status =
         code == SQLITE_DONE ? FST_OK : fst_database_fail(journal->file.database, journal->path, error);
     (void)sqlite3_reset(journal->insert);
+    return status;
+}
+
+/* ------------------------------------------------------------------ refining */
+
+static fst_status note_refining(fst_journal *journal, const fst_refining *refining, fst_error *error)
+{
+    fst_refining noted;
+    const fst_status status = fst_refining_read(&journal->file.lines, journal->path, &noted, error);
+    if (status != FST_OK || (noted.levels == refining->levels && noted.step == refining->step &&
+                             strcmp(noted.key, refining->key) == 0))
+        return status;
+    const fst_status begun = fst_journal_begin(journal, error);
+    if (begun != FST_OK)
+        return begun;
+    const fst_status written =
+        fst_refining_write(journal->file.database, journal->path, &journal->file.lines, refining, error);
+    return written == FST_OK ? fst_journal_commit(journal, error) : written;
+}
+
+fst_status fst_journal_refine(fst_journal *journal, const fst_refining *refining, fst_error *error)
+{
+    const fst_status status = note_refining(journal, refining, error);
+    if (status != FST_OK || refining->levels == 0)
+        return status;
+    char *select = sqlite3_mprintf("SELECT \"%w\" FROM rows WHERE point = ?", refining->key);
+    const int code =
+        select ? sqlite3_prepare_v2(journal->file.database, select, -1, &journal->value, NULL) : SQLITE_NOMEM;
+    sqlite3_free(select);
+    return code == SQLITE_OK ? FST_OK : fst_database_fail(journal->file.database, journal->path, error);
+}
+
+fst_status fst_journal_value(fst_journal *journal, int64_t point, int *there, double *value, fst_error *error)
+{
+    (void)sqlite3_bind_int64(journal->value, 1, point);
+    const int code = sqlite3_step(journal->value);
+    *there = code == SQLITE_ROW;
+    *value = *there ? fst_sweep_number(journal->value, 0) : NAN;
+    const fst_status status = code == SQLITE_ROW || code == SQLITE_DONE
+                                  ? FST_OK
+                                  : fst_database_fail(journal->file.database, journal->path, error);
+    (void)sqlite3_reset(journal->value);
     return status;
 }
 

@@ -28,6 +28,7 @@ typedef struct fst_sweep_record {
     int carried;       /* it started from its neighbour's end state */
     fst_status status; /* other than FST_OK: the run failed, and result.reason says why */
     int dynamics;      /* fst_dynamics */
+    int controller;    /* fst_controller */
     fst_run_result result;
 } fst_sweep_record;
 
@@ -39,6 +40,14 @@ typedef struct fst_journal fst_journal;
  * sentence says which), no permission, full disk. */
 fst_status fst_journal_open(const char *path, const fst_sweep_identity *identity, fst_journal **journal,
                             fst_error *error);
+
+struct fst_refining;
+
+/* Note how the sweep is refined (refined.h), and prepare for fst_journal_value(). */
+fst_status fst_journal_refine(fst_journal *journal, const struct fst_refining *refining, fst_error *error);
+
+/* The key by which the sweep is refined at a point; *there is 0 where the point has no row. */
+fst_status fst_journal_value(fst_journal *journal, int64_t point, int *there, double *value, fst_error *error);
 
 /* Whether the database was damaged and was replaced, and how many rows are known to be lost. */
 int fst_journal_repaired(const fst_journal *journal, int64_t *lost);

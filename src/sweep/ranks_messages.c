@@ -225,7 +225,7 @@ static fst_status serve(const fst_ranks *r, fst_workers *workers, fst_sweep_reco
     while (busy) {
         const int room = fst_workers_room(workers);
         if (room > 0 && outcome == FST_OK) {
-            fst_workers_expect(workers);
+            fst_workers_expect(workers, 1);
             (void)r->mpi->post(r->link, 0, TAG_ASK, &room, sizeof room);
         }
         hear_leader(r, workers, &over);

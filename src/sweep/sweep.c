@@ -3,6 +3,8 @@
  *  grid --> points without a row --> tasks queue --> workers --> rows queue --> journal --> FILE.db
  *           look_for_tasks()         workers.c       workers.c   workers.c      journal.c
  *
+ * A refined sweep takes its points from refine.c, which learns of each row that comes to the journal.
+ *
  * That one thread, the caller's, goes round in keep_journal(): it fills the queue of tasks from the journal,
  * hands tasks to the other ranks where mpirun started several processes (ranks.h), writes the rows and images
  * that came back, commits now and then, and tells the caller's progress.  A stop (Ctrl-C, a failure) goes the
@@ -21,6 +23,7 @@
 #include "host/threads.h"
 #include "sweep/checkpoints.h"
 #include "sweep/ranks.h"
+#include "sweep/refined.h"
 #include "sweep/workers.h"
 
 enum { OPTIONS_COOKIE = 0x53574550, COMMIT_ROWS = 256 };
@@ -39,10 +42,13 @@ typedef struct sweep {
     fst_ranks ranks;
     fst_leader *leader; /* NULL where there is one rank */
     fst_workers *workers;
-    int64_t next;             /* the points or chains before this one were looked up in the journal */
-    fst_sweep_counts *counts; /* the caller's, always up to date */
+    fst_refining refining;
+    fst_refinement *refinement; /* NULL: every point is computed */
+    int64_t next;               /* the points or chains before this one were looked up in the journal */
+    fst_sweep_counts *counts;   /* the caller's, always up to date */
     double started, committed;
     double processor_started, journal_started;
+    double told;     /* the greatest part that was reported as done */
     int uncommitted; /* rows and images added since the last commit */
     int stopping;    /* the sweep is ending: commit whatever comes at once */
     int no_answer;   /* a follower was told to stop and did not answer */
@@ -73,9 +79,24 @@ static void read_clocks(sweep *s)
     s->counts->journal_seconds = read_clock(CLOCK_THREAD_CPUTIME_ID) - s->journal_started;
 }
 
-static double fraction_done(const sweep *s)
+/* The part that is done.  It never falls, though a refinement may find that more points are wanted. */
+static double fraction_done(sweep *s)
 {
-    return (double)s->counts->there / (double)s->counts->points;
+    const double part = (double)s->counts->computed / (double)s->counts->expected;
+    s->told = part > s->told ? part : s->told;
+    return s->told;
+}
+
+/* Note how many points have their rows, and how many are to have one. */
+static void count_points(sweep *s)
+{
+    fst_sweep_counts *c = s->counts;
+    const fst_refinement_counts refined = s->refinement
+                                              ? fst_refinement_count(s->refinement)
+                                              : (fst_refinement_counts){c->points, c->there, c->points};
+    c->wanted = refined.wanted;
+    c->computed = refined.known;
+    c->expected = refined.expected;
 }
 
 /* ------------------------------------------------------------------ tasks */
@@ -103,11 +124,34 @@ static fst_status resume_chain(sweep *s, int64_t chain, fst_sweep_task *t, int *
     return FST_OK;
 }
 
-/* Find tasks for points without a row; *found is 0 when there are no more. */
+/* Find points that the refinement wants and that have no row.  A point that has one, from an earlier call, only
+ * tells its value. */
+static fst_status look_for_refined(sweep *s, fst_sweep_task *fresh, int room, int *found, fst_error *error)
+{
+    enum { MOST_LOOKS = 4096 }; /* between two looks at everything else: some milliseconds */
+    fst_status status = FST_OK;
+    int64_t point;
+    for (int i = 0; i < MOST_LOOKS && *found < room && status == FST_OK; ++i) {
+        int there = 0;
+        double value = 0.0;
+        if (!fst_refinement_next(s->refinement, &point))
+            break;
+        status = fst_journal_value(s->journal, point, &there, &value, error);
+        if (status == FST_OK && there)
+            status = fst_refinement_note(s->refinement, point, value, error);
+        else if (status == FST_OK)
+            fresh[(*found)++] = (fst_sweep_task){.point = point};
+    }
+    return status;
+}
+
+/* Find tasks for points without a row; *found is 0 when there are none now. */
 static fst_status look_for_tasks(sweep *s, fst_sweep_task *fresh, int room, int *found, fst_error *error)
 {
     fst_status status = FST_OK;
     *found = 0;
+    if (s->refinement)
+        return look_for_refined(s, fresh, room, found, error);
     if (s->identity.carry == FST_CARRY_NO) {
         int64_t points[FST_WORKERS_TASKS];
         status = fst_journal_missing(s->journal, &s->next, points, room, found, error);
@@ -138,9 +182,20 @@ static void find_images(sweep *s, const fst_sweep_task *tasks, int count)
     }
 }
 
+/* Whether rows that are not there yet may make further tasks. */
+static int may_want_more(const sweep *s)
+{
+    if (!s->refinement)
+        return 0;
+    const fst_refinement_counts counts = fst_refinement_count(s->refinement);
+    return counts.known < counts.wanted;
+}
+
 /* Fill up the workers' queue of tasks. */
 static fst_status refill(sweep *s, fst_error *error)
 {
+    if (s->refinement)
+        fst_workers_expect(s->workers, !fst_refinement_has_next(s->refinement) && may_want_more(s));
     const int room = fst_workers_room(s->workers);
     if (room == 0)
         return FST_OK;
@@ -149,7 +204,8 @@ static fst_status refill(sweep *s, fst_error *error)
         return fst_fail(error, FST_NO_MEMORY, "fst_sweep", "out of memory");
     int found;
     const fst_status status = look_for_tasks(s, fresh, room, &found, error);
-    if (status == FST_OK) {
+    const int is_over = found == 0 && !may_want_more(s);
+    if (status == FST_OK && (found > 0 || is_over)) {
         find_images(s, fresh, found);
         fst_workers_give(s->workers, fresh, found);
     }
@@ -167,6 +223,15 @@ static fst_status commit(sweep *s, fst_error *error)
     return status;
 }
 
+/* Tell the refinement what a new row says, as the database will say it to a later call. */
+static fst_status note_row(sweep *s, int64_t point, fst_error *error)
+{
+    int there;
+    double value;
+    const fst_status status = fst_journal_value(s->journal, point, &there, &value, error);
+    return status == FST_OK ? fst_refinement_note(s->refinement, point, value, error) : status;
+}
+
 /* Write rows, and commit now and then. */
 static fst_status write_rows(sweep *s, const fst_sweep_record *rows, int count, fst_error *error)
 {
@@ -175,6 +240,8 @@ static fst_status write_rows(sweep *s, const fst_sweep_record *rows, int count, 
         status = fst_journal_add(s->journal, &rows[i], error);
         if (status == FST_OK)
             status = fst_checkpoints_drop(s->checkpoints, rows[i].point, error);
+        if (status == FST_OK && s->refinement)
+            status = note_row(s, rows[i].point, error);
     }
     for (int i = 0; i < count; ++i)
         s->counts->failed += rows[i].status != FST_OK;
@@ -284,6 +351,7 @@ static fst_status keep_journal(sweep *s, fst_sweep_record *rows, fst_error *erro
         const fst_status taken = hear_workers(s, rows, seconds, status != FST_OK, &busy, error);
         status = status == FST_OK ? taken : status;
         read_clocks(s);
+        count_points(s);
         if (status == FST_OK && outcome == FST_OK)
             outcome = fst_tell(s->options->progress, fraction_done(s), NULL, error);
         if (stopped == 0.0 && (status != FST_OK || outcome != FST_OK)) {
@@ -373,7 +441,10 @@ static fst_status lead(sweep *s, const char *path, fst_error *error)
     if (status == FST_OK)
         s->counts->repaired = fst_journal_repaired(s->journal, &s->counts->lost);
     if (status == FST_OK)
+        status = fst_journal_refine(s->journal, &s->refining, error);
+    if (status == FST_OK)
         status = fst_journal_count(s->journal, &s->counts->there, error);
+    count_points(s);
     if (status == FST_OK)
         status =
             fst_checkpoints_open(s->journal, fst_journal_identity_hash(&s->identity), &s->checkpoints, error);
@@ -381,8 +452,9 @@ static fst_status lead(sweep *s, const char *path, fst_error *error)
     fst_error silence;
     const fst_status shared = fst_ranks_share_start(&s->ranks, &start, status == FST_OK ? error : &silence);
     status = status == FST_OK ? shared : status;
-    if (status == FST_OK && (s->counts->there < s->counts->points || s->ranks.link))
+    if (status == FST_OK && (s->counts->there < s->counts->points || s->refinement || s->ranks.link))
         status = work(s, error);
+    count_points(s);
     if (status == FST_OK && s->checkpoints)
         status = fst_checkpoints_drop_all(s->checkpoints, error);
     fst_checkpoints_close(s->checkpoints);
@@ -442,12 +514,16 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
     fst_status status = fst_grid_new(params, options->axes, options->axis_count, options->seed, &grid, error);
     if (status != FST_OK)
         return status;
+    sweep s = {.identity = {grid, options->seed, options->carry, options->arithmetic, 0},
+               .options = options,
+               .counts = counts,
+               .ranks = {.count = 1, .neighbours = 1}};
     status = check_options(options, grid, error);
+    if (status == FST_OK)
+        status = fst_refining_of(options, &s.refining, error);
+    if (status == FST_OK && options->refine != 0)
+        status = fst_refinement_new(grid, s.refining.levels, s.refining.step, &s.refinement, error);
     if (status == FST_OK) {
-        sweep s = {.identity = {grid, options->seed, options->carry, options->arithmetic, 0},
-                   .options = options,
-                   .counts = counts,
-                   .ranks = {.count = 1, .neighbours = 1}};
         counts->points = fst_grid_points(grid);
         s.started = fst_clock_seconds();
         s.committed = s.started - COMMIT_SECONDS; /* the first row is committed at once */
@@ -456,6 +532,7 @@ fst_status fst_sweep(const fst_params *params, const char *path, const fst_sweep
         status = run_sweep(&s, path, error);
         read_clocks(&s);
     }
+    fst_refinement_free(s.refinement);
     fst_grid_free(grid);
     return status;
 }

@@ -4,7 +4,8 @@
 #include <string.h>
 
 #include "base/error.h"
-#include "sweep/file.h"
+#include "sweep/columns.h"
+#include "sweep/refined.h"
 
 fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *error)
 {
@@ -18,36 +19,6 @@ fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *err
     return status;
 }
 
-static fst_status check_key(const char *key, fst_error *error)
-{
-    char names[4096] = "regime|symmetry|rhs_calls", nearest[48];
-    for (int i = 0; i < fst_result_count(); ++i) {
-        const size_t used = strlen(names);
-        (void)snprintf(names + used, sizeof names - used, "|%s", fst_result_at(i)->name);
-    }
-    if (fst_nearest_name(key, names, nearest, sizeof nearest) == 0)
-        return FST_OK;
-    return fst_fail(error, FST_BAD_INPUT, "fst_sweep_read.keys", "unknown key \"%.60s\"; the nearest is %s",
-                    key, nearest);
-}
-
-/* A value as a number; regimes and symmetries by their index. */
-static double number_of(sqlite3_stmt *rows, int column)
-{
-    if (sqlite3_column_type(rows, column) == SQLITE_NULL)
-        return NAN;
-    if (sqlite3_column_type(rows, column) != SQLITE_TEXT)
-        return sqlite3_column_double(rows, column);
-    const char *text = (const char *)sqlite3_column_text(rows, column);
-    for (int i = FST_REGIME_UNDECIDED; i <= FST_REGIME_LIFTED; ++i)
-        if (strcmp(text, fst_regime_name((fst_regime)i)) == 0)
-            return i;
-    for (int i = FST_SYMMETRY_S1; i <= FST_SYMMETRY_S2; ++i)
-        if (strcmp(text, fst_symmetry_name((fst_symmetry)i)) == 0)
-            return i;
-    return NAN;
-}
-
 /* Find the keys among the columns of the table. */
 static void find_columns(sqlite3_stmt *row, const char *const *keys, int count, int *places)
 {
@@ -58,8 +29,8 @@ static void find_columns(sqlite3_stmt *row, const char *const *keys, int count, 
 }
 
 /* Read all rows, or fail: a figure cannot show that some are lost. */
-static fst_status read_rows(const fst_sweep_file *file, const char *const *keys, int count, double *values,
-                            fst_error *error)
+static fst_status read_rows(const fst_sweep_file *file, const char *const *keys, int count,
+                            fst_sweep_table *table, fst_error *error)
 {
     const int64_t points = fst_grid_points(file->grid);
     int more = 0, *places = calloc((size_t)count + 1, sizeof *places);
@@ -69,9 +40,12 @@ static fst_status read_rows(const fst_sweep_file *file, const char *const *keys,
         status = fst_fail(error, FST_NO_MEMORY, file->name, "out of memory");
     if (status == FST_OK)
         find_columns(rows.row, keys, count, places);
-    while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more)
+    while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more) {
+        table->computed[rows.next - 1] = 1;
         for (int i = 0; i < count; ++i)
-            values[i * points + rows.next - 1] = number_of(rows.row, places[i]);
+            table->values[i * points + rows.next - 1] = fst_sweep_number(rows.row, places[i]);
+    }
+    table->rows = rows.sound;
     if (status == FST_OK && !fst_sweep_rows_are_whole(&rows))
         status = fst_sweep_rows_fail(&rows, "", error);
     fst_sweep_rows_end(&rows);
@@ -84,11 +58,12 @@ static fst_status read_values(const fst_sweep_file *file, const char *const *key
 {
     const int64_t points = fst_grid_points(table->grid), all = count * points;
     table->values = malloc((size_t)all * sizeof *table->values + 1);
-    if (!table->values)
+    table->computed = calloc((size_t)points, 1);
+    if (!table->values || !table->computed)
         return fst_fail(error, FST_NO_MEMORY, file->name, "no memory for %lld points", (long long)points);
     for (int64_t i = 0; i < all; ++i)
         table->values[i] = NAN;
-    return read_rows(file, keys, count, table->values, error);
+    return read_rows(file, keys, count, table, error);
 }
 
 fst_status fst_sweep_read(const char *path, const char *const *keys, int count, fst_sweep_table *table,
@@ -97,12 +72,16 @@ fst_status fst_sweep_read(const char *path, const char *const *keys, int count, 
     memset(table, 0, sizeof *table);
     fst_status status = FST_OK;
     for (int i = 0; i < count && status == FST_OK; ++i)
-        status = check_key(keys[i], error);
+        status = fst_sweep_check_key(keys[i], "fst_sweep_read.keys", error);
     if (status != FST_OK)
         return status;
     fst_sweep_file file;
+    fst_refining refining;
     status = fst_sweep_file_open(path, 0, &file, error);
+    if (status == FST_OK)
+        status = fst_refining_read(&file.lines, path, &refining, error);
     if (status == FST_OK) {
+        table->refine = refining.levels;
         table->grid = file.grid;
         status = read_values(&file, keys, count, table, error);
         file.grid = status == FST_OK ? NULL : file.grid;
@@ -118,5 +97,6 @@ void fst_sweep_table_free(fst_sweep_table *table)
 {
     fst_grid_free(table->grid);
     free(table->values);
+    free(table->computed);
     memset(table, 0, sizeof *table);
 }

@@ -42,10 +42,9 @@ static int next_task(void *user, fst_row_job *row)
 {
     fst_workers *w = user;
     pthread_mutex_lock(&w->lock);
-    while (w->task_count == 0 && !w->no_more_tasks && !w->stopping)
-        pthread_cond_wait(&w->task_came, &w->lock);
-    const int more = w->task_count > 0 && !w->stopping;
-    if (more) {
+    const int over = w->stopping || (w->no_more_tasks && w->task_count == 0);
+    const int more = over ? 0 : w->task_count > 0 ? 1 : FST_JOBS_LATER;
+    if (more > 0) {
         const fst_sweep_task *t = &w->tasks[w->first_task];
         row->point = t->point;
         row->has_start = t->has_start;
@@ -56,7 +55,7 @@ static int next_task(void *user, fst_row_job *row)
             pthread_cond_signal(&w->row_came);
     }
     pthread_mutex_unlock(&w->lock);
-    if (more) /* cannot fail: the values were checked when the grid was made */
+    if (more > 0) /* cannot fail: the values were checked when the grid was made */
         (void)fst_grid_params(w->identity->grid, row->point, &row->params, NULL);
     return more;
 }
@@ -69,7 +68,9 @@ static void hand_over(fst_workers *w, const fst_sweep_record *record)
     if (!w->abandoned)
         w->rows[(w->first_row + w->row_count++) % FST_WORKERS_ROWS] = *record;
     free(fst_image_take(&w->made, record->point)); /* the run is over, so its image is of no use */
-    if (w->row_count == FST_WORKERS_ROWS / 2)
+    /* New tasks may depend on this row. */
+    const int is_starving = w->expecting && w->task_count == 0;
+    if (w->row_count == FST_WORKERS_ROWS / 2 || is_starving)
         pthread_cond_signal(&w->row_came);
     pthread_mutex_unlock(&w->lock);
 }
@@ -84,6 +85,7 @@ static int row_done(void *user, fst_row_job *row, fst_status status, const fst_r
     record.carried = row->has_start;
     record.status = status;
     record.dynamics = row->params.model_dynamics;
+    record.controller = row->params.run_controller;
     record.result = *result;
     if (status != FST_OK)
         (void)snprintf(record.result.reason, sizeof record.result.reason, "%.255s", error->sentence);
@@ -139,6 +141,17 @@ static void *find_image(void *user, const fst_row_job *job, size_t *size)
     return bytes;
 }
 
+/* Wait for a task; 0: no more will come. */
+static int wait_for_task(fst_workers *w)
+{
+    pthread_mutex_lock(&w->lock);
+    while (w->task_count == 0 && !w->no_more_tasks && !w->stopping)
+        pthread_cond_wait(&w->task_came, &w->lock);
+    const int is_there = w->task_count > 0 && !w->stopping;
+    pthread_mutex_unlock(&w->lock);
+    return is_there;
+}
+
 static void *labour(void *user)
 {
     fst_workers *w = user;
@@ -152,7 +165,9 @@ static void *labour(void *user)
                                .progress = &progress};
     const fst_row_images images = {
         .user = w, .seconds = w->plan.checkpoint_seconds, .save = save_image, .find = find_image};
-    const fst_status status = fst_rows_with_images(&work, &images, &error);
+    fst_status status = FST_OK;
+    while (status == FST_OK && wait_for_task(w))
+        status = fst_rows_with_images(&work, &images, &error);
     pthread_mutex_lock(&w->lock);
     if (status != FST_OK && status != FST_INTERRUPTED && w->status == FST_OK) {
         w->status = status;
@@ -181,10 +196,10 @@ int fst_workers_room(fst_workers *w)
     return room;
 }
 
-void fst_workers_expect(fst_workers *w)
+void fst_workers_expect(fst_workers *w, int expecting)
 {
     pthread_mutex_lock(&w->lock);
-    w->expecting = 1;
+    w->expecting = expecting;
     pthread_mutex_unlock(&w->lock);
 }
 
@@ -242,7 +257,8 @@ fst_image *fst_workers_take_images(fst_workers *w)
 int fst_workers_take(fst_workers *w, fst_sweep_record *rows, double seconds, int *busy)
 {
     pthread_mutex_lock(&w->lock);
-    if (w->row_count < FST_WORKERS_ROWS / 2 && w->busy > 0 && !is_hungry(w))
+    const int enough = w->expecting && w->task_count == 0 ? 1 : FST_WORKERS_ROWS / 2;
+    if (w->row_count < enough && w->busy > 0 && !is_hungry(w))
         fst_condition_wait(&w->row_came, &w->lock, seconds);
     const int count = w->row_count;
     for (int i = 0; i < count; ++i)

@@ -26,9 +26,9 @@ fst_status fst_workers_new(const fst_sweep_identity *identity, const fst_workers
 /* How many tasks should be given now: 0 while there are enough, or where no more are expected. */
 int fst_workers_room(fst_workers *workers);
 
-/* The leader has been asked for tasks.  Until they come, fst_workers_take() does not return early to ask for
- * more. */
-void fst_workers_expect(fst_workers *workers);
+/* Tasks are on their way, or depend on rows that are not there.  Until they come, fst_workers_take() does not
+ * return early to ask for more; with `expecting` 0 it does again. */
+void fst_workers_expect(fst_workers *workers, int expecting);
 
 /* Give tasks, at most fst_workers_room(); an empty list says that there will never be more. */
 void fst_workers_give(fst_workers *workers, const fst_sweep_task *tasks, int count);

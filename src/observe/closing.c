@@ -1,0 +1,136 @@
+/* closing.c - when does a motion that comes back to a section repeat itself for good?
+ *
+ * The states at successive marks approach a limit by a factor rho each, until the errors of the steps are all
+ * that is left:
+ *
+ *     distance |  x
+ *              |     x                        way to go = distance/(1 - rho)
+ *              |        x
+ *        limit |- - - - - -x- - - - - -
+ *              |              x  x x  x       errors of the steps
+ *              +------------------------- marks
+ *
+ * Four marks in a row must lie below the limit, and the way that is left must be no more than the limit.  rho
+ * is taken over eight marks: over one or two of them it is lost in the errors of the steps where it is close to
+ * 1, and then the way is much longer than the distance.  Where the distances do not fall, the way is the last
+ * one times the number of marks that the rest of the run would have. The times and the changes of Phi between
+ * successive marks must agree too, and the means of r and n_z.  Means of other quantities need not: on an orbit
+ * that passes the axis closely the directions along r and alpha turn so fast that the errors of their integrals
+ * are larger than whatever the motion still has to go.
+ *
+ * A bead that is put down on an unstable orbit repeats itself from the start, until it leaves.  So the states
+ * must have differed by far more than the limit before: what comes closer by so much is attracted.  It may
+ * still have come to an unstable orbit, near the few ways that lead there.  Then the distances rise again, each
+ * above the one before.
+ */
+#include "observe/closing.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Times the limit: what counts as far, and the distance of a later mark; by what the times and angles between
+ * marks, and the means, may differ. */
+static const double FAR = 1000.0, STILL_THE_SAME = 10.0, SAME_TURN = 10.0, SAME_MEANS = 100.0;
+/* Distances below this part of the tolerance may rise because of the errors of the steps. */
+static const double SEEN_TO_RISE = 0.1;
+/* The limit is ten times the tolerance, but not beyond these: an orbit whose returns differ by 1e-6 is closed,
+ * and its symmetry is to be seen too. */
+static const double LEAST_LIMIT = 1e-9, MOST_LIMIT = 1e-7;
+
+enum { FIRST, BEFORE, LAST };
+enum { RISES = 5 }; /* one after the other: an unstable orbit is left */
+
+void fst_closing_begin(fst_closing *c, double rtol)
+{
+    memset(c, 0, sizeof *c);
+    c->rtol = rtol;
+    c->limit = fmin(fmax(LEAST_LIMIT, 10.0 * rtol), MOST_LIMIT);
+}
+
+void fst_closing_see(fst_closing *c, double distance)
+{
+    c->approached |= distance > FAR * c->limit && isfinite(distance);
+}
+
+static double time_between(const fst_mark *first, const fst_mark *last)
+{
+    return fst_twofold_difference(last->t, first->t);
+}
+
+double fst_closing_turn(const fst_closing *c)
+{
+    return time_between(&c->mark[BEFORE], &c->mark[LAST]);
+}
+
+double fst_closing_way(const fst_closing *c, double until)
+{
+    const double last = c->distances[0], before = c->distances[FST_CLOSING_PAST];
+    const double marks = fmax((until - c->mark[LAST].t.high) / fst_closing_turn(c), 1.0);
+    if (c->known <= FST_CLOSING_PAST)
+        return INFINITY;
+    const double rho = pow(last / before, 1.0 / FST_CLOSING_PAST);
+    return last * (rho < 1.0 ? fmin(1.0 / (1.0 - rho), marks) : marks);
+}
+
+/* The mean of an integrand between two marks. */
+static double mean(const fst_mark *first, const fst_mark *last, int which)
+{
+    return (last->integrals[which] - first->integrals[which]) / time_between(first, last);
+}
+
+/* Whether the motion between the last two marks was the one between the two before. */
+static int way_agrees(const fst_closing *c)
+{
+    static const int compared[] = {FST_Q_R, FST_Q_N_Z};
+    const fst_mark *first = &c->mark[FIRST], *before = &c->mark[BEFORE], *last = &c->mark[LAST];
+    const double turn = time_between(before, last), longer = turn - time_between(first, before),
+                 further = (last->bead_angle - before->bead_angle) - (before->bead_angle - first->bead_angle);
+    int agrees =
+        fabs(longer) <= SAME_TURN * c->limit * fmax(turn, 1.0) && fabs(further) <= SAME_TURN * c->limit;
+    for (size_t i = 0; i < sizeof compared / sizeof *compared; ++i)
+        agrees &=
+            fabs(mean(before, last, compared[i]) - mean(first, before, compared[i])) <= SAME_MEANS * c->limit;
+    return agrees;
+}
+
+void fst_closing_forget(fst_closing *c)
+{
+    c->count = c->known = 0;
+}
+
+static void note(fst_closing *c, double distance)
+{
+    memmove(c->distances + 1, c->distances, FST_CLOSING_PAST * sizeof *c->distances);
+    c->distances[0] = distance;
+    c->known = isnan(distance) ? 0 : c->known + (c->known <= FST_CLOSING_PAST);
+}
+
+int fst_closing_add(fst_closing *c, const fst_mark *mark, double until)
+{
+    note(c, mark->full_distance);
+    if (!(mark->full_distance < c->limit)) {
+        fst_closing_see(c, mark->full_distance);
+        c->count = 0;
+        return 0;
+    }
+    if (c->count > 0) {
+        memmove(c->mark, c->mark + 1, 2 * sizeof *c->mark);
+        c->mark[LAST] = *mark;
+    }
+    c->count += c->count <= 3;
+    return c->count > 3 && c->approached && fst_closing_way(c, until) <= c->limit && way_agrees(c);
+}
+
+void fst_closing_go_on(fst_closing *c, double distance)
+{
+    note(c, distance);
+}
+
+int fst_closing_holds(const fst_closing *c)
+{
+    int rising = 1;
+    for (int i = 0; i < RISES; ++i)
+        rising &= c->distances[i] > c->distances[i + 1];
+    return c->known > RISES && c->distances[0] < STILL_THE_SAME * c->limit &&
+           !(rising && c->distances[0] > SEEN_TO_RISE * c->rtol);
+}
