@@ -159,9 +159,13 @@ static inline fst_wide fst_wide_estimate_reciprocal_sqrt(fst_wide x)
 #if FST_LANES == 8
     return (fst_wide)_mm512_rsqrt14_pd(WIDE_NATIVE(x));
 #else
-    /* A root and a quotient of floats; every processor rounds these exactly. */
-    const __m128 root = _mm_sqrt_ps(_mm256_cvtpd_ps(WIDE_NATIVE(x)));
-    return (fst_wide)_mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0F), root));
+    /* A guess from the exponent, whose t = x y^2 lies within [0.8699, 0.9861], and the quadratic in t that is
+     * closest to 1/sqrt(t) there: to 2e-5.  No instruction that estimates is used: their bits differ between
+     * makes of processor. */
+    const fst_wide_bits bits = 0x5fe5eb50c7b537a9LL - ((fst_wide_bits)_mm256_srli_epi64((__m256i)x, 1));
+    const fst_wide y = (fst_wide)bits, t = (x * y) * y;
+    const fst_wide linear = WIDE_MULADD(t, fst_wide_of(0.4532913144151125), fst_wide_of(-1.4016407290732658));
+    return y * WIDE_MULADD(t, linear, fst_wide_of(1.9484233829085937));
 #endif
 }
 
@@ -174,11 +178,12 @@ static inline fst_wide fst_wide_inverse_fifth(fst_wide x, fst_wide y)
 #if FST_LANES == 8
     /* |e| < 1.23e-4.  Beyond 105/16 e^3 there is 9.02 e^4, whose best approximation by e^2 is added to 35/8 and
      * leaves 3.4e-16. */
-    const fst_wide rest = WIDE_MULADD(e, fst_wide_of(6.5625), fst_wide_of(4.375 + 1.1135e-7));
+    const fst_wide second = fst_wide_of(4.375 + 1.1135e-7);
 #else
-    /* |e| < 4e-7: the next term, 6.6 e^3, is below rounding. */
-    const fst_wide rest = fst_wide_of(4.375);
+    /* |e| < 4e-5: the next term, 9.02 e^4, is below rounding. */
+    const fst_wide second = fst_wide_of(4.375);
 #endif
+    const fst_wide rest = WIDE_MULADD(e, fst_wide_of(6.5625), second);
     const fst_wide series = WIDE_MULADD(e, WIDE_MULADD(e, rest, first), one);
     return ((y2 * y2) * y) * series;
 }
@@ -187,12 +192,8 @@ static inline fst_wide fst_wide_inverse_fifth(fst_wide x, fst_wide y)
 static inline fst_wide fst_wide_inverse(fst_wide x, fst_wide y)
 {
     const fst_wide one = fst_wide_of(1.0), y2 = y * y, e = WIDE_NEGMULADD(x, y2, one);
-#if FST_LANES == 8
     const fst_wide rest = WIDE_MULADD(e, e, e); /* e + e^2 + e^3; e^4 < 2.3e-16 */
     return WIDE_MULADD(y2, WIDE_MULADD(e, rest, e), y2);
-#else
-    return WIDE_MULADD(y2, WIDE_MULADD(e, e, e), y2);
-#endif
 }
 
 /* 1/x */
@@ -218,14 +219,17 @@ static inline fst_wide fst_wide_quotient(fst_wide a, fst_wide b)
 #endif
 }
 
-/* 1/x to about 1e-8, which is enough to scale errors. */
+/* 1/x to 1e-8 (AVX-512) or 1.4e-5, which is enough to scale errors. */
 static inline fst_wide fst_wide_rough_reciprocal(fst_wide x)
 {
 #if FST_LANES == 8
     const fst_wide y = (fst_wide)_mm512_rcp14_pd(WIDE_NATIVE(x));
     return y * WIDE_NEGMULADD(x, y, fst_wide_of(2.0));
 #else
-    return 1.0 / x;
+    /* A guess from the exponent, with t = x y within [0.8710, 0.9399], and a quadratic for 1/t. */
+    const fst_wide y = (fst_wide)(0x7fdbdf73aabb2400LL - (fst_wide_bits)x), t = x * y;
+    const fst_wide linear = WIDE_MULADD(t, fst_wide_of(1.3486176218075614), fst_wide_of(-3.663285359697002));
+    return y * WIDE_MULADD(t, linear, fst_wide_of(3.315694663561601));
 #endif
 }
 
@@ -258,6 +262,8 @@ static inline fst_wide fst_wide_inverse_eighth_root(fst_wide x)
 #define REAL_RECIPROCAL(x) fst_wide_reciprocal(x)
 #define REAL_QUOTIENT(a, b) fst_wide_quotient(a, b)
 #define REAL_ESTIMATE_RECIPROCAL_SQRT(x) fst_wide_estimate_reciprocal_sqrt(x)
+#define REAL_DIVIDER_IS_FREE (FST_LANES == 4)
+#define REAL_FEW_REGISTERS (FST_LANES == 4)
 #define REAL_INVERSE_FIFTH(x, estimate) fst_wide_inverse_fifth(x, estimate)
 #define REAL_INVERSE(x, estimate) fst_wide_inverse(x, estimate)
 #define REAL_ROUGH_RECIPROCAL(x) fst_wide_rough_reciprocal(x)

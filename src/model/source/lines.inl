@@ -100,18 +100,69 @@ static inline __attribute__((always_inline)) void FN(add_moments)(FN(moment_sums
 }
 
 #ifdef REAL_INVERSE_FIFTH
+/* Inverse powers of |d|^2 at one end: by an estimate and a series, or, where a processor's divider has nothing
+ * else to do, at one of the two ends by a root and a quotient, which then cost next to no time. */
+static inline REAL FN(begin_inverse)(REAL distance2, int divides)
+{
+    if (divides)
+        return distance2 * REAL_SQRT(distance2);
+    return LINES_BEGIN(distance2);
+}
+
+static inline REAL FN(inverse_fifth)(REAL distance2, REAL begun, int divides)
+{
+    if (divides)
+        return R(1.0) / (distance2 * begun);
+    return LINES_INVERSE5(distance2, begun);
+}
+
+static inline REAL FN(inverse_seventh)(REAL distance2, REAL begun, REAL inverse5, int divides)
+{
+    if (divides)
+        return (inverse5 * inverse5) * begun;
+    return inverse5 * LINES_INVERSE2(distance2, begun);
+}
+
+/* One of five lines, for both ends. */
+typedef struct FN(fifth) {
+    REAL distance2[2], begun[2], inverse5[2], inverse7[2];
+} FN(fifth);
+
+static inline __attribute__((always_inline)) void FN(finish_fifth)(FN(fifth) * line, int end)
+{
+    const int divides = REAL_DIVIDER_IS_FREE && end == 1;
+    const REAL distance2 = line->distance2[end], begun = line->begun[end];
+    line->inverse5[end] = FN(inverse_fifth)(distance2, begun, divides);
+    line->inverse7[end] = FN(inverse_seventh)(distance2, begun, line->inverse5[end], divides);
+}
+
+/* With few registers each line is finished at once; else what takes long is begun for all lines before the
+ * first is finished. */
+static inline __attribute__((always_inline)) void FN(see_fifth)(FN(fifth) * line, REAL dy,
+                                                                const REAL across2[2])
+{
+    for (int end = 0; end < 2; ++end) {
+        line->distance2[end] = dy * dy + across2[end];
+        line->begun[end] = FN(begin_inverse)(line->distance2[end], REAL_DIVIDER_IS_FREE && end == 1);
+    }
+    for (int end = 0; REAL_FEW_REGISTERS && end < 2; ++end)
+        FN(finish_fifth)(line, end);
+}
+
 /* The moments of five lines at Y = y + k lambda, k = 2, 1, 0, -1, -2: first the moments t_m = lambda^m sum of
  * k^m/|d|^5 about the middle line, then these shifted by y (binomial formula).  This takes a fifth fewer
  * operations than adding up each s_m. */
 static inline __attribute__((always_inline)) FN(moments)
-    FN(moments_of_five)(const FN(line) lines[5], int end, REAL spacing)
+    FN(moments_of_five)(FN(fifth) lines[5], int end, REAL y, REAL spacing)
 {
     REAL inverse5[5], inverse7[5];
     for (int i = 0; i < 5; ++i) {
-        inverse5[i] = LINES_INVERSE5(lines[i].distance2[end], lines[i].begun[end]);
-        inverse7[i] = inverse5[i] * LINES_INVERSE2(lines[i].distance2[end], lines[i].begun[end]);
+        if (!REAL_FEW_REGISTERS)
+            FN(finish_fifth)(&lines[i], end);
+        inverse5[i] = lines[i].inverse5[end];
+        inverse7[i] = lines[i].inverse7[end];
     }
-    const REAL y = lines[2].dy, spacing2 = spacing * spacing;
+    const REAL spacing2 = spacing * spacing;
     const REAL outer = inverse5[0] + inverse5[4], outer_odd = inverse5[0] - inverse5[4];
     const REAL inner = inverse5[1] + inverse5[3], inner_odd = inverse5[1] - inverse5[3];
     const REAL t0 = (outer + inner) + inverse5[2], t1 = spacing * REAL_MULADD(R(2.0), outer_odd, inner_odd);
@@ -138,13 +189,15 @@ FN(moments_of_lines)(const FN(lines) * lines, int count, REAL y, const REAL acro
     const ENDS across[ENDS_GROUPS] = ENDS_OF(across2[0], across2[1]);
 #ifdef REAL_INVERSE_FIFTH
     if (count == 5) { /* the paper's: straight on, and of strength 1 each */
-        /* Estimates take long: all are under way before the first is used. */
-        const FN(line) seen[5] = {FN(see_line)(REAL_MULADD(R(2.0), lines->spacing, y), across),
-                                  FN(see_line)(y + lines->spacing, across), FN(see_line)(y, across),
-                                  FN(see_line)(y - lines->spacing, across),
-                                  FN(see_line)(REAL_NEGMULADD(R(2.0), lines->spacing, y), across)};
+        const REAL spacing = lines->spacing;
+        FN(fifth) seen[5];
+        FN(see_fifth)(&seen[0], REAL_MULADD(R(2.0), spacing, y), across2);
+        FN(see_fifth)(&seen[4], REAL_NEGMULADD(R(2.0), spacing, y), across2);
+        FN(see_fifth)(&seen[1], y + spacing, across2);
+        FN(see_fifth)(&seen[3], y - spacing, across2);
+        FN(see_fifth)(&seen[2], y, across2);
         for (int end = 0; end < 2; ++end)
-            moments[end] = FN(moments_of_five)(seen, end, lines->spacing);
+            moments[end] = FN(moments_of_five)(seen, end, y, spacing);
         return R(1.0);
     }
     const REAL zero = R(0.0);
