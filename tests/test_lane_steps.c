@@ -149,8 +149,8 @@ static void test_controller(void **state)
     const double avx2 = rejected(FST_ARITHMETIC_AVX2), avx512 = rejected(FST_ARITHMETIC_AVX512);
     printf("rejected: portable %.4f, avx2 %.4f, avx512 %.4f\n", rejected(FST_ARITHMETIC_PORTABLE), avx2,
            avx512);
-    CHECK_WITHIN(avx2, -1.0, 0.02);
-    CHECK_WITHIN(avx512, -1.0, 0.02);
+    CHECK_WITHIN(avx2, -1.0, 0.05);
+    CHECK_WITHIN(avx512, -1.0, 0.05);
 }
 
 int main(void)

@@ -398,15 +398,6 @@ static unsigned may_end_mode(const batch *b)
 }
 #endif
 
-/* The greatest error of an accepted step.  In the fast form the damped controller aims at 0.9^16 = 0.19 and
- * seldom misses that by so much: at equal errors of the final state, steps up to 2 save more tries than they
- * spoil. */
-#ifdef FST_FUSED
-#define MOST_ERROR 2.0
-#else
-#define MOST_ERROR 1.0
-#endif
-
 static fst_lane_tries try_steps(void *memory)
 {
     batch *b = memory;
@@ -420,7 +411,7 @@ static fst_lane_tries try_steps(void *memory)
 #endif
     const REAL factor = FN(step_factor)(error);
     b->drift = FN(finish_step)(s);
-    const unsigned good = fst_wide_lanes_of(WIDE_LESS_EQUAL(error, R(MOST_ERROR)));
+    const unsigned good = fst_wide_lanes_of(WIDE_LESS_EQUAL(error, R(1.0)));
     fst_lane_tries tries = {.accepted = good & b->in_use & ~b->anew, .anew = b->anew};
     const unsigned rejected = b->in_use & ~(tries.accepted | tries.anew);
     const fst_wide_mask accepted = fst_wide_mask_of(tries.accepted);
