@@ -197,7 +197,7 @@ static fst_params orbit_params(int i)
 {
     fst_params p = bead_at(ORBITS[i].omega, ORBITS[i].dynamics);
     p.model_kappa = ORBITS[i].kappa;
-    p.friction_law = ORBITS[i].law;
+    p.friction_law = (int)ORBITS[i].law;
     p.run_periods = 60;
     p.run_discard = 40;
     return p;
