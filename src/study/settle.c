@@ -33,11 +33,12 @@ static const double WORTHWHILE = 0.5;
  * integrator's noise, docs/regimes.md), but no more than MOST_AT_REST: a faster bead may as well leave a place
  * slowly.  At the window's end it may be so many times as much: noise has peaks. */
 static const double AT_REST = 100.0, DEFAULT_RTOL = 1e-10, MOST_AT_REST = 1e-5, STILL_AT_REST = 100.0;
-/* An error bar that ends where a geometric series of the window's means does is missed by a hair each second time. */
+/* An error bar that ends where a geometric series of the window's means does is missed by a hair each second
+ * time. */
 static const double MARGIN = 2.0;
 static const double GROWS = 1e-6; /* rate at which a deviation from rest grows */
-/* Under dry friction that rate is not known, so that the bead must have been faster than at rest, by FAR, or faster
- * than QUICK and by MORE, to be known to come to rest there. */
+/* Under dry friction that rate is not known, so that the bead must have been faster than at rest, by FAR, or
+ * faster than QUICK and by MORE, to be known to come to rest there. */
 static const double FAR = 1000.0, QUICK = 1e-3, MORE = 10.0;
 enum {
     PERIODS_AT_REST = 4,
@@ -257,7 +258,8 @@ int fst_settling_look(fst_watched_run *run)
 void fst_settling_widen_errors(const fst_watched_run *run, fst_run_result *result)
 {
     const fst_settled_as as = run->settling.as;
-    const double way = as == FST_SETTLED_REST ? 0.0 : run->settling.way;
+    /* A bead at rest may still swing about the place by its speed over the frequency. */
+    const double way = as == FST_SETTLED_REST ? speed_of_late(run) / result->omega : run->settling.way;
     if (as == FST_SETTLED_NOT)
         return;
     result->mean_r_error = fmax(MARGIN * result->mean_r_error, way);

@@ -9,7 +9,8 @@
  *
  * each product scaled to norm 1, the logarithms added up.  After 40 squarings a constant factor in the norm
  * changes the rate by less than 1e-10.  J conserves |n|: deviations along n, for which the rate is 0, are
- * projected out.  Where nothing acts on n it turns freely, and nothing depends on it: all of n is projected out.
+ * projected out.  Where nothing acts on n it turns freely, and nothing depends on it: all of n is projected
+ * out.
  */
 #include "study/standstill.h"
 
@@ -60,7 +61,7 @@ static void across(const double *n, int is_free, matrix p)
         p[i][i] = 1.0;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-            p[FST_NX + i][FST_NX + j] = is_free ? 0.0 : p[FST_NX + i][FST_NX + j] - n[i] * n[j] / n2;
+            p[FST_NX + i][FST_NX + j] -= is_free ? (i == j) : n[i] * n[j] / n2;
 }
 
 /* m = P exp(a), by its series; a is small. */
