@@ -203,12 +203,31 @@ static void test_unstable_rest(void **unused)
     assert_true(result.max_r - result.min_r > 0.01);
 }
 
+/* A soft bead that is put down on the axis, which repels it, does not rest there, whatever the friction. */
+static void test_put_down(void **unused)
+{
+    (void)unused;
+    static const fst_friction_law laws[] = {FST_FRICTION_VISCOUS, FST_FRICTION_COULOMB, FST_FRICTION_ROLLING};
+    for (size_t i = 0; i < sizeof laws / sizeof *laws; ++i) {
+        fst_params p = libration(20.0, 1.5);
+        p.friction_law = laws[i];
+        p.bead_material = FST_MATERIAL_PARAMAGNETIC;
+        p.bead_a = 1e-3;
+        p.start_r = 1e-14;
+        p.run_periods = 60.0;
+        const fst_run_result result = run_of(&p);
+        assert_true(isnan(result.settled_at) && result.regime != FST_REGIME_LOCKED);
+        assert_true(result.max_r > 0.01);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_librations), cmocka_unit_test(test_rows),
         cmocka_unit_test(test_way),        cmocka_unit_test(test_unstable_orbit),
         cmocka_unit_test(test_rest),       cmocka_unit_test(test_unstable_rest),
+        cmocka_unit_test(test_put_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -30,10 +30,16 @@ static const double LEAST_PERIODS = 5.5, LEAST_TURNS = 9.5;
 /* A window that is no shorter than this part of what is left of the run is not worth the trouble. */
 static const double WORTHWHILE = 0.5;
 /* Greatest |d(state)/dt| of a bead that stands still, in units of run.rtol or of the default tolerance (the
- * integrator's noise, docs/regimes.md); at the window's end it may be so many times as much: noise has peaks.
- */
-static const double AT_REST = 100.0, DEFAULT_RTOL = 1e-10, STILL_AT_REST = 100.0;
+ * integrator's noise, docs/regimes.md), but no more than MOST_AT_REST: a faster bead may as well leave a place
+ * slowly.  At the window's end it may be so many times as much: noise has peaks. */
+static const double AT_REST = 100.0, DEFAULT_RTOL = 1e-10, MOST_AT_REST = 1e-5, STILL_AT_REST = 100.0;
+/* An error bar that ends where a geometric series of the window's means does is missed by a hair each second
+ * time. */
+static const double MARGIN = 2.0;
 static const double GROWS = 1e-6; /* rate at which a deviation from rest grows */
+/* Under dry friction that rate is not known, so that the bead must have been faster than at rest, by FAR, or
+ * faster than QUICK and by MORE, to be known to come to rest there. */
+static const double FAR = 1000.0, QUICK = 1e-3, MORE = 10.0;
 enum {
     PERIODS_AT_REST = 4,
     PERIODS_WITHOUT_TURNING = 2 /* from then on maxima of r are looked for */
@@ -116,22 +122,23 @@ static double speed_of_late(const fst_watched_run *run)
 
 static double noise_of(const fst_watched_run *run)
 {
-    return AT_REST * fmax(DEFAULT_RTOL, run->params->run_rtol);
+    return fmin(AT_REST * fmax(DEFAULT_RTOL, run->params->run_rtol), MOST_AT_REST);
 }
 
-/* Whether the bead stands still at a place that it will leave.  Where n turns freely, or under dry friction,
- * this is not known. */
+/* Whether the bead stands still at a place that it will leave, or was put down there. */
 static int is_repelled(const fst_watched_run *run)
 {
-    if (fst_n_is_free(run) || run->model->coefficients.kinds.dry)
-        return 0;
+    if (run->model->coefficients.kinds.dry)
+        return !run->settling.has_moved;
     return fst_rest_rate(run->model, run->flow->step.end) > GROWS + noise_of(run);
 }
 
 /* Whether the bead has stood still for some periods; asked when one has ended. */
 static int rests(fst_watched_run *run)
 {
-    const int still = run->window.periods.offered > 1 && speed_of_late(run) < noise_of(run);
+    const double speed = speed_of_late(run), noise = noise_of(run);
+    const int is_known = run->window.periods.offered > 1, still = is_known && speed < noise;
+    run->settling.has_moved |= is_known && speed > fmax(MORE * noise, fmin(FAR * noise, QUICK));
     run->settling.at_rest = still ? run->settling.at_rest + 1 : 0;
     return run->settling.at_rest >= PERIODS_AT_REST && !is_repelled(run);
 }
@@ -250,12 +257,16 @@ int fst_settling_look(fst_watched_run *run)
 
 void fst_settling_widen_errors(const fst_watched_run *run, fst_run_result *result)
 {
-    const double way = run->settling.way;
-    if (run->settling.as != FST_SETTLED_RETURNS && run->settling.as != FST_SETTLED_CYCLE)
+    const fst_settled_as as = run->settling.as;
+    /* A bead at rest may still swing about the place by its speed over the frequency. */
+    const double way = as == FST_SETTLED_REST ? speed_of_late(run) / result->omega : run->settling.way;
+    if (as == FST_SETTLED_NOT)
         return;
-    result->mean_r_error = fmax(result->mean_r_error, way);
-    result->mean_nz_error = fmax(result->mean_nz_error, way);
-    result->mean_alpha_dot_error = fmax(result->mean_alpha_dot_error, way * result->omega);
+    result->mean_r_error = fmax(MARGIN * result->mean_r_error, way);
+    result->mean_nz_error = fmax(MARGIN * result->mean_nz_error, way);
+    if (as == FST_SETTLED_REST && fst_n_is_free(run)) /* n goes on turning, more slowly than the window shows */
+        result->mean_nz_error = fmax(result->mean_nz_error, 1.0 - fabs(result->mean_nz));
+    result->mean_alpha_dot_error = fmax(MARGIN * result->mean_alpha_dot_error, way * result->omega);
 }
 
 int fst_settling_seeks_extremes(const fst_watched_run *run)

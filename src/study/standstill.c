@@ -9,7 +9,8 @@
  *
  * each product scaled to norm 1, the logarithms added up.  After 40 squarings a constant factor in the norm
  * changes the rate by less than 1e-10.  J conserves |n|: deviations along n, for which the rate is 0, are
- * projected out.
+ * projected out.  Where nothing acts on n it turns freely, and nothing depends on it: all of n is projected
+ * out.
  */
 #include "study/standstill.h"
 
@@ -51,8 +52,8 @@ static void scale(matrix a, double factor)
             a[i][j] *= factor;
 }
 
-/* The projector to deviations across n. */
-static void across(const double *n, matrix p)
+/* The projector to deviations across n, or to those that leave it alone. */
+static void across(const double *n, int is_free, matrix p)
 {
     const double n2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
     memset(p, 0, sizeof(matrix));
@@ -60,7 +61,7 @@ static void across(const double *n, matrix p)
         p[i][i] = 1.0;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-            p[FST_NX + i][FST_NX + j] -= n[i] * n[j] / n2;
+            p[FST_NX + i][FST_NX + j] -= is_free ? (i == j) : n[i] * n[j] / n2;
 }
 
 /* m = P exp(a), by its series; a is small. */
@@ -82,8 +83,9 @@ static void exponential(matrix a, matrix p, matrix m)
 double fst_rest_rate(const fst_model *model, const double state[FST_STATE_SIZE])
 {
     matrix j, p, a, m, square;
+    const fst_coefficients_double *c = &model->coefficients;
     fst_jacobian(model, state, j, NULL);
-    across(state + FST_NX, p);
+    across(state + FST_NX, c->hard == 0.0 && c->twice_b == 0.0, p);
     multiply(p, j, a);
     multiply(a, p, j);
     const double size = norm(j);

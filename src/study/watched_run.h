@@ -29,6 +29,7 @@ typedef struct fst_settling {
     double way;                       /* that the states had still to go then */
     int64_t periods, crossings;       /* marks of periods in the window, and crossings, when it was looked at */
     int64_t at_rest, without_turning; /* the last periods in which the bead stood still, or Phi did not turn */
+    int has_moved;                    /* once it was far too fast to stand still */
     fst_closing returns;
     fst_cycle cycle;
 } fst_settling;
