@@ -81,6 +81,9 @@ class Memory(Case):
         self.assertEqual(status, 0)
         self.assertTrue(900 < events.rows(self.path("1000000000.db")) < 10000)
         self.assertLess(large - small, MEBIBYTES, (small, large))
+        status, exported = peak("export", self.path("1000000000.db"), "--csv", "--key", "regime")
+        self.assertEqual(status, 0)
+        self.assertLess(exported - small, MEBIBYTES, (small, exported))
 
     def test_chains(self):
         words = ["--over", "model.kappa=1,2", "--carry", "up"]
@@ -98,6 +101,7 @@ class Memory(Case):
             for name, words in (("go on", self.command(count)),
                                 ("nothing to do", self.command(count)),
                                 ("csv", ["export", self.path(f"{count}.db"), "--csv"]),
+                                ("keys", ["export", self.path(f"{count}.db"), "--csv", "--key", "regime"]),
                                 ("json", ["export", self.path(f"{count}.db"), "--json", "-o", self.path("out.json")]),
                                 ("hdf5", ["export", self.path(f"{count}.db"), "--hdf5", "-o", self.path("out.h5")])):
                 status, size = peak(*words)

@@ -271,6 +271,14 @@ fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *er
     return fst_fail(error, FST_BAD_INPUT, where, "unknown key \"%.60s\"; the nearest is %s", key, nearest);
 }
 
+int fst_sweep_place(sqlite3_stmt *row, const char *key)
+{
+    for (int k = 1; k < sqlite3_column_count(row); ++k)
+        if (strcmp(sqlite3_column_name(row, k), key) == 0)
+            return k;
+    return 0;
+}
+
 double fst_sweep_number(sqlite3_stmt *rows, int column)
 {
     if (sqlite3_column_type(rows, column) == SQLITE_NULL)

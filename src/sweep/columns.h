@@ -22,6 +22,9 @@ char *fst_sweep_state_sql(void);
 /* Bind a record and its checksum, which begins with `seed`, to the inserting statement. */
 void fst_sweep_bind(sqlite3_stmt *insert, const fst_grid *grid, uint64_t seed, const fst_sweep_record *record);
 
+/* The place of a key among the columns of a row that is read; 0, the point's, where rows do not have it. */
+int fst_sweep_place(sqlite3_stmt *row, const char *key);
+
 /* A value of a row that was read as a number, regimes and symmetries by their index; NAN: undefined. */
 double fst_sweep_number(sqlite3_stmt *row, int column);
 

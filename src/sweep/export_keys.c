@@ -10,13 +10,18 @@
 #include "base/error.h"
 #include "base/number.h"
 #include "host/whole_file.h"
-#include "sweep/file.h"
+#include "sweep/columns.h"
+#include "sweep/refined.h"
+
+enum { MOST_KEYS = 256 };
 
 typedef struct table_writer {
     const char *const *keys;
     int count;
     fst_shown_units units;
-    fst_sweep_table table;
+    fst_sweep_file file;
+    int is_refined;        /* points without a row are left out; else their results stay empty */
+    int places[MOST_KEYS]; /* of the keys among the columns of the database */
     FILE *stream;
 } table_writer;
 
@@ -61,7 +66,7 @@ static void write_name(FILE *out, const char *name, const char *unit)
 
 static void write_head(const table_writer *w, const fst_scales *scales)
 {
-    const fst_grid *grid = w->table.grid;
+    const fst_grid *grid = w->file.grid;
     const char *unit;
     int shift;
     for (int i = 0; i < fst_grid_axis_count(grid); ++i) {
@@ -79,13 +84,13 @@ static void write_head(const table_writer *w, const fst_scales *scales)
 /* The digits are shifted, so that 0.009 m are 9 mm and not 9.000000000000002. */
 static void write_parameter(const table_writer *w, int axis, int64_t point, const fst_params *params)
 {
-    const int index = fst_param_find(fst_grid_key(w->table.grid, axis));
+    const int index = fst_param_find(fst_grid_key(w->file.grid, axis));
     const fst_param_info *info = fst_param_at(index);
     char text[64];
     int shift;
     (void)parameter_unit(info, w->units, &shift);
     if (info->kind == FST_KIND_REAL) {
-        (void)fst_number_write(text, sizeof text, fst_grid_value(w->table.grid, axis, point));
+        (void)fst_number_write(text, sizeof text, fst_grid_value(w->file.grid, axis, point));
         const double shifted = fst_number_read(text, fst_number_length(text), shift);
         (void)fst_number_write(text, sizeof text, shifted);
     } else {
@@ -109,28 +114,83 @@ static void write_result(const table_writer *w, const char *key, double value, c
     (void)fputs(text, w->stream);
 }
 
-static fst_status write_rows(const table_writer *w, fst_error *error)
+/* One line; `row` is NULL for a point without a row. */
+static fst_status write_point(const table_writer *w, int64_t point, sqlite3_stmt *row, fst_error *error)
 {
-    const fst_grid *grid = w->table.grid;
-    const int64_t points = fst_grid_points(grid);
-    for (int64_t point = 0; point < points; ++point) {
-        fst_params params;
-        const fst_status status = fst_grid_params(grid, point, &params, error);
-        if (status != FST_OK)
-            return status;
-        const fst_scales scales = fst_scales_of(&params);
-        if (point == 0)
-            write_head(w, &scales);
-        if (w->table.refine && !w->table.computed[point])
-            continue;
-        for (int i = 0; i < fst_grid_axis_count(grid); ++i)
-            write_parameter(w, i, point, &params);
-        for (int i = 0; i < w->count; ++i) {
-            write_result(w, w->keys[i], w->table.values[i * points + point], &scales);
-            (void)fputc(i + 1 < w->count ? ',' : '\n', w->stream);
-        }
+    fst_params params;
+    const fst_status status = fst_grid_params(w->file.grid, point, &params, error);
+    if (status != FST_OK)
+        return status;
+    const fst_scales scales = fst_scales_of(&params);
+    for (int i = 0; i < fst_grid_axis_count(w->file.grid); ++i)
+        write_parameter(w, i, point, &params);
+    for (int i = 0; i < w->count; ++i) {
+        write_result(w, w->keys[i], row ? fst_sweep_number(row, w->places[i]) : NAN, &scales);
+        (void)fputc(i + 1 < w->count ? ',' : '\n', w->stream);
     }
     return FST_OK;
+}
+
+/* Points without a row, up to the next one that has one. */
+static fst_status write_gap(const table_writer *w, int64_t from, int64_t to, fst_error *error)
+{
+    fst_status status = FST_OK;
+    for (int64_t point = from; point < to && !w->is_refined && status == FST_OK; ++point)
+        status = write_point(w, point, NULL, error);
+    return status;
+}
+
+static fst_status find_places(table_writer *w, sqlite3_stmt *row, fst_error *error)
+{
+    if (w->count > MOST_KEYS)
+        return fst_fail(error, FST_BAD_INPUT, "fst_sweep_export_keys.keys", "at most %d keys", MOST_KEYS);
+    for (int i = 0; i < w->count; ++i)
+        w->places[i] = fst_sweep_place(row, w->keys[i]);
+    return FST_OK;
+}
+
+/* The lines come from the file one by one, so that a grid may have more points than memory has room for. */
+static fst_status write_rows(table_writer *w, fst_error *error)
+{
+    fst_sweep_rows rows;
+    int64_t behind = 0;
+    int more = 0;
+    fst_params first;
+    fst_status status = fst_sweep_rows_begin(&rows, &w->file, error);
+    if (status == FST_OK)
+        status = find_places(w, rows.row, error);
+    if (status == FST_OK)
+        status = fst_grid_params(w->file.grid, 0, &first, error);
+    if (status == FST_OK) {
+        const fst_scales scales = fst_scales_of(&first);
+        write_head(w, &scales);
+    }
+    while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more) {
+        status = write_gap(w, behind, rows.next - 1, error);
+        if (status == FST_OK)
+            status = write_point(w, rows.next - 1, rows.row, error);
+        behind = rows.next;
+    }
+    if (status == FST_OK)
+        status = write_gap(w, behind, fst_grid_points(w->file.grid), error);
+    if (status == FST_OK && !fst_sweep_rows_are_whole(&rows))
+        status = fst_sweep_rows_fail(&rows, "", error);
+    fst_sweep_rows_end(&rows);
+    return status;
+}
+
+static fst_status write_file(table_writer *w, const char *out, fst_error *error)
+{
+    fst_whole_file file;
+    fst_status status = fst_whole_file_open(&file, out, error);
+    if (status != FST_OK)
+        return status;
+    w->stream = file.stream;
+    status = write_rows(w, error);
+    if (status == FST_OK)
+        return fst_whole_file_commit(&file, error);
+    fst_whole_file_discard(&file);
+    return status;
 }
 
 fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int count, fst_shown_units units,
@@ -142,21 +202,19 @@ fst_status fst_sweep_export_keys(const char *path, const char *const *keys, int 
         w.keys = usual;
         w.count = (int)(sizeof usual / sizeof *usual);
     }
-    fst_whole_file file;
-    fst_status status = fst_sweep_read(path, w.keys, w.count, &w.table, error);
-    if (status == FST_OK && out) {
-        status = fst_whole_file_open(&file, out, error);
-        if (status == FST_OK) {
-            w.stream = file.stream;
-            status = write_rows(&w, error);
-            if (status == FST_OK)
-                status = fst_whole_file_commit(&file, error);
-            else
-                fst_whole_file_discard(&file);
-        }
-    } else if (status == FST_OK) {
-        status = write_rows(&w, error);
+    fst_refining refining;
+    fst_status status = FST_OK;
+    for (int i = 0; i < w.count && status == FST_OK; ++i)
+        status = fst_sweep_check_key(w.keys[i], "fst_sweep_export_keys.keys", error);
+    if (status != FST_OK)
+        return status;
+    status = fst_sweep_file_open(path, 0, &w.file, error);
+    if (status == FST_OK)
+        status = fst_refining_read(&w.file.lines, path, &refining, error);
+    if (status == FST_OK) {
+        w.is_refined = refining.levels > 0;
+        status = out ? write_file(&w, out, error) : write_rows(&w, error);
     }
-    fst_sweep_table_free(&w.table);
+    fst_sweep_file_close(&w.file);
     return status;
 }

@@ -19,15 +19,6 @@ fst_status fst_sweep_read_grid(const char *path, fst_grid **grid, fst_error *err
     return status;
 }
 
-/* Find the keys among the columns of the table. */
-static void find_columns(sqlite3_stmt *row, const char *const *keys, int count, int *places)
-{
-    for (int i = 0; i < count; ++i)
-        for (int k = 0; k < sqlite3_column_count(row); ++k)
-            if (strcmp(sqlite3_column_name(row, k), keys[i]) == 0)
-                places[i] = k;
-}
-
 /* Read all rows, or fail: a figure cannot show that some are lost. */
 static fst_status read_rows(const fst_sweep_file *file, const char *const *keys, int count,
                             fst_sweep_table *table, fst_error *error)
@@ -38,8 +29,8 @@ static fst_status read_rows(const fst_sweep_file *file, const char *const *keys,
     fst_status status = fst_sweep_rows_begin(&rows, file, error);
     if (!places && status == FST_OK)
         status = fst_fail(error, FST_NO_MEMORY, file->name, "out of memory");
-    if (status == FST_OK)
-        find_columns(rows.row, keys, count, places);
+    for (int i = 0; i < count && status == FST_OK; ++i)
+        places[i] = fst_sweep_place(rows.row, keys[i]);
     while (status == FST_OK && (status = fst_sweep_rows_next(&rows, &more, error)) == FST_OK && more) {
         table->computed[rows.next - 1] = 1;
         for (int i = 0; i < count; ++i)
