@@ -226,7 +226,8 @@ export class Core {
     result() {
         const [regime, reason, symmetry, dynamics] = [0, 1, 2, 3].map((which) =>
             this.text(this.c.lab_result_text(this.bead, which)) || null);
-        const run = { regime, reason, symmetry, dynamics };
+        const scene = this.scene();
+        const run = { regime, reason, symmetry, dynamics, controller: scene["run.controller"] };
         this.results.forEach((row, i) => {
             run[row.name] = number(this.c.lab_result(this.bead, i));
         });
@@ -235,7 +236,7 @@ export class Core {
         [run.returns, run.rhs_calls, run.steps_accepted, run.steps_rejected] = rest.slice(1, 5);
         run.final_state = rest.slice(5).map(number);
         run.groups = this.groups();
-        run.scene = this.scene();
+        run.scene = scene;
         run.version = this.version;
         return run;
     }
