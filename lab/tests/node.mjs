@@ -78,7 +78,8 @@ const tests = {
     },
     "the library's table and sentences reach the page"() {
         const schema = JSON.parse(festoon("schema", "--json"));
-        assert.deepEqual(core.parameters.map((row) => row.key), schema.map((row) => row.key));
+        const own = schema.filter((row) => row.parts === null); // the page has no editor for parts of a magnet
+        assert.deepEqual(core.parameters.map((row) => row.key), own.map((row) => row.key));
         assert.throws(() => core.setScene({ "drive.freqency": 1 }), /drive\.frequency/);
         assert.throws(() => core.setScene({ "drive.frequency": "12 parsec" }), (error) => error.where === "drive.frequency" && /Hz/.test(error.message));
         core.setScene({});
