@@ -123,6 +123,7 @@ static void test_ramp_in_short_pieces(void **unused)
         fst_run_result result;
         assert_int_equal(fst_run(&p, &options, &result, NULL), FST_OK);
         assert_int_equal(r.count, PIECES);
+        CHECK_CLOSE(result.omega, 0.39, 1e-12);
         for (int i = 0; i < PIECES; ++i) {
             CHECK_WITHIN(r.points[i].mean_r, 0.5, 1.5);
             CHECK_WITHIN(r.points[i].mean_alpha_dot, -0.4, 0.4);

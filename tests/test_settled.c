@@ -207,7 +207,7 @@ static void test_unstable_rest(void **unused)
 static void test_put_down(void **unused)
 {
     (void)unused;
-    static const fst_friction_law laws[] = {FST_FRICTION_VISCOUS, FST_FRICTION_COULOMB, FST_FRICTION_ROLLING};
+    static const int laws[] = {FST_FRICTION_VISCOUS, FST_FRICTION_COULOMB, FST_FRICTION_ROLLING};
     for (size_t i = 0; i < sizeof laws / sizeof *laws; ++i) {
         fst_params p = libration(20.0, 1.5);
         p.friction_law = laws[i];

@@ -112,6 +112,8 @@ fst_status fst_run(const fst_params *params, const fst_run_options *options, fst
     status = fst_watched_run_begin(&s->run, &at_start, options->start, error);
     if (status == FST_OK) {
         fst_ramp_begin(&s->ramp, options, fst_run_discard(params), params->run_periods, &s->run.window);
+        if (s->ramp.is_given)
+            s->run.settling.until = s->ramp.until; /* its drive has arrived */
         status = simulate(s, error);
     }
     if (s->run.flow && (status == FST_OK || status == FST_INTERRUPTED)) {
