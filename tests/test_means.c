@@ -100,9 +100,11 @@ static void test_errors_of_marks_that_differ(void **unused)
     (void)unused;
     by_hand *b = begin();
     fill(b, FST_Q_R, 0.83);
+    fill(b, FST_Q_R2, 0.83 * 0.83 + 0.04);
     CHECK_WITHIN(conclude(b).mean_r_error, 0.0, 1e-9);
     b = begin();
     fill(b, FST_Q_R, 0.83);
+    fill(b, FST_Q_R2, 0.83 * 0.83 + 0.04);
     for (int i = 0; i <= BLOCKS; ++i)
         b->marks.kept[i].state[FST_X] = i % 2 ? 0.01 : 0.0;
     CHECK_WITHIN(conclude(b).mean_r_error, 0.01 / BLOCKS, 0.04 / BLOCKS);

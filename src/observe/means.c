@@ -128,16 +128,20 @@ static unseen unseen_of(const fst_window *w, const fst_mark_series *series, cons
 {
     const fst_mark *first = &series->kept[0], *last = &series->latest;
     const double blocks = fmax(series->count - 1, 1.0), omega = w->groups.omega;
-    if (series != &w->periods) { /* the motion of the block differs as much as the states at its ends */
-        double farthest = 0.0;
-        for (int i = series->count / 2; i < series->count; ++i) /* what comes closer before is seen in blocks */
-            farthest = fmax(farthest, SHIFT * fst_state_distance(series->kept[i].state, last->state));
-        return (unseen){farthest / blocks, farthest / blocks, omega * farthest / blocks};
-    }
-    const double turned = fmin(w->greatest_bead_angle - w->least_bead_angle, 0.5 * FST_TWO_PI);
-    return (unseen){PART * result->std_r / blocks,
-                    PART * deviation(mean(first, last, FST_Q_N_ZZ), result->mean_nz) / blocks,
-                    turned / time_between(first, last)};
+    const double range = w->greatest_bead_angle - w->least_bead_angle;
+    unseen cut = {PART * result->std_r / blocks,
+                  PART * deviation(mean(first, last, FST_Q_N_ZZ), result->mean_nz) / blocks,
+                  fmin(range, 0.5 * FST_TWO_PI) / time_between(first, last)};
+    if (series == &w->periods)
+        return cut;
+    double farthest = 0.0; /* a block's motion differs as much as the states at its ends */
+    for (int i = series->count / 2; i < series->count; ++i) /* what comes closer before is seen in blocks */
+        farthest = fmax(farthest, SHIFT * fst_state_distance(series->kept[i].state, last->state));
+    cut.r = fmin(cut.r, farthest / blocks);
+    cut.nz = fmin(cut.nz, farthest / blocks);
+    cut.alpha_dot =
+        fst_window_is_bounded(w) ? fmin(cut.alpha_dot, omega * farthest / blocks) : omega * farthest / blocks;
+    return cut;
 }
 
 static double pick_r(const fst_ramp_point *p)
