@@ -38,7 +38,7 @@ static const double PART = 0.5;
 /* A state that differs may shift means by so many times as much. */
 static const double SHIFT = 2.0;
 /* The integration may have lost so many times its tolerance. */
-static const double LOST = 2.0;
+static const double LOST = 4.0;
 
 static double time_between(const fst_mark *first, const fst_mark *last)
 {
