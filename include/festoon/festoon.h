@@ -230,8 +230,8 @@ FST_API fst_status fst_params_set(fst_params *params, const char *key, const cha
 FST_API double fst_run_discard(const fst_params *params);
 
 /* FST_BAD_INPUT: a value was given that the choice of others leaves without effect (bead.a of a hard bead,
- * bead.b of one that is not mixed); the sentence says what to choose.  fst_model_new() does not look, for a
- * sweep may vary the choice: ask before a single run. */
+ * magnet.lines beside a map); the sentence says what to choose.  What only dry friction reads may wait under
+ * another law.  fst_model_new() does not look, for a sweep may vary the choice: ask before a single run. */
 FST_API fst_status fst_params_check_effects(const fst_params *params, fst_error *error);
 
 /* FST_BAD_INPUT: a part of the magnet cannot be as it is; a number is out of its range, a turn has no axis, or
