@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, 
 import numpy as np
 
 from ._errors import BadInput, FestoonError
-from ._native import call, ffi, lib, path_bytes, rows_of, take_text, text_of
+from ._native import Watch, call, ffi, lib, path_bytes, rows_of, take_text, text_of
 from ._progress import Progress
 from ._quantities import Value, value_text
 from ._tables import PARAMETERS, SHORT, Parameters
@@ -142,7 +142,8 @@ class Bead(Parameters):
         """Make the model; a map of the field is read once, and shared by the beads that follow from this one."""
         if not self._params.magnet_map:
             field_map = ffi.new("fst_field_map **")
-            call(lib.fst_params_read_map, self._params, ffi.NULL, field_map)
+            with Watch(None) as watch:
+                watch.call(lib.fst_params_read_map, self._params, watch.told, field_map)
             self._map = ffi.gc(field_map[0], lib.fst_field_map_free) if field_map[0] else None
         model = ffi.new("fst_model **")
         call(lib.fst_model_new, self._params, model)

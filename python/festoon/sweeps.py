@@ -538,13 +538,16 @@ def read_sweep(path: Path) -> Sweep:
     found = ffi.new("fst_grid **")
     call(lib.fst_sweep_read_grid, path_bytes(path), found)
     grid = ffi.gc(found[0], lib.fst_grid_free)
-    with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
+    # After Ctrl-C the thread that still writes there may be quicker than the end of the folder.
+    with tempfile.TemporaryDirectory(prefix="festoon-", ignore_cleanup_errors=True) as folder:
         out = os.path.join(folder, "rows.json")
-        error = new_error()
-        if lib.fst_sweep_export(path_bytes(path), lib.FST_EXPORT_JSON, out.encode(), ffi.NULL, error) != lib.FST_OK:
+        try:
+            with Watch(None) as watch:
+                watch.call_apart(lib.fst_sweep_export, path_bytes(path), lib.FST_EXPORT_JSON, out.encode(), ffi.NULL)
+        except FestoonError as error:
             if not os.path.exists(out):
-                raise error_of(error)
-            warnings.warn(text_of(error.sentence), stacklevel=2)
+                raise
+            warnings.warn(error.sentence, stacklevel=2)
         with open(out, encoding="utf-8") as file:
             given = json.load(file)
     batch = ffi.gc(lib.pyf_batch_new(grid, lib.FST_ARITHMETIC_PORTABLE, 0), lib.pyf_batch_free)

@@ -5,7 +5,7 @@ from typing import Any, Optional, Tuple, Union
 
 import numpy as np
 
-from ._native import ffi, lib, path_bytes
+from ._native import Watch, ffi, lib, path_bytes
 from ._progress import Progress
 from ._quantities import Scales
 from ._tables import COLUMNS, Columns
@@ -131,11 +131,9 @@ def _again(rows: Any, bead: Bead, complete: bool) -> Trajectory:
 
 def read(path: Path) -> Trajectory:
     """Read a trajectory from .h5 or .csv."""
-    from ._native import call
-
-    table = ffi.new("fst_table *")
-    call(lib.fst_trajectory_read, path_bytes(path), table)
-    table = ffi.gc(table, lib.fst_table_free)
+    table = ffi.gc(ffi.new("fst_table *"), lib.fst_table_free)
+    with Watch(None) as watch:
+        watch.call_apart(lib.fst_trajectory_read, path_bytes(path), table)
     rows = np.empty(table.rows, DTYPE)
     for i, name in enumerate(COLUMNS):
         if table.rows:
