@@ -20,6 +20,7 @@ from ._native import (
     take_text,
     text_of,
 )
+from ._pickled import Told, image_of, same, struct_of
 from ._progress import Progress
 from ._quantities import quantity
 from ._tables import MEASURED, MeasuredNumbers
@@ -162,7 +163,7 @@ def read_track(
     return Track(track, take_text(understood[0]) if understood[0] else "")
 
 
-class Measurement(MeasuredNumbers):
+class Measurement(Told, MeasuredNumbers):
     """What was measured of a track; lengths in `length_unit`, NaN where a number is unknown."""
 
     def __init__(self, track: Track, found: Any) -> None:
@@ -176,6 +177,15 @@ class Measurement(MeasuredNumbers):
 
     def _number(self, name: str) -> float:
         return float(getattr(self._found, name))
+
+    def _facts(self) -> Any:
+        return [self.to_dict(), self.centre, self.track]
+
+    def __hash__(self) -> int:
+        return hash(repr(self.to_dict()))
+
+    def __reduce__(self) -> Any:
+        return _measurement_again, (self.track, image_of(self._found))
 
     def to_dict(self) -> Dict[str, Any]:
         """What `festoon measure --json` prints."""
@@ -210,6 +220,10 @@ class Measurement(MeasuredNumbers):
                 spread = "" if math.isnan(error) else f" +- {error:.2g}"
                 lines.append(f"  {name} = {value:.6g}{spread}" + ("" if unit == "1" else f" {unit}"))
         return "\n".join([*lines, *(f"  warning: {text}" for text in self.warnings)])
+
+
+def _measurement_again(track: Track, image: Any) -> Measurement:
+    return Measurement(track, struct_of(image))
 
 
 def measure(
@@ -289,12 +303,18 @@ class FitParameter:
         self.interval = (float(parameter.interval[0]), float(parameter.interval[1]))
         self.bootstrap_error = float(parameter.bootstrap_error)
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, FitParameter) and same(self.__dict__, other.__dict__)
+
+    def __hash__(self) -> int:
+        return hash((self.key, self.value))
+
     def __repr__(self) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
         return f"{self.key} = {self.value:.6g} +- {self.error:.2g}{unit}"
 
 
-class Fit:
+class Fit(Told):
     """Parameters that follow from measured points, and how well they are known."""
 
     def __init__(self, fit: Any, points: Any, begun: Bead) -> None:
@@ -312,6 +332,10 @@ class Fit:
         self.error_scale = float(fit.error_scale)
         self.weakest = text_of(fit.weakest)
         self.remarks = text_of(fit.remarks)
+
+    def __reduce__(self) -> Any:
+        points = None if self._points is None else image_of(self._points)
+        return _fit_again, (image_of(self._fit), points, self._begun)
 
     def __getitem__(self, keyword: str) -> FitParameter:
         for parameter in self.parameters:
@@ -340,6 +364,12 @@ class Fit:
         lines = [f"Fit: chi^2 {self.chi2:.6g}, {self.dof} degrees of freedom"]
         lines += [f"  {parameter!r}" for parameter in self.parameters]
         return "\n".join([*lines, *(f"  {line}" for line in self.remarks.splitlines())])
+
+
+def _fit_again(image: Any, points: Any, begun: Bead) -> Fit:
+    found = struct_of(image)
+    found.params.magnet_map = begun._map or ffi.NULL
+    return Fit(found, None if points is None else struct_of(points), begun)
 
 
 def fit(

@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
-from ._errors import ERRORS, FestoonError, Interrupted, OutOfMemory
+from ._errors import ERRORS, BadInput, FestoonError, Interrupted, OutOfMemory
 from ._native import (
     Watch,
     call,
@@ -61,10 +61,9 @@ class SweepIn(SweepNumbers):
     """The numbers of a sweep in other units."""
 
     def __init__(self, sweep: "Sweep", units: str) -> None:
-        self._sweep = sweep
+        self._sweep, self._units = sweep, units
         for axis in sweep.axes:
             if axis.key in ("magnet.half_length", "friction.gamma", "bead.mass"):
-                from ._errors import BadInput
 
                 raise BadInput("sweep", f"{axis.key} is varied, and with it the unit of the scaled numbers")
         self._scales = Scales(lib.fst_grid_base(sweep._grid), units)
@@ -75,6 +74,15 @@ class SweepIn(SweepNumbers):
     def unit(self, name: str) -> str:
         """The unit of a number here."""
         return self._scales.factor(RESULTS[name][0])[1]
+
+    def __reduce__(self) -> Any:
+        return SweepIn, (self._sweep, self._units)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, SweepIn) and self._units == other._units and self._sweep == other._sweep
+
+    def __hash__(self) -> int:
+        return hash((self._sweep, self._units))
 
 
 class Sweep(SweepNumbers):
@@ -87,6 +95,8 @@ class Sweep(SweepNumbers):
         self._rows, self._grid, self._owner, self._map = rows, grid, owner, field_map
         #: Of a refined sweep: by point the regime of runs around it that agree, where none was made; else NaN.
         self._between: Any = None
+        #: Of random axes; None: not known, for it was read from a file.
+        self._seed: Optional[int] = None
         self.axes = [Axis(grid, i) for i in range(lib.fst_grid_axis_count(grid))]
         #: The name and the length of each dimension.
         self.dims: Tuple[str, ...] = ()
@@ -259,6 +269,43 @@ class Sweep(SweepNumbers):
         """The numbers in the units of a laboratory."""
         return SweepIn(self, "lab")
 
+    # ------------------------------------------------------------------ pickles, and equal ones
+
+    def _axis_texts(self) -> List[str]:
+        return [text_of(lib.fst_grid_axis_text(self._grid, i)) for i in range(len(self.axes))]
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        if self._seed is None and any(axis.random for axis in self.axes):
+            raise TypeError("a sweep over random axes that was read from a file cannot be pickled: pass its path on")
+        base = Bead._unmade(lib.fst_grid_base(self._grid)[0])
+        grid = base._portable_scene(), self._axis_texts(), self._seed or 0
+        rows = self._rows.copy()
+        rows["error"] = 0
+        errors = {}
+        for i in np.flatnonzero(self._rows["error"]):
+            error = ffi.cast("fst_error *", int(self._rows["error"][i]))
+            errors[int(i)] = ffi.string(error.where), ffi.string(error.sentence)
+        return _sweep_again, (grid, rows, errors, self._points, self.dims, self._between)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Sweep):
+            return NotImplemented
+        alike = [
+            (s.dims, s.shape, s._axis_texts(), Bead._unmade(lib.fst_grid_base(s._grid)[0])) for s in (self, other)
+        ]
+        if alike[0] != alike[1] or not np.array_equal(self._points, other._points):
+            return False
+        if list(map(str, self.errors.ravel())) != list(map(str, other.errors.ravel())):
+            return False
+        if not all(np.array_equal(axis.values, its.values) for axis, its in zip(self.axes, other.axes)):
+            return False
+        if not all(np.array_equal(getattr(self, name), getattr(other, name)) for name in ("computed", "regime", "reason")):
+            return False
+        return all(np.array_equal(self._array(name), other._array(name), equal_nan=True) for name in RESULTS)
+
+    def __hash__(self) -> int:
+        return hash((self.dims, self.shape, *self._axis_texts()))
+
     # ------------------------------------------------------------------ for other libraries
 
     def to_pandas(self) -> Any:
@@ -343,6 +390,28 @@ def _sweep_of(batch: Any, grid: Any, field_map: Any = None) -> Sweep:
     return Sweep(rows, grid, owner, field_map)
 
 
+def _sweep_again(
+    given: Tuple[str, List[str], int], rows: Any, errors: Mapping[int, Any], points: Any, dims: Any, between: Any
+) -> Sweep:
+    """A sweep from another process, which must have the same build."""
+    scene, axes, seed = given
+    if rows.dtype != dtype_of("pyf_row"):
+        raise BadInput("Sweep", "it was pickled by another version of festoon")
+    grid = _new_grid(Bead._unmade_of(scene), axes, seed)
+    batch = ffi.gc(lib.pyf_batch_new(grid, lib.FST_ARITHMETIC_PORTABLE, 0), lib.pyf_batch_free)
+    if not batch:
+        raise OutOfMemory("sweep", "no memory for the rows")
+    made = Sweep(owned_array(lib.pyf_batch_rows(batch), len(rows), rows.dtype, (batch, grid)), grid, (batch, grid))
+    made._rows[:] = rows
+    for i, (where, sentence) in errors.items():
+        status = made._rows["status"][i]
+        if not lib.pyf_row_fail(lib.pyf_batch_rows(batch) + i, where, sentence):
+            raise OutOfMemory("sweep", "no memory for a row")
+        made._rows["status"][i] = status
+    made._points, made.dims, made._between, made._seed = points, dims, between, seed
+    return made
+
+
 def _work(batch: Any, threads: List[threading.Thread], count: int, failures: List[BaseException]) -> None:
     """Let so many threads do the batch; they are in `threads` before they begin, so that none is left behind."""
 
@@ -418,7 +487,6 @@ def _into_file(
     words, _kept = strings(axes)
     options.axes, options.axis_count, options.seed = words, len(axes), seed
     if carry not in CARRY:
-        from ._errors import BadInput
 
         raise BadInput("fst_sweep_options.carry", f'unknown direction "{carry}": up or down')
     options.carry, options.threads, options.lanes = CARRY[carry], threads, lanes
@@ -488,7 +556,9 @@ def sweep(
         with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
             path = os.path.join(folder, "sweep.db")
             return _into_file(bead, texts, path, seed, carry, count, lanes, portable, refining, progress)
-    return _in_memory(grid, bead._map, count, lanes, portable, progress)
+    made = _in_memory(grid, bead._map, count, lanes, portable, progress)
+    made._seed = seed
+    return made
 
 
 # ---------------------------------------------------------------------------------------- reading one

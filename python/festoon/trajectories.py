@@ -22,7 +22,7 @@ class TrajectoryIn(Columns):
     """The columns of a trajectory in other units, computed as they are asked for."""
 
     def __init__(self, trajectory: "Trajectory", units: str) -> None:
-        self._trajectory = trajectory
+        self._trajectory, self._units = trajectory, units
         self._scales = Scales(trajectory.bead._params, units)
 
     def _column(self, name: str) -> Any:
@@ -30,6 +30,9 @@ class TrajectoryIn(Columns):
 
     def __getitem__(self, name: str) -> Any:
         return self._column(name)
+
+    def __reduce__(self) -> Any:
+        return TrajectoryIn, (self._trajectory, self._units)
 
     def unit(self, name: str) -> str:
         """The unit of a column here."""
