@@ -123,6 +123,8 @@ class Bead(Parameters):
                 data = scene.encode()
                 call(lib.fst_scene_parse, data, len(data), b"scene", self._params)
             elif scene is not None:
+                if not isinstance(scene, (str, bytes, os.PathLike)):
+                    raise TypeError(f"{scene!r} is no scene: parameters are keywords, as in Bead(frequency=10.7)")
                 call(lib.fst_scene_read, path_bytes(scene), self._params)
             self._set(keywords)
 

@@ -142,7 +142,7 @@ def read_track(
     *,
     format: Optional[str] = None,
     name: Optional[str] = None,
-    fps: Optional[float] = None,
+    fps: Union[None, float, str] = None,
     scale: Union[None, float, str] = None,
 ) -> Track:
     """Read the track of a bead in any of the formats of `festoon measure`; `scale` is the length of one unit."""
@@ -153,7 +153,7 @@ def read_track(
             kept.append(ffi.new("char[]", text.encode()))
             setattr(options, field, kept[-1])
     if fps is not None:
-        options.fps = fps
+        options.fps = quantity(fps, lib.FST_UNIT_FREQUENCY, "fps")
     if scale is not None:
         options.scale = quantity(scale, lib.FST_UNIT_LENGTH, "scale")
     track = ffi.gc(ffi.new("fst_track *"), lib.fst_track_free)
@@ -408,7 +408,8 @@ def fit(
         options.exposure = _seconds(exposure)
     found = ffi.gc(ffi.new("fst_fit *"), lib.fst_fit_free)
     table: Any = None
-    rows = columns = None
+    rows: Any = None
+    columns: Dict[str, Any] = {}
     kept = (free_words, kept_free, given_words, kept_given, bead)
     if points is not None:
         table = ffi.gc(ffi.new("fst_points *"), lib.fst_points_free)

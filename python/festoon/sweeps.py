@@ -132,6 +132,13 @@ class Sweep(SweepNumbers):
                 return axis.at(self._points)
         raise KeyError(f"{keyword} is not varied: {', '.join(axis.keyword for axis in self.axes)}")
 
+    def __getattr__(self, name: str) -> Any:
+        """The values of a varied parameter: ``s.kappa`` is ``s.parameter("kappa")``."""
+        axes = self.__dict__.get("axes", ())
+        if any(axis.keyword == name for axis in axes):
+            return self.parameter(name)
+        raise AttributeError(f"a Sweep over {', '.join(axis.keyword for axis in axes)} has no {name}")
+
     def _bead(self, point: int) -> Bead:
         params = ffi.new("fst_params *")
         call(lib.fst_grid_params, self._grid, point, params)
@@ -299,7 +306,8 @@ class Sweep(SweepNumbers):
             return False
         if not all(np.array_equal(axis.values, its.values) for axis, its in zip(self.axes, other.axes)):
             return False
-        if not all(np.array_equal(getattr(self, name), getattr(other, name)) for name in ("computed", "regime", "reason")):
+        words = ("computed", "regime", "reason")
+        if not all(np.array_equal(getattr(self, name), getattr(other, name)) for name in words):
             return False
         return all(np.array_equal(self._array(name), other._array(name), equal_nan=True) for name in RESULTS)
 
@@ -367,6 +375,8 @@ def axis_text(keyword: str, values: Any) -> str:
     """An axis as the library reads it: KEY=A,B,C; a text is taken as it is ("8:20:13", "8 Hz:20 Hz:5:log")."""
     if isinstance(values, str):
         return f"{key_of(keyword)}={values}"
+    if hasattr(values, "__next__"):
+        values = list(values)
     words = [value_text(value, key_of(keyword)) for value in np.atleast_1d(np.asarray(values, object)).ravel()]
     return f"{key_of(keyword)}={','.join(words)}"
 
@@ -547,6 +557,8 @@ def sweep(
     """
     bead = (bead or Bead())._asked()
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]
+    if threads is not None and threads < 0:
+        raise BadInput("threads", f"{threads} is no number of threads: 1 or more, or 0 for all processors")
     count = threads or len(os.sched_getaffinity(0))
     grid = _new_grid(bead, texts, seed)
     refining = (refine, refine_by, refine_step)

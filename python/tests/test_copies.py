@@ -38,7 +38,8 @@ def results(track):
     fit = fs.fit(track.with_name("points.csv"), free=["kappa"])
     yield from (short, short.groups, short.run(trajectory=True), short.run().lab, short.orbit(), dry, dry[0])
     yield from (branch, branch.specials[0], branch.ends[0], fs.UNSET, read, seen, fit, fit.parameters[0])
-    yield from (dry.families[0][0], short.replace(run__discard=10).lyapunov(), short.run(ramp=(10, 12), ramp_points=2, ramp_wait=0))
+    yield from (dry.families[0][0], short.replace(run__discard=10).lyapunov())
+    yield short.run(ramp=(10, 12), ramp_points=2, ramp_wait=0)
     yield from (grid, grid[:, 1], grid.si, failing, failing[failing.failed])
     yield fs.sweep(short.replace(run__periods=2), kappa="1:2:random:3", seed=5)
 
@@ -104,6 +105,18 @@ def test_a_map_chooses_the_shape():
     bead = fs.Bead(magnet__file=str(file), kappa=1.2)
     assert bead.magnet__shape == "grid" and pickle.loads(pickle.dumps(bead)) == bead
     assert bead.replace(magnet__file=fs.UNSET, magnet__shape=fs.UNSET) == fs.Bead(kappa=1.2)
+
+
+def test_ordinary_mistakes_and_habits(track):
+    with pytest.raises(TypeError, match=r"Bead\(frequency=10.7\)"):
+        fs.Bead(10.7)
+    s = fs.sweep(fs.Bead(run__periods=2), kappa=(k / 10 for k in (12, 15)), frequency=[9, 10])
+    assert s.kappa.tolist() == [[1.2, 1.2], [1.5, 1.5]] and np.array_equal(s.frequency, s.parameter("frequency"))
+    with pytest.raises(AttributeError, match="kappa, frequency has no gama"):
+        s.gama
+    with pytest.raises(fs.BadInput, match="threads"):
+        fs.sweep(fs.Bead(run__periods=2), kappa=[1, 2], threads=-1)
+    assert fs.read_track(track, fps="120 Hz").fps == 120
 
 
 # ---------------------------------------------------------------------------------------- Ctrl-C
