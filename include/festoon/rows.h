@@ -1,5 +1,5 @@
-/* rows.h - many runs at once: grids of parameters, and the runs of their points side by side in the lanes of the
- * processor; festoon.h includes it.
+/* rows.h - many runs at once: grids of parameters, and the runs of their points side by side in the lanes of
+ * the processor; festoon.h includes it.
  *
  * festoon_tools.h keeps the rows of a grid in a database (fst_sweep).
  */
