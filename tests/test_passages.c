@@ -214,7 +214,7 @@ static double result_of(const fst_run_result *result, const char *name)
 
 static void check_turning_means(int i, const fst_run_result *a, const fst_run_result *b)
 {
-    static const char *const names[] = {"mean_r",        "eq21_centrifugal",      "eq21_magnetic",
+    static const char *const names[] = {"mean_r", "std_r",       "eq21_centrifugal",      "eq21_magnetic",
                                         "eq21_friction", "eq21_magnetic_printed", "eq21_spin",
                                         "eq23_magnetic", "mean_v_alpha",          "tilt_deg"};
     for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {

@@ -163,6 +163,14 @@ class Points(RefineCase):
         self.check("a.db", grid, told, words)
         self.assertLess(told["computed"], 60)
 
+    def test_a_change_in_the_last_cell(self):
+        """The last cell is narrower, and its last corner the last point that is computed: only that one is off the plate."""
+        words = [*CHEAP, "--set", "plate.radius=6cm", *over("start.r=0.3:2.65:22")]
+        grid = Grid((22,), 3, dict(zip(places((22,)), self.values(words, "regime").values())))
+        told = self.sweep("a.db", words, "--refine", "3", "--threads", "1", "--lanes", "1")
+        self.check("a.db", grid, told, words)
+        self.assertIn((20,), grid.points)
+
     def test_three_ranges_and_a_list(self):
         """Each value of the list is refined by itself."""
         words = [*CHEAP, "--set", "plate.radius=3cm",
