@@ -1,5 +1,5 @@
-/* When marks show a motion to repeat itself for good (observe/closing.h, observe/cycle.h): of marks that are made up,
- * each but for one thing those of an orbit that has closed. */
+/* When marks show a motion to repeat itself for good (observe/closing.h, observe/cycle.h): of marks that are
+ * made up, each but for one thing those of an orbit that has closed. */
 #include "physics.h"
 
 #include "observe/cycle.h"
@@ -9,7 +9,7 @@ static const double TURN = 2.0, FURTHER = -6.25, UNTIL = 1e3;
 /* What differs from mark to mark, and in the last two marks. */
 typedef struct marks {
     double rtol;
-    int far, near;           /* so many marks 1 apart, then so many `distance` apart */
+    int far, near; /* so many marks 1 apart, then so many `distance` apart */
     double distance;
     double later, angle, mean; /* the last mark comes later, turned on, with another mean of r by so much */
 } marks;
@@ -67,8 +67,10 @@ static void test_what_must_agree(void **unused)
     (void)unused;
     static const struct {
         double later, angle, mean;
-    } close[] = {{1.9e-8, 0, 0}, {-1.9e-8, 0, 0}, {0, 0.9e-8, 0}, {0, -0.9e-8, 0}, {0, 0, 0.9e-7}, {0, 0, -0.9e-7}},
-      apart[] = {{2.1e-8, 0, 0}, {-2.1e-8, 0, 0}, {0, 1.1e-8, 0}, {0, -1.1e-8, 0}, {0, 0, 1.1e-7}, {0, 0, -1.1e-7}};
+    } close[] = {{1.9e-8, 0, 0},  {-1.9e-8, 0, 0}, {0, 0.9e-8, 0},
+                 {0, -0.9e-8, 0}, {0, 0, 0.9e-7},  {0, 0, -0.9e-7}},
+      apart[] = {{2.1e-8, 0, 0},  {-2.1e-8, 0, 0}, {0, 1.1e-8, 0},
+                 {0, -1.1e-8, 0}, {0, 0, 1.1e-7},  {0, 0, -1.1e-7}};
     for (int i = 0; i < 6; ++i) {
         marks m = CLOSED;
         m.later = close[i].later, m.angle = close[i].angle, m.mean = close[i].mean;
@@ -93,8 +95,8 @@ static void test_limits(void **unused)
     }
 }
 
-/* A mark that could not be compared with the one before, or a motion that is to be seen again: the factor takes nine
- * marks after it. */
+/* A mark that could not be compared with the one before, or a motion that is to be seen again: the factor takes
+ * nine marks after it. */
 static void test_breaks(void **unused)
 {
     (void)unused;
@@ -125,8 +127,8 @@ static int holds(const double *distances, int count)
     return fst_closing_holds(&c);
 }
 
-/* Later marks stay together unless they lie ten limits apart, or five distances in a row have risen, beyond what the
- * errors of the steps explain. */
+/* Later marks stay together unless they lie ten limits apart, or five distances in a row have risen, beyond
+ * what the errors of the steps explain. */
 static void test_holding(void **unused)
 {
     (void)unused;
@@ -162,7 +164,8 @@ static void test_cycles(void **unused)
     assert_true(librates(1e-10, 1e-10, 0.1, 0.0));
     assert_true(librates(1e-10, 1e-10, 1.1e-5 * of_size, 0.0));
     assert_false(librates(1e-10, 1e-10, 0.9e-5 * of_size, 0.0));
-    assert_true(librates(1e-7, 1e-8, 3e-5 * of_size, 0.0)); /* the factor is 0.1 at the first, and the way 1.1e-8 */
+    assert_true(
+        librates(1e-7, 1e-8, 3e-5 * of_size, 0.0)); /* the factor is 0.1 at the first, and the way 1.1e-8 */
     assert_false(librates(1e-7, 5e-8, 3e-5 * of_size, 0.0));
     assert_false(librates(1e-10, 1e-10, 0.1, TWO_PI));
     assert_true(librates(1e-10, 1e-10, 0.1, 0.2));
@@ -184,8 +187,8 @@ static void test_watching(void **unused)
     assert_true(c.seen == 0 && c.since == -1);
 }
 
-/* A cycle may have several maxima of r: in the turning frame a bead on an orbit of symmetry S1 passes two, of which
- * each comes back after a whole return. */
+/* A cycle may have several maxima of r: in the turning frame a bead on an orbit of symmetry S1 passes two, of
+ * which each comes back after a whole return. */
 static void test_several_maxima(void **unused)
 {
     (void)unused;
@@ -220,8 +223,9 @@ static void test_several_maxima(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_four_marks), cmocka_unit_test(test_what_must_agree), cmocka_unit_test(test_limits),
-        cmocka_unit_test(test_breaks),     cmocka_unit_test(test_holding),         cmocka_unit_test(test_cycles),
+        cmocka_unit_test(test_four_marks), cmocka_unit_test(test_what_must_agree),
+        cmocka_unit_test(test_limits),     cmocka_unit_test(test_breaks),
+        cmocka_unit_test(test_holding),    cmocka_unit_test(test_cycles),
         cmocka_unit_test(test_watching),   cmocka_unit_test(test_several_maxima),
     };
     return cmocka_run_group_tests_name("closing", tests, NULL, NULL);

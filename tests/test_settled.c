@@ -239,8 +239,8 @@ static void go_on(fst_watched_run *run, double periods)
         assert_int_equal(fst_watched_run_go_on(run, 1, &over, NULL), FST_OK);
 }
 
-/* The error bars of means are twice those of the window, and take in the way that is left; at rest that is the swing
- * about the place, and where n turns freely all that <n_z> may become. */
+/* The error bars of means are twice those of the window, and take in the way that is left; at rest that is the
+ * swing about the place, and where n turns freely all that <n_z> may become. */
 static void test_error_bars(void **unused)
 {
     (void)unused;
@@ -254,8 +254,8 @@ static void test_error_bars(void **unused)
         begin(&run, &p, NULL);
         go_on(&run, INFINITY);
         assert_int_equal(run.settling.as, scene == 0 ? FST_SETTLED_RETURNS : FST_SETTLED_REST);
-        const double omega = run.model->groups.omega, speed =
-            scene == 1 ? run.window.periods.latest.activity : fst_speed_at_end(&run);
+        const double omega = run.model->groups.omega,
+                     speed = scene == 1 ? run.window.periods.latest.activity : fst_speed_at_end(&run);
         run.settling.way = 0.02;
         const double way = scene == 0 ? 0.02 : speed / omega;
         for (int wide = 0; wide < 2; ++wide) {
@@ -271,8 +271,8 @@ static void test_error_bars(void **unused)
     }
 }
 
-/* A window that is not worth the trouble is not begun, and a run whose integrals began before the end of the discard
- * is described from there to its end, to the bit. */
+/* A window that is not worth the trouble is not begun, and a run whose integrals began before the end of the
+ * discard is described from there to its end, to the bit. */
 static void test_too_late_to_settle(void **unused)
 {
     (void)unused;
@@ -350,12 +350,18 @@ static void test_ramps_are_refused(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_librations), cmocka_unit_test(test_rows),
-        cmocka_unit_test(test_way),        cmocka_unit_test(test_unstable_orbit),
-        cmocka_unit_test(test_rest),       cmocka_unit_test(test_unstable_rest),
-        cmocka_unit_test(test_put_down),   cmocka_unit_test(test_error_bars),
-        cmocka_unit_test(test_too_late_to_settle), cmocka_unit_test(test_not_at_rest),
-        cmocka_unit_test(test_four_periods_at_rest), cmocka_unit_test(test_ramps_are_refused),
+        cmocka_unit_test(test_librations),
+        cmocka_unit_test(test_rows),
+        cmocka_unit_test(test_way),
+        cmocka_unit_test(test_unstable_orbit),
+        cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_unstable_rest),
+        cmocka_unit_test(test_put_down),
+        cmocka_unit_test(test_error_bars),
+        cmocka_unit_test(test_too_late_to_settle),
+        cmocka_unit_test(test_not_at_rest),
+        cmocka_unit_test(test_four_periods_at_rest),
+        cmocka_unit_test(test_ramps_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -78,9 +78,9 @@ double fst_view_between(double x0, double v0, double x1, double v1, double h, do
            part * part * ((1.0 + 2.0 * rest) * x1 - rest * h * v1);
 }
 
-/* The drive period from which on a trajectory is shown unless the options say: the end of the discard.  A run that
- * ended once it had settled is shown from 5.5 periods before its end on, which is when it was known at the latest; one
- * that ended before its discard, from its beginning. */
+/* The drive period from which on a trajectory is shown unless the options say: the end of the discard.  A run
+ * that ended once it had settled is shown from 5.5 periods before its end on, which is when it was known at the
+ * latest; one that ended before its discard, from its beginning. */
 static double usual_from(const fst_table *table, const double *drive)
 {
     const fst_params *p = &table->params;
