@@ -276,8 +276,8 @@ static void test_error_bars(void **unused)
 static void test_too_late_to_settle(void **unused)
 {
     (void)unused;
-    static const double lengths[][2] = {{33.0, 0.0}, {40.0, 20.0}};
-    for (int i = 0; i < 2; ++i) {
+    static const double lengths[][2] = {{33.0, 0.0}, {40.0, 20.0}, {30.0, 24.0}};
+    for (int i = 0; i < 3; ++i) {
         fst_params p = libration(10.7, 1.5);
         fst_watched_run run;
         p.run_periods = lengths[i][0];
@@ -333,6 +333,19 @@ static void test_four_periods_at_rest(void **unused)
     assert_true(again.settled_at >= 5.0 && again.settled_at < 6.0);
 }
 
+/* Returns and cycles are compared by the tolerance of the run. */
+static void test_one_limit(void **unused)
+{
+    (void)unused;
+    fst_params p = libration(10.7, 1.5);
+    fst_watched_run run;
+    p.run_rtol = 2e-9;
+    begin(&run, &p, NULL);
+    CHECK_CLOSE(run.settling.returns.limit, 2e-8, 1e-20);
+    CHECK_CLOSE(run.settling.cycle.closing.limit, 2e-8, 1e-20);
+    fst_watched_run_free(&run);
+}
+
 /* A ramp ends where its drive has arrived. */
 static void test_ramps_are_refused(void **unused)
 {
@@ -362,6 +375,7 @@ int main(void)
         cmocka_unit_test(test_not_at_rest),
         cmocka_unit_test(test_four_periods_at_rest),
         cmocka_unit_test(test_ramps_are_refused),
+        cmocka_unit_test(test_one_limit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
