@@ -92,7 +92,7 @@ def test_a_run_that_has_settled_is_shown_settled():
         blocks, columns = read_blocks(os.path.join(folder, "f.dat")), read_csv(os.path.join(folder, "t.csv"))
     end = columns["drive_turns"][-1]
     assert end < 40
-    first = next(i for i, turns in enumerate(columns["drive_turns"]) if turns >= end - 5.5)
+    first = next(i for i, turns in enumerate(columns["drive_turns"]) if turns >= math.floor(end - 5.5) - 1e-9)
     close(blocks["path"][0][0], LENGTH * columns["x"][first], 1e-3)
     close(blocks["path"][0][1], LENGTH * columns["y"][first], 1e-3)
 

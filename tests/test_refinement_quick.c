@@ -3,8 +3,10 @@
 #include "numeric.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "sweep/refine.h"
+#include "sweep/refined.h"
 
 static fst_grid *grid_of(int columns, int rows)
 {
@@ -80,9 +82,74 @@ static void test_expected_points(void **unused)
     fst_grid_free(grid);
 }
 
+/* A value that comes again is known already. */
+static void test_known_once(void **unused)
+{
+    (void)unused;
+    fst_grid *grid = grid_of(33, 33);
+    fst_refinement *r;
+    int64_t point;
+    assert_int_equal(fst_refinement_new(grid, 3, 0.0, &r, NULL), FST_OK);
+    assert_true(fst_refinement_next(r, &point));
+    for (int i = 0; i < 3; ++i) {
+        assert_int_equal(fst_refinement_note(r, point, i, NULL), FST_OK);
+        assert_int_equal(fst_refinement_count(r).known, 1);
+    }
+    fst_refinement_free(r);
+    fst_grid_free(grid);
+}
+
+/* A range of one point is no axis along which cells lie: the other one is refined as if it were alone. */
+static void test_a_single_point(void **unused)
+{
+    (void)unused;
+    fst_grid *grid = grid_of(33, 1);
+    fst_refinement *r;
+    assert_int_equal(fst_refinement_new(grid, 3, 0.0, &r, NULL), FST_OK);
+    assert_int_equal(fst_refinement_count(r).wanted, 5);
+    assert_true(follow(r, 33, 1, 17) >= 5 + 3);
+    fst_refinement_free(r);
+    fst_grid_free(grid);
+}
+
+/* How many coarse points there would be is told to the last one. */
+static void test_too_many_points(void **unused)
+{
+    (void)unused;
+    fst_grid *grid = grid_of(30000, 20000);
+    fst_refinement *r;
+    fst_error error;
+    assert_int_equal(fst_refinement_new(grid, 1, 0.0, &r, &error), FST_BAD_INPUT);
+    assert_non_null(strstr(error.sentence, " 150025001 points")); /* 15001 * 10001 */
+    assert_null(r);
+    fst_grid_free(grid);
+}
+
+/* The step by which a number may change is a positive number. */
+static void test_steps(void **unused)
+{
+    (void)unused;
+    static const double bad[] = {INFINITY, NAN, 0.0, -1.0};
+    fst_sweep_options o = fst_default_sweep_options();
+    fst_refining refining;
+    fst_error error;
+    o.refine = 2;
+    o.refine_by = "mean_r";
+    for (int i = 0; i < 4; ++i) {
+        o.refine_step = bad[i];
+        assert_int_equal(fst_refining_of(&o, &refining, &error), FST_BAD_INPUT);
+    }
+    o.refine_step = 0.5;
+    assert_int_equal(fst_refining_of(&o, &refining, &error), FST_OK);
+    assert_true(refining.levels == 2 && refining.step == 0.5);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_coarse_points),
-                                       cmocka_unit_test(test_expected_points)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_coarse_points),   cmocka_unit_test(test_expected_points),
+        cmocka_unit_test(test_known_once),      cmocka_unit_test(test_a_single_point),
+        cmocka_unit_test(test_too_many_points), cmocka_unit_test(test_steps),
+    };
     return cmocka_run_group_tests_name("refinement", tests, NULL, NULL);
 }

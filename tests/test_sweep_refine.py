@@ -243,12 +243,21 @@ class OneOutcome(RefineCase):
         told = self.sweep("straight.db", MAP)
         self.assertEqual((told["computed"], told["rows"]), (told["points"], told["points"]))
         self.assertEqual(self.lines("straight.db"), self.whole(MAP))
+        told = self.good("export", "--key", "regime", "--csv", self.path("straight.db"))
+        self.assertEqual(told.count("\n"), 33 * 22 + 1)
 
     def test_a_damaged_line(self):
         change(self.path("straight.db"), "UPDATE festoon SET value = replace(value, '3', '2') WHERE key = 'refine'")
         for words in (("sweep", *MAP, "--refine", "3", "-o"), ("plot",), ("export", "--key", "regime", "--csv")):
             words = (*words, self.path("straight.db")) + (("-o", self.path("x.svg")) if words == ("plot",) else ())
             self.assertIn("damaged", self.refused(*words))
+
+    def test_the_line_of_another_sweep(self):
+        other = ["--over", "start.r=0.3:2.9:9", *CHEAP]
+        self.sweep("other.db", other, "--refine", "2")
+        change(self.path("straight.db"), f"ATTACH '{self.path('other.db')}' AS other", "UPDATE festoon SET value = (SELECT "
+               "value FROM other.festoon WHERE key = 'refine') WHERE key = 'refine'")
+        self.assertIn("damaged", self.refused("export", "--key", "regime", "--csv", self.path("straight.db")))
 
 
 class Refusals(RefineCase):

@@ -79,14 +79,14 @@ double fst_view_between(double x0, double v0, double x1, double v1, double h, do
 }
 
 /* The drive period from which on a trajectory is shown unless the options say: the end of the discard.  A run
- * that ended once it had settled is shown from 5.5 periods before its end on, which is when it was known at the
- * latest; one that ended before its discard, from its beginning. */
+ * that ended once it had settled is shown from a whole period on that lies at least 5.5 before its end, when
+ * the motion was known; one that ended before its discard, from its beginning. */
 static double usual_from(const fst_table *table, const double *drive)
 {
     const fst_params *p = &table->params;
     const double end = table->rows > 0 ? drive[table->rows - 1] : 0.0;
     if (p->run_until == FST_UNTIL_SETTLED && table->complete && end + 1.0 < p->run_periods)
-        return fmax(end - 5.5, 0.0);
+        return fmax(floor(end - 5.5), 0.0);
     return end > p->run_discard ? p->run_discard : 0.0;
 }
 
