@@ -300,19 +300,44 @@ class Figures(RefineCase):
         script, blocks = self.boxes("a.db")
         self.assertIn(f"{len(grid.points)} runs", script.replace("\\n", " "))
         self.assertIn("pale", script)
-        names = ["undecided", "locked", "librating", "counter-rotating", "corotating", "chaotic", "ejected", "lifted"]
         computed = {point: values[point] for point in grid.points if values[point]}  # failed runs have no cell
         for kind, expected in (("cells", computed), ("filled", grid.filled())):
-            found = {}
-            for name, boxes in blocks.items():
-                if not name.startswith(kind + "-"):
-                    continue
-                for x, y, low, high, *_ in boxes:
-                    row, first = round((y - 0.3) / 2.6 * 32), round((x - 0.2) / 1.8 * 21)
-                    for i in range(first, round((high - 0.2) / 1.8 * 21 + 0.45)):
-                        self.assertNotIn((row, i), found)
-                        found[row, i] = names[int(name.split("-")[1])]
-            self.assertEqual(found, expected)
+            self.assertEqual(self.regimes(blocks, kind), expected)
+
+    def regimes(self, blocks, kind):
+        """The regimes in whose colours points of the map are painted."""
+        names = ["undecided", "locked", "librating", "counter-rotating", "corotating", "chaotic", "ejected", "lifted"]
+        found = {}
+        for name, boxes in blocks.items():
+            if not name.startswith(kind + "-"):
+                continue
+            for x, y, low, high, *_ in boxes:
+                row, first = round((y - 0.3) / 2.6 * 32), round((x - 0.2) / 1.8 * 21)
+                for i in range(first, round((high - 0.2) / 1.8 * 21 + 0.45)):
+                    self.assertNotIn((row, i), found)
+                    found[row, i] = names[int(name.split("-")[1])]
+        return found
+
+    def test_regimes_between_points_that_a_number_chose(self):
+        """Where the corners of a cell are of two regimes nothing is painted between them."""
+        counts = (33, 22)
+        radii = {point: None if value is None else float(value)
+                 for point, value in zip(places(counts), self.values(MAP, "mean_r").values())}
+        grid = Grid(counts, 3, radii, 100.0)
+        grid.values = dict(zip(places(counts), self.values(MAP, "regime").values()))
+        self.sweep("a.db", MAP, "--refine", "3", "--refine-by", "mean_r:100")
+        _, blocks = self.boxes("a.db")
+        self.assertEqual(self.regimes(blocks, "filled"), grid.filled())
+
+    def test_a_linear_number_is_interpolated_exactly(self):
+        """The drive's frequency is itself such a number; the last cells are narrower along both axes."""
+        words = [*CHEAP, *over("drive.frequency=10:12:9", "model.kappa=1:1.2:11")]
+        told = self.sweep("a.db", words, "--refine", "2", "--refine-by", "mean_r:9")
+        self.assertEqual(told["computed"], 3 * 4)
+        _, blocks = self.boxes("a.db", "--key", "frequency_hz", "--units", "lab")
+        self.assertEqual(len(blocks["cells"]), 9 * 11)
+        for _, y, *_, value in blocks["cells"]:
+            self.assertAlmostEqual(value, y, 4)
 
     def test_numbers_are_interpolated(self):
         self.sweep("a.db", MAP, "--refine", "3")
