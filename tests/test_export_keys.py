@@ -7,6 +7,7 @@ import csv
 import io
 import json
 import os
+import sqlite3
 import unittest
 
 from sweep_tools import Case, SHORT
@@ -66,6 +67,16 @@ class ExportKeys(Case):
         with open(self.path("t.csv"), encoding="utf-8") as file:
             self.assertEqual(file.readline(), "drive.frequency [Hz],regime,mean_r [mm],std_r [mm],mean_alpha_dot [1/s]\n")
             self.assertEqual(len(file.readlines()), 4)
+
+    def test_damaged_rows(self):
+        """A row whose checksum is wrong is not left out in silence."""
+        path, _ = self.sweep("drive.frequency=9Hz:12Hz:4")
+        base = sqlite3.connect(path)
+        base.execute("UPDATE rows SET mean_r = mean_r + 1 WHERE point = 2")
+        base.commit()
+        base.close()
+        self.assertIn("point 2", self.refused("export", path, "--csv", "--key", "mean_r", "-o", self.path("t.csv")))
+        self.assertFalse(os.path.exists(self.path("t.csv")))
 
     def test_bad_words(self):
         path, _ = self.sweep("drive.frequency=9Hz,10Hz")

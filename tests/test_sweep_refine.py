@@ -163,6 +163,14 @@ class Points(RefineCase):
         self.check("a.db", grid, told, words)
         self.assertLess(told["computed"], 60)
 
+    def test_a_change_in_the_last_cell(self):
+        """The last cell is narrower, and its last corner the last point that is computed: only that one is off the plate."""
+        words = [*CHEAP, "--set", "plate.radius=6cm", *over("start.r=0.3:2.65:22")]
+        grid = Grid((22,), 3, dict(zip(places((22,)), self.values(words, "regime").values())))
+        told = self.sweep("a.db", words, "--refine", "3", "--threads", "1", "--lanes", "1")
+        self.check("a.db", grid, told, words)
+        self.assertIn((20,), grid.points)
+
     def test_three_ranges_and_a_list(self):
         """Each value of the list is refined by itself."""
         words = [*CHEAP, "--set", "plate.radius=3cm",
@@ -235,12 +243,21 @@ class OneOutcome(RefineCase):
         told = self.sweep("straight.db", MAP)
         self.assertEqual((told["computed"], told["rows"]), (told["points"], told["points"]))
         self.assertEqual(self.lines("straight.db"), self.whole(MAP))
+        told = self.good("export", "--key", "regime", "--csv", self.path("straight.db"))
+        self.assertEqual(told.count("\n"), 33 * 22 + 1)
 
     def test_a_damaged_line(self):
         change(self.path("straight.db"), "UPDATE festoon SET value = replace(value, '3', '2') WHERE key = 'refine'")
         for words in (("sweep", *MAP, "--refine", "3", "-o"), ("plot",), ("export", "--key", "regime", "--csv")):
             words = (*words, self.path("straight.db")) + (("-o", self.path("x.svg")) if words == ("plot",) else ())
             self.assertIn("damaged", self.refused(*words))
+
+    def test_the_line_of_another_sweep(self):
+        other = ["--over", "start.r=0.3:2.9:9", *CHEAP]
+        self.sweep("other.db", other, "--refine", "2")
+        change(self.path("straight.db"), f"ATTACH '{self.path('other.db')}' AS other", "UPDATE festoon SET value = (SELECT "
+               "value FROM other.festoon WHERE key = 'refine') WHERE key = 'refine'")
+        self.assertIn("damaged", self.refused("export", "--key", "regime", "--csv", self.path("straight.db")))
 
 
 class Refusals(RefineCase):
@@ -283,19 +300,44 @@ class Figures(RefineCase):
         script, blocks = self.boxes("a.db")
         self.assertIn(f"{len(grid.points)} runs", script.replace("\\n", " "))
         self.assertIn("pale", script)
-        names = ["undecided", "locked", "librating", "counter-rotating", "corotating", "chaotic", "ejected", "lifted"]
         computed = {point: values[point] for point in grid.points if values[point]}  # failed runs have no cell
         for kind, expected in (("cells", computed), ("filled", grid.filled())):
-            found = {}
-            for name, boxes in blocks.items():
-                if not name.startswith(kind + "-"):
-                    continue
-                for x, y, low, high, *_ in boxes:
-                    row, first = round((y - 0.3) / 2.6 * 32), round((x - 0.2) / 1.8 * 21)
-                    for i in range(first, round((high - 0.2) / 1.8 * 21 + 0.45)):
-                        self.assertNotIn((row, i), found)
-                        found[row, i] = names[int(name.split("-")[1])]
-            self.assertEqual(found, expected)
+            self.assertEqual(self.regimes(blocks, kind), expected)
+
+    def regimes(self, blocks, kind):
+        """The regimes in whose colours points of the map are painted."""
+        names = ["undecided", "locked", "librating", "counter-rotating", "corotating", "chaotic", "ejected", "lifted"]
+        found = {}
+        for name, boxes in blocks.items():
+            if not name.startswith(kind + "-"):
+                continue
+            for x, y, low, high, *_ in boxes:
+                row, first = round((y - 0.3) / 2.6 * 32), round((x - 0.2) / 1.8 * 21)
+                for i in range(first, round((high - 0.2) / 1.8 * 21 + 0.45)):
+                    self.assertNotIn((row, i), found)
+                    found[row, i] = names[int(name.split("-")[1])]
+        return found
+
+    def test_regimes_between_points_that_a_number_chose(self):
+        """Where the corners of a cell are of two regimes nothing is painted between them."""
+        counts = (33, 22)
+        radii = {point: None if value is None else float(value)
+                 for point, value in zip(places(counts), self.values(MAP, "mean_r").values())}
+        grid = Grid(counts, 3, radii, 100.0)
+        grid.values = dict(zip(places(counts), self.values(MAP, "regime").values()))
+        self.sweep("a.db", MAP, "--refine", "3", "--refine-by", "mean_r:100")
+        _, blocks = self.boxes("a.db")
+        self.assertEqual(self.regimes(blocks, "filled"), grid.filled())
+
+    def test_a_linear_number_is_interpolated_exactly(self):
+        """The drive's frequency is itself such a number; the last cells are narrower along both axes."""
+        words = [*CHEAP, *over("drive.frequency=10:12:9", "model.kappa=1:1.2:11")]
+        told = self.sweep("a.db", words, "--refine", "2", "--refine-by", "mean_r:9")
+        self.assertEqual(told["computed"], 3 * 4)
+        _, blocks = self.boxes("a.db", "--key", "frequency_hz", "--units", "lab")
+        self.assertEqual(len(blocks["cells"]), 9 * 11)
+        for _, y, *_, value in blocks["cells"]:
+            self.assertAlmostEqual(value, y, 4)
 
     def test_numbers_are_interpolated(self):
         self.sweep("a.db", MAP, "--refine", "3")

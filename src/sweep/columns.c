@@ -75,10 +75,12 @@ char *fst_sweep_state_sql(void)
     FILE *out = open_memstream(&text, &size);
     if (!out)
         return NULL;
-    (void)fputs("SELECT status = 'done' AND regime NOT IN ('ejected', 'lifted')", out);
+    (void)fputs("SELECT status = 'done' AND regime NOT IN ('ejected', 'lifted')"
+                " AND (periods >= ?2 OR settled_at IS NOT NULL)",
+                out);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         (void)fprintf(out, ", final_%s", fst_state_names[i]);
-    (void)fputs(" FROM rows WHERE point = ?", out);
+    (void)fputs(" FROM rows WHERE point = ?1", out);
     return fclose(out) == 0 ? text : (free(text), NULL);
 }
 
