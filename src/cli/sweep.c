@@ -211,9 +211,7 @@ static void tell_of_undefined(const char *path, const char *key, const fst_sweep
 {
     char name[SHOWN_SIZE];
     if (counts->undefined > 0 && counts->undefined == counts->computed)
-        (void)fprintf(stderr,
-                      "festoon: %s: %s has no value in any of the %lld rows, so nothing was refined: refine by "
-                      "another key\n",
+        (void)fprintf(stderr, "festoon: %s: %s has no value in any of the %lld rows, so nothing was refined\n",
                       shown(path, name), key ? key : "regime", (long long)counts->undefined);
 }
 
