@@ -64,7 +64,6 @@ class SweepIn(SweepNumbers):
         self._sweep, self._units = sweep, units
         for axis in sweep.axes:
             if axis.key in ("magnet.half_length", "friction.gamma", "bead.mass"):
-
                 raise BadInput("sweep", f"{axis.key} is varied, and with it the unit of the scaled numbers")
         self._scales = Scales(lib.fst_grid_base(sweep._grid), units)
 
@@ -176,6 +175,8 @@ class Sweep(SweepNumbers):
 
     def _run(self, point: int) -> Run:
         row = self._rows[point]
+        if not row["done"] and self.refined:
+            raise BadInput("sweep", "this point was not computed, because the sweep was refined: see `computed`")
         if not row["done"]:
             raise Interrupted()
         if row["status"] != lib.FST_OK:
@@ -241,6 +242,11 @@ class Sweep(SweepNumbers):
     def computed(self) -> Any:
         """Where a run was made, failed or not: everywhere, unless the sweep was refined or interrupted."""
         return self._status() != NOT_RUN
+
+    @property
+    def refined(self) -> bool:
+        """Whether the sweep was refined: where it is not `computed`, no run was wanted."""
+        return self._between is not None
 
     @property
     def complete(self) -> bool:
@@ -362,7 +368,7 @@ class Sweep(SweepNumbers):
         if np.any(status > 0):
             words.append(f"{int(np.sum(status > 0))} failed")
         if not self.complete:
-            words.append(f"{int(np.sum(status == NOT_RUN))} not run")
+            words.append(f"{int(np.sum(status == NOT_RUN))} {'left out (refined)' if self.refined else 'not run'}")
         regimes, counts = np.unique(self.regime[self.done], return_counts=True)
         words += [f"{count} {regime}" for regime, count in zip(regimes, counts)]
         return ", ".join(words)
@@ -497,7 +503,6 @@ def _into_file(
     words, _kept = strings(axes)
     options.axes, options.axis_count, options.seed = words, len(axes), seed
     if carry not in CARRY:
-
         raise BadInput("fst_sweep_options.carry", f'unknown direction "{carry}": up or down')
     options.carry, options.threads, options.lanes = CARRY[carry], threads, lanes
     levels, by, step = refining
@@ -509,7 +514,22 @@ def _into_file(
     with Watch(progress, lambda: read_sweep(path), "sweep") as watch:
         options.progress = watch.told
         watch.call(lib.fst_sweep, bead._params, path_bytes(path), options, counts)
+    if 0 < counts.undefined == counts.computed:
+        warnings.warn(f"{by or 'regime'} has no value in any run, so nothing was refined", stacklevel=3)
     return read_sweep(path)
+
+
+def _refining(levels: int, by: Optional[str], step: float) -> Tuple[int, Optional[str], float]:
+    """What was asked for, where the step may also stand behind the key: "mean_r:0.05"."""
+    key, colon, text = (by or "").partition(":")
+    if not colon:
+        return levels, by, step
+    if step != 0.0:
+        raise BadInput("refine_step", f'the step stands in refine_by="{by}" already: give it once')
+    try:
+        return levels, key, float(text)
+    except ValueError:
+        raise BadInput("refine_by", f'"{text}" in "{by}" must be a number, without a unit') from None
 
 
 def sweep(
@@ -543,10 +563,13 @@ def sweep(
     seed
         Of random axes.
     refine
-        N: compute every 2**N-th value of each axis "LO:HI:COUNT" first, then those between, N times, where the
-        regime differs between neighbours.  Numbers are NaN at points that were not `computed`.
+        N: compute every 2**N-th value of each axis that is a text "LO:HI:COUNT" first, then those between, N times,
+        where the regime differs between neighbours.  The sweep has the shape of the whole grid all the same;
+        `computed` says where there are runs.  At the other points numbers are NaN and the regime is "".  Arrays
+        and lists have no order: what each of their values gives is refined by itself.
     refine_by, refine_step
-        Refine where this number differs by more than the step, instead.
+        Refine where this key differs instead: "symmetry", or a number by more than the step (in scaled units),
+        which may also stand behind the key: "mean_r:0.05".
 
     A run that fails is a row of NaN with an error, not an exception.  Ctrl-C raises `Interrupted`, whose
     `partial` is the sweep with the rows that were done.
@@ -561,10 +584,10 @@ def sweep(
         raise BadInput("threads", f"{threads} is no number of threads: 1 or more, or 0 for all processors")
     count = threads or len(os.sched_getaffinity(0))
     grid = _new_grid(bead, texts, seed)
-    refining = (refine, refine_by, refine_step)
+    refining = _refining(refine, refine_by, refine_step)
     if file is not None:
         return _into_file(bead, texts, file, seed, carry, count, lanes, portable, refining, progress)
-    if carry is not None or refine != 0:
+    if carry is not None or refining != (0, None, 0.0):
         with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
             path = os.path.join(folder, "sweep.db")
             return _into_file(bead, texts, path, seed, carry, count, lanes, portable, refining, progress)

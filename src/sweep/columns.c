@@ -263,7 +263,16 @@ int fst_sweep_row_is_sound(sqlite3_stmt *row, const fst_grid *grid, uint64_t see
 
 fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *error)
 {
+    static const char *const texts[] = {"status", "reason", "dynamics", "controller"};
     char names[4096] = "regime|symmetry|rhs_calls", nearest[48];
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i)
+        if (strcmp(key, texts[i]) == 0)
+            return fst_fail(error, FST_BAD_INPUT, where,
+                            "%s is a text: give regime, symmetry or a number of the runs, as mean_r", key);
+    if (fst_param_find(key) >= 0)
+        return fst_fail(
+            error, FST_BAD_INPUT, where,
+            "%s is a parameter, no result: give regime, symmetry or a number of the runs, as mean_r", key);
     for (int i = 0; i < fst_result_count(); ++i) {
         const size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|%s", fst_result_at(i)->name);
