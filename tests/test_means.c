@@ -53,7 +53,8 @@ static void fill(by_hand *b, int which, double value)
         b->marks.kept[i].integrals[which] = value * SPAN * i;
 }
 
-/* Blocks that scatter without a drift: the error is their standard deviation over the root of their number. */
+/* Blocks that scatter without a drift: the error is twice their standard deviation over the root of their
+ * number, which 95 of 100 means keep. */
 static void test_errors_from_the_scatter_of_blocks(void **unused)
 {
     (void)unused;
@@ -70,7 +71,43 @@ static void test_errors_from_the_scatter_of_blocks(void **unused)
     const double deviation = size * sqrt((sum2 - sum * sum / BLOCKS) / (BLOCKS - 1));
     const fst_run_result r = conclude(b);
     CHECK_CLOSE(r.mean_r, mean + size * sum / BLOCKS, 1e-14);
-    CHECK_WITHIN(r.mean_r_error / (deviation / sqrt(BLOCKS)), 0.6, 1.7);
+    CHECK_CLOSE(r.mean_r_error / (deviation / sqrt(BLOCKS)), 2.0, 1e-9);
+}
+
+/* Blocks that come closer to their limit in turns from either side, or first fast and then slowly: the error
+ * covers the limit, and is no wider than some blocks of the approach. */
+static void test_errors_of_an_approach(void **unused)
+{
+    (void)unused;
+    static const double factors[] = {-0.9, -0.7, -0.4, 0.3, 0.6, 0.8};
+    const double limit = 0.83, size = 1e-3;
+    for (size_t i = 0; i < sizeof factors / sizeof *factors; ++i)
+        for (int two = 0; two < 2; ++two) {
+            by_hand *b = begin();
+            for (int k = 0; k < BLOCKS; ++k)
+                b->marks.kept[k + 1].integrals[FST_Q_R] =
+                    b->marks.kept[k].integrals[FST_Q_R] +
+                    SPAN * (limit + size * (pow(factors[i], k) - two * 3.0 * pow(0.2, k)));
+            const fst_run_result r = conclude(b);
+            CHECK_WITHIN(r.mean_r_error, fabs(r.mean_r - limit), 3.0 * size);
+        }
+}
+
+/* The states at the marks of a section differ as much in the later blocks as in the first: all blocks may lack
+ * the same, and the error says so though they agree. */
+static void test_errors_of_marks_that_differ(void **unused)
+{
+    (void)unused;
+    by_hand *b = begin();
+    fill(b, FST_Q_R, 0.83);
+    fill(b, FST_Q_R2, 0.83 * 0.83 + 0.04);
+    CHECK_WITHIN(conclude(b).mean_r_error, 0.0, 1e-9);
+    b = begin();
+    fill(b, FST_Q_R, 0.83);
+    fill(b, FST_Q_R2, 0.83 * 0.83 + 0.04);
+    for (int i = 0; i <= BLOCKS; ++i)
+        b->marks.kept[i].state[FST_X] = i % 2 ? 0.01 : 0.0;
+    CHECK_WITHIN(conclude(b).mean_r_error, 0.01 / BLOCKS, 0.04 / BLOCKS);
 }
 
 /* The balance d(energy) = (drive - friction) dt, broken in any one block, is seen. */
@@ -222,6 +259,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_errors_from_the_scatter_of_blocks),
+        cmocka_unit_test(test_errors_of_an_approach),
+        cmocka_unit_test(test_errors_of_marks_that_differ),
         cmocka_unit_test(test_a_broken_balance_in_any_block),
         cmocka_unit_test(test_tilt_of_a_known_plane),
         cmocka_unit_test(test_the_rate_of_dry_friction),

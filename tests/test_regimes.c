@@ -346,8 +346,8 @@ static void test_balanced_on_the_axis(void **unused)
     assert_int_not_equal(r.regime, FST_REGIME_CHAOTIC);
 }
 
-/* Close to the period halving <n_z> takes longer than the run to settle. No regime is claimed, and the error of
- * the mean covers the distance to its limit, which is 0 above the halving at 0.26885. */
+/* Close to the period halving <n_z> takes longer than the run to settle. No regime is claimed, and no error of
+ * the means: their limit is known here alone, where <n_z> is 0 above the halving at 0.26885. */
 static void test_near_the_period_halving(void **unused)
 {
     (void)unused;
@@ -359,7 +359,7 @@ static void test_near_the_period_halving(void **unused)
         assert_int_equal(r.symmetry, FST_SYMMETRY_NONE);
         assert_true(isnan(r.festoons) && isnan(r.period));
         assert_non_null(strstr(r.reason, "still drifts: <n_z>"));
-        CHECK_WITHIN(fabs(r.mean_nz), 1e-4, 3 * r.mean_nz_error);
+        assert_true(fabs(r.mean_nz) > 1e-4 && isnan(r.mean_nz_error) && isnan(r.mean_r_error));
     }
 }
 

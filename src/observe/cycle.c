@@ -47,14 +47,6 @@ void fst_cycle_watch(fst_cycle *c, int watch)
     fst_cycle_forget(c);
 }
 
-static double distance(const double *a, const double *b)
-{
-    double greatest = 0.0;
-    for (int i = 0; i < FST_STATE_SIZE; ++i)
-        greatest = fmax(greatest, fabs(a[i] - b[i]));
-    return greatest;
-}
-
 /* The state at a maximum joins the past ones. */
 static void keep(fst_cycle *c, const double *state)
 {
@@ -69,7 +61,7 @@ static int find(const fst_cycle *c, const double *state, double *nearest)
 {
     *nearest = INFINITY;
     for (int i = 0; i < c->seen; ++i) {
-        const double d = distance(state, c->past[i]);
+        const double d = fst_state_distance(state, c->past[i]);
         *nearest = fmin(*nearest, d);
         if (d < c->closing.limit)
             return i;
@@ -82,7 +74,7 @@ static int completes(fst_cycle *c, fst_mark *mark)
 {
     double nearest;
     if (c->since >= 0) {
-        const double d = distance(mark->state, c->past[c->since]);
+        const double d = fst_state_distance(mark->state, c->past[c->since]);
         if (d < c->closing.limit) {
             mark->full_distance = d;
             return 1;

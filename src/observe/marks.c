@@ -16,6 +16,7 @@
 
 #include "ode/flight.h"
 
+#include <math.h>
 #include <string.h>
 
 void fst_marks_begin(fst_mark_series *series)
@@ -47,6 +48,16 @@ int64_t fst_marks_stride(int64_t total)
     while ((total - 1) / stride + 1 > FST_MARKS)
         stride *= 2;
     return stride;
+}
+
+double fst_state_distance(const double *a, const double *b)
+{
+    double greatest = 0.0;
+    for (int i = 0; i < FST_STATE_SIZE; ++i) {
+        const double d = fabs(a[i] - b[i]);
+        greatest = d > greatest ? d : greatest;
+    }
+    return greatest;
 }
 
 void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, int whole)

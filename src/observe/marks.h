@@ -39,6 +39,20 @@ int64_t fst_marks_stride(int64_t total);
 /* Offer the next mark of an evenly spaced series. */
 void fst_marks_offer(fst_mark_series *series, const fst_mark *mark);
 
+/* Whether the next mark that comes would be kept; else it may pass without being made. */
+static inline int fst_marks_keeps_next(const fst_mark_series *series)
+{
+    return series->offered % series->stride == 0;
+}
+
+static inline void fst_marks_pass(fst_mark_series *series)
+{
+    series->offered += 1;
+}
+
+/* Greatest difference of two states, each vector against its own scale being of order one in scaled units. */
+double fst_state_distance(const double *a, const double *b);
+
 /* Snapshot at the fraction x of the flow's last step; `whole`: else without integrals, angles and energy. */
 void fst_mark_take(fst_mark *mark, fst_quadrature *q, fst_flow *flow, double x, int whole);
 

@@ -7,12 +7,15 @@
  *     kept marks   |-----------|-----------|-----------|-----------|---...
  *     block means       m1          m2          m3          m4
  *
- *     scatter      deviation of the blocks over the root of their number
- *     drift        what is left of a mean that still moves one way: drift_error()
+ *     scatter      twice the deviation of the blocks over the root of their number
+ *     drift        three times what is left of a mean that still moves one way: drift_error()
+ *     approach     what blocks that came closer to the last one have added: approach_error()
+ *     unseen       what all blocks may lack alike, because they end within a swing: unseen_of()
  *     tolerance    what the integration may have lost
  *
- * The error is the largest of the three.  Whether a drift means that a motion has not settled is not decided
- * here, but in study/drift.c.
+ * The error is the largest of the five: a limit that the mean of a motion without end is to keep, and 1.96
+ * standard errors where chance alone moves the blocks.  Whether a drift means that a motion has not settled is
+ * not decided here, but in study/drift.c.
  */
 #include "observe/means.h"
 
@@ -22,6 +25,20 @@
 #include "base/elementary.h"
 
 static const double ROUNDING = 1e-12; /* of a share of time */
+/* Standard deviations of a mean over blocks that scatter. */
+static const double SCATTERS = 2.0;
+/* The end of a drift, extrapolated, is missed by a hair each second time, and by more where the blocks are few.
+ */
+static const double MARGIN = 3.0;
+/* What blocks that come closer have added is known but for how far the last one was from the end. */
+static const double HAIR = 1.5;
+/* A swing cut off anywhere shifts the mean over a block by so many of its standard deviations: a square wave.
+ */
+static const double PART = 0.5;
+/* A state that differs may shift means by so many times as much. */
+static const double SHIFT = 2.0;
+/* The integration may have lost so many times its tolerance. */
+static const double LOST = 2.0;
 
 static double time_between(const fst_mark *first, const fst_mark *last)
 {
@@ -69,10 +86,20 @@ static double drift_error(const double *blocks, int count, double mean_value)
     return fabs(sums[2] + second_step * ratio / (1.0 - ratio));
 }
 
-/* Error of a mean from the blocks between the kept marks: their scatter, or what is left of a drift, or the
- * integration's tolerance, whichever is largest; `pick` is the block's mean. */
-static double standard_error(const fst_window *w, const fst_mark_series *series, double tolerance,
-                             double (*pick)(const fst_ramp_point *))
+/* What blocks that come closer to the last ones, in whatever way, have added to the mean: the mean distance of
+ * the blocks from the last.  0 where the second half of them is no closer than the first. */
+static double approach_error(const double *blocks, int count)
+{
+    double halves[2] = {0.0, 0.0};
+    for (int i = 0; i < count; ++i)
+        halves[i >= count / 2] += fabs(blocks[i] - blocks[count - 1]) / count;
+    return halves[1] < 0.5 * halves[0] ? HAIR * (halves[0] + halves[1]) : 0.0;
+}
+
+/* Error of a mean from the blocks between the kept marks: their scatter, or what is left of a drift, or what it
+ * is at least, whichever is largest; `pick` is the block's mean. */
+static double error_of(const fst_window *w, const fst_mark_series *series, double least,
+                       double (*pick)(const fst_ramp_point *))
 {
     const int count = series->count - 1;
     if (count < 2)
@@ -86,8 +113,35 @@ static double standard_error(const fst_window *w, const fst_mark_series *series,
         sum2 += (blocks[i] - blocks[0]) * (blocks[i] - blocks[0]);
     }
     const double variance = (sum2 - sum * sum / count) / (count - 1), mean_value = blocks[0] + sum / count;
-    const double scatter = variance > 0 ? sqrt(variance / count) : 0.0;
-    return fmax(fmax(scatter, drift_error(blocks, count, mean_value)), tolerance * fabs(mean_value));
+    const double scatter = SCATTERS * (variance > 0 ? sqrt(variance / count) : 0.0);
+    const double way = fmax(MARGIN * drift_error(blocks, count, mean_value), approach_error(blocks, count));
+    return fmax(fmax(scatter, way), least);
+}
+
+/* What a mean over the blocks of a series may lack beside what they show, because of what they do not end with:
+ * each of them may lack the same. */
+typedef struct unseen {
+    double r, nz, alpha_dot;
+} unseen;
+
+static unseen unseen_of(const fst_window *w, const fst_mark_series *series, const fst_run_result *result)
+{
+    const fst_mark *first = &series->kept[0], *last = &series->latest;
+    const double blocks = fmax(series->count - 1, 1.0), omega = w->groups.omega;
+    const double range = w->greatest_bead_angle - w->least_bead_angle;
+    unseen cut = {PART * result->std_r / blocks,
+                  PART * deviation(mean(first, last, FST_Q_N_ZZ), result->mean_nz) / blocks,
+                  fmin(range, 0.5 * FST_TWO_PI) / time_between(first, last)};
+    if (series == &w->periods)
+        return cut;
+    double farthest = 0.0; /* a block's motion differs as much as the states at its ends */
+    for (int i = series->count / 2; i < series->count; ++i) /* what comes closer before is seen in blocks */
+        farthest = fmax(farthest, SHIFT * fst_state_distance(series->kept[i].state, last->state));
+    cut.r = fmin(cut.r, farthest / blocks);
+    cut.nz = fmin(cut.nz, farthest / blocks);
+    cut.alpha_dot =
+        fst_window_is_bounded(w) ? fmin(cut.alpha_dot, omega * farthest / blocks) : omega * farthest / blocks;
+    return cut;
 }
 
 static double pick_r(const fst_ramp_point *p)
@@ -213,9 +267,13 @@ void fst_means_fill(const fst_window *w, const fst_mark_series *series, const fs
     result->mean_alpha_dot = means.mean_alpha_dot;
     result->mean_phi_dot = means.mean_phi_dot;
     result->mean_nz = means.mean_nz;
-    result->mean_r_error = standard_error(w, series, params->run_rtol, pick_r);
-    result->mean_alpha_dot_error = standard_error(w, series, params->run_rtol, pick_alpha_dot);
-    result->mean_nz_error = standard_error(w, series, params->run_rtol, pick_nz);
+    const unseen lacks = unseen_of(w, series, result);
+    const double lost = LOST * params->run_rtol;
+    result->mean_r_error = error_of(w, series, fmax(lacks.r, lost * fabs(means.mean_r)), pick_r);
+    result->mean_alpha_dot_error = error_of(w, series, fmax(lacks.alpha_dot, lost * g->omega), pick_alpha_dot);
+    result->mean_nz_error = error_of(w, series, fmax(lacks.nz, lost), pick_nz);
+    if (result->mean_nz_error > 1.0 + fabs(means.mean_nz)) /* n is a unit vector */
+        result->mean_nz_error = 1.0 + fabs(means.mean_nz);
     result->mean_b = mean(first, last, FST_Q_B);
     result->std_b = deviation(mean(first, last, FST_Q_B2), result->mean_b - w->quadrature.sums.b_reference);
     result->mean_friction_power = mean(first, last, FST_Q_FRICTION_POWER);

@@ -32,17 +32,6 @@ static int sign_of(double x)
     return (x > 0) - (x < 0);
 }
 
-/* Greatest difference of two states, each vector against its own scale being of order one in scaled units. */
-static double distance(const double *a, const double *b)
-{
-    double greatest = 0.0;
-    for (int i = 0; i < FST_STATE_SIZE; ++i) {
-        const double d = fabs(a[i] - b[i]);
-        greatest = d > greatest ? d : greatest;
-    }
-    return greatest;
-}
-
 void fst_returns_begin(fst_returns *r)
 {
     memset(r, 0, sizeof *r);
@@ -104,8 +93,8 @@ static void keep_section(fst_returns *r, fst_mark *mark, int half)
         memcpy(image, mark->state, sizeof image);
     else
         fst_apply_s2(mark->state, image);
-    mark->half_distance = r->since_break > 1 ? distance(image, r->section[0]) : NAN;
-    mark->full_distance = r->since_break > 2 ? distance(image, r->section[1]) : NAN;
+    mark->half_distance = r->since_break > 1 ? fst_state_distance(image, r->section[0]) : NAN;
+    mark->full_distance = r->since_break > 2 ? fst_state_distance(image, r->section[1]) : NAN;
     memmove(r->section[1], r->section[0], sizeof r->section - sizeof r->section[0]);
     memcpy(r->section[0], image, sizeof image);
 }

@@ -32,6 +32,7 @@ void fst_window_begin(fst_window *w, const fst_span *span, double period, const 
     fst_extremes_begin(w->extremes);
     fst_returns_begin(&w->returns);
     fst_marks_begin(&w->periods);
+    fst_swings_begin(&w->swings, flow->rtol);
     w->least_bead_angle = INFINITY;
     w->greatest_bead_angle = -INFINITY;
 }
@@ -44,7 +45,10 @@ void fst_window_mark(fst_window *w, fst_flow *flow, double x, fst_mark *mark)
 const fst_mark_series *fst_window_series(const fst_window *w, fst_twofold now)
 {
     const int repeats = w->returns.of_cycles || fst_returns_are_regular(&w->returns, now);
-    return repeats && w->returns.marks.offered >= 2 ? &w->returns.marks : &w->periods;
+    if (repeats && w->returns.marks.offered >= 2)
+        return &w->returns.marks;
+    return fst_window_is_bounded(w) && fst_swings_cover(&w->swings, w->span.from, now.high) ? &w->swings.marks
+                                                                                            : &w->periods;
 }
 
 /* ------------------------------------------------------------------ drive periods */
@@ -112,7 +116,7 @@ int fst_window_period_needs_integrals(const fst_window *w, fst_flow *flow)
 /* Phi's range, which decides whether it is bounded: beyond a whole turn it no longer matters by how much. */
 static void watch_bead_angle(fst_window *w, const fst_winding *bead_angle)
 {
-    if (w->greatest_bead_angle - w->least_bead_angle > FST_TWO_PI)
+    if (!fst_window_is_bounded(w))
         return;
     const double angle = fst_winding_angle(bead_angle);
     w->least_bead_angle = angle < w->least_bead_angle ? angle : w->least_bead_angle;
@@ -126,6 +130,35 @@ void fst_window_pass(fst_window *w, const fst_winding *bead_angle, double speed)
         watch_bead_angle(w, bead_angle);
 }
 
+static int counts_maxima(const fst_window *w)
+{
+    return fst_window_is_open(w) && !w->span.states_only && fst_window_is_bounded(w);
+}
+
+int fst_window_needs_maximum(const fst_window *w, double speed)
+{
+    return counts_maxima(w) && fst_swings_need(&w->swings, speed);
+}
+
+void fst_window_pass_maximum(fst_window *w, double speed)
+{
+    if (counts_maxima(w))
+        fst_swings_pass(&w->swings, speed);
+}
+
+/* The maximum of r in the flow's last step, if it holds one; in the step in which the window opens, it may lie
+ * before the window. */
+static void look_at_maximum(fst_window *w, fst_flow *flow, double speed)
+{
+    if (w->opens_at > 0.0 || !(fst_radial_function(flow, flow->step.y, NULL) > 0.0) ||
+        !(fst_radial_function(flow, flow->step.end, NULL) <= 0.0))
+        return;
+    if (fst_window_needs_maximum(w, speed))
+        fst_swings_look(&w->swings, &w->quadrature, flow);
+    else
+        fst_window_pass_maximum(w, speed);
+}
+
 void fst_window_look(fst_window *w, fst_flow *flow, int seek_extremes)
 {
     w->opens_at = 0.0;
@@ -133,7 +166,9 @@ void fst_window_look(fst_window *w, fst_flow *flow, int seek_extremes)
     fst_returns_step(&w->returns, &w->span, &w->quadrature, flow);
     if (fst_window_is_open(w) && seek_extremes)
         fst_extremes_step(w->extremes, &w->quadrature, flow, w->opens_at);
-    fst_window_pass(w, &flow->bead_angle, fst_flow_speed(flow));
+    const double speed = fst_flow_speed(flow);
+    look_at_maximum(w, flow, speed);
+    fst_window_pass(w, &flow->bead_angle, speed);
 }
 
 void fst_window_step(fst_window *w, fst_flow *flow)

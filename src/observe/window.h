@@ -7,10 +7,12 @@
 #ifndef FST_OBSERVE_WINDOW_H
 #define FST_OBSERVE_WINDOW_H
 
+#include "base/constants.h"
 #include "observe/extremes.h"
 #include "observe/marks.h"
 #include "observe/returns.h"
 #include "observe/span.h"
+#include "observe/swings.h"
 
 typedef struct fst_window {
     fst_span span;
@@ -24,6 +26,7 @@ typedef struct fst_window {
     double activity;         /* greatest speed in the turning frame since the last of these */
     double least_bead_angle,
         greatest_bead_angle; /* range of Phi; once wider than a whole turn it is followed no more */
+    fst_swings swings;       /* one mark a whole cycle, while that range is no more than a whole turn */
     double opens_at;         /* where in the last step the window opened; 0 in the steps after it */
 } fst_window;
 
@@ -45,8 +48,14 @@ static inline double fst_window_next_mark(const fst_window *w)
 }
 
 /* The marks between which the means are taken: of whole returns where Phi has turned regularly until `now`, of
- * whole cycles where they are marked, else of drive periods. */
+ * whole cycles where Phi has not turned, else of drive periods. */
 const fst_mark_series *fst_window_series(const fst_window *w, fst_twofold now);
+
+/* Whether Phi has stayed within a whole turn. */
+static inline int fst_window_is_bounded(const fst_window *w)
+{
+    return w->greatest_bead_angle - w->least_bead_angle <= FST_TWO_PI;
+}
 
 /* Snapshot at the fraction x of the flow's last step. */
 void fst_window_mark(fst_window *w, fst_flow *flow, double x, fst_mark *mark);
@@ -72,5 +81,10 @@ int fst_window_period_needs_integrals(const fst_window *w, fst_flow *flow);
 /* The end of a step: the speed there, and where the window is open the range of Phi.  This is all there is to
  * do for a step that holds no mark, no return and no extreme. */
 void fst_window_pass(fst_window *w, const fst_winding *bead_angle, double speed);
+
+/* Whether a step after which the bead has this speed is to be looked at if r passes a maximum in it; if it is
+ * not looked at, the maximum is passed. */
+int fst_window_needs_maximum(const fst_window *w, double speed);
+void fst_window_pass_maximum(fst_window *w, double speed);
 
 #endif

@@ -143,6 +143,8 @@ fst_status fst_conclude(const fst_watched_run *run, const fst_exponent *exponent
                         "run.rtol");
     *needs_exponent = !fst_decide_regime(run, exponent, result);
     fill_turning(result);
+    if (result->regime == FST_REGIME_LOCKED && !fst_n_is_free(run))
+        result->tilt_deg = NAN; /* n stands still in the end; a plane would be that of the way there */
     return FST_OK;
 }
 

@@ -61,7 +61,8 @@ static int takes_section(const fst_watched_run *run)
 
 static void fill_blocks(const fst_watched_run *run, blocks *b)
 {
-    const fst_mark_series *series = fst_window_series(&run->window, run->flow->t);
+    /* Librations are judged by whole drive periods: there are marks of them whatever the motion does. */
+    const fst_mark_series *series = takes_section(run) ? &run->window.returns.marks : &run->window.periods;
     if (series->count - 1 < LEAST_BLOCKS)
         series = &run->window.periods;
     b->count = series->count - 1;

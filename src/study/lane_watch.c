@@ -7,6 +7,7 @@
  *     close       X changed its sign, or an angle      the window looks for a crossing, as in fst_run(); the
  *                 is doubtful, or a direction          lane is told the turns that were counted, and the
  *                 turns fast                           integrals over the step
+ *     at_maximum  r passed a maximum                   a mark of a cycle, while Phi does not turn
  *     wandering   Phi may have left its range so far   the window widens the range, and tells the lane
  *     beaten      a record may be beaten               the portable form: the window seeks extremes;
  *                                                      the fast form: the step is set aside, and located later
@@ -121,11 +122,12 @@ int fst_worker_ends_run(const fst_row_worker *w, const fst_lane_batch *b, int l)
 }
 
 /* Whether the look at a step needs its integrals. */
-static int needs_integrals(const fst_row_worker *w, const fst_watched_run *run, int at_mark)
+static int needs_integrals(const fst_row_worker *w, const fst_watched_run *run, int at_mark, double speed)
 {
     const fst_window *window = &run->window;
     return !w->engine->fused || fst_settling_needs_integrals(run) ||
            fst_returns_need_integrals(&window->returns, &window->span, run->flow) ||
+           fst_window_needs_maximum(window, speed) ||
            (at_mark && fst_window_period_needs_integrals(window, run->flow));
 }
 
@@ -212,7 +214,7 @@ static int watch(fst_row_worker *w, int l, fst_lane_events events)
     if ((events.ending & fst_lane_bit(l)) && fst_worker_ends_run(w, b, l))
         return 1;
     fst_quadrature_look_for_passages(q, flow);
-    if (q->passages || needs_integrals(w, run, (events.at_mark & fst_lane_bit(l)) != 0))
+    if (q->passages || needs_integrals(w, run, (events.at_mark & fst_lane_bit(l)) != 0, b->view.speed[l]))
         extract_integrals(w, l, q);
     if (fst_window_is_open(&run->window) && !run->window.span.states_only)
         fst_quadrature_resolve(q, flow);
@@ -246,8 +248,10 @@ unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events)
     unsigned over = 0;
     for (int l = 0; ((events.close | events.at_mark | events.at_maximum | wandering) >> l) != 0; ++l) {
         int close = (events.close & fst_lane_bit(l)) != 0;
-        if (events.at_maximum & fst_lane_bit(l))
-            close |= w->observed.lanes[l].run->settling.cycle.watched;
+        const int at_maximum = (events.at_maximum & fst_lane_bit(l)) != 0;
+        if (at_maximum)
+            close |= w->observed.lanes[l].run->settling.cycle.watched ||
+                     fst_window_needs_maximum(&w->observed.lanes[l].run->window, w->observed.view.speed[l]);
         if (!close && events.at_mark & fst_lane_bit(l)) {
             w->engine->extract_clock(w->observed.memory, l, w->observed.lanes[l].run->flow);
             close = fst_window_period_needs_integrals(&w->observed.lanes[l].run->window,
@@ -256,6 +260,8 @@ unsigned fst_worker_look(fst_row_worker *w, fst_lane_events events)
             if (!close)
                 pass_mark(w, l);
         }
+        if (!close && at_maximum)
+            fst_window_pass_maximum(&w->observed.lanes[l].run->window, w->observed.view.speed[l]);
         if (close)
             over |= watch(w, l, events) ? fst_lane_bit(l) : 0;
         else if (wandering & fst_lane_bit(l))

@@ -34,7 +34,9 @@
 static const double AT_REST = 1e-8; /* greatest |d(state)/dt| of a locked bead, or run.rtol if larger */
 static const double STILL = 50.0;   /* times run.rtol: n within this of rest is at rest */
 static const double KEPT = 1e-9;    /* Phi within this, or within run.rtol, keeps its place */
-static const double NOISE = 100.0;  /* times run.rtol: slower motion is not told from the integrator's noise */
+/* Times run.rtol: slower motion, or a smaller difference of half returns, is not told from the integrator's
+ * noise. */
+static const double NOISE = 100.0;
 /* Times run.rtol: slower motion that grows comes from the errors of the steps. */
 static const double LEAVING = 10.0;
 /* Activity of a third of the window over the one before: above this, twice in a row, it grows. */
@@ -144,6 +146,12 @@ static int stays_close(const fst_mark_series *marks)
     return 1;
 }
 
+/* The motion goes on to another one: how far its means are from that one's is not known. */
+static void tell_no_errors(fst_run_result *result)
+{
+    result->mean_r_error = result->mean_nz_error = result->mean_alpha_dot_error = NAN;
+}
+
 /* A mean drifts beyond its noise: nothing is settled yet. */
 static int still_drifts(const fst_watched_run *run, fst_run_result *result)
 {
@@ -154,6 +162,7 @@ static int still_drifts(const fst_watched_run *run, fst_run_result *result)
            "%.4g); "
            "raise run.periods and run.discard, or start nearer to where it goes",
            drift.what, drift.change, drift.noise, drift.turns, drift.change / drift.turns, drift.mean);
+    tell_no_errors(result);
     return 1;
 }
 
@@ -170,6 +179,7 @@ static decision decide_open(const fst_watched_run *run, const fst_exponent *expo
                "slowly that a drift by %.2g could be in it; raise run.periods and run.discard until the window "
                "holds many swings",
                hidden.what, hidden.change, hidden.turns, hidden.mean, hidden.noise);
+        tell_no_errors(result);
         return DECIDED;
     }
     if (!fst_is_braked(run)) {
@@ -216,6 +226,14 @@ static decision decide_turning(const fst_watched_run *run, const fst_exponent *e
         return DECIDED;
     }
     const int half_is_steady = fabs(half - middle->half_distance) <= STEADY * half;
+    if (full < CLOSED && half_is_steady && half <= NOISE * run->params->run_rtol) {
+        REASON(
+            "a closed orbit: successive whole returns differ by %.2g, half returns by %.2g, which may be the "
+            "errors of the steps; for the symmetry lower run.rtol",
+            full, half);
+        set_direction(result);
+        return DECIDED;
+    }
     if (full < CLOSED && half_is_steady) {
         result->symmetry = FST_SYMMETRY_S1;
         REASON("a closed orbit: successive whole returns differ by %.2g, half returns by %.2g", full, half);
@@ -288,6 +306,7 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
         REASON("Phi is bounded and the motion is dying out (speed in the turning frame from %.2g to %.2g): run "
                "longer to see whether it locks",
                early, late);
+        tell_no_errors(result);
         return DECIDED;
     }
     if (late >= noise && still_drifts(run, result))
@@ -299,6 +318,7 @@ static decision decide_bounded(const fst_watched_run *run, const fst_exponent *e
                "%.2g "
                "to %.2g): run longer, or lower run.rtol",
                early, late);
+        tell_no_errors(result);
         return DECIDED;
     }
     const chaos found = test_chaos(run, exponent, result);
@@ -365,6 +385,7 @@ static decision decide(const fst_watched_run *run, const fst_exponent *exponent,
         REASON("nearly at rest in the turning frame (|d(state)/dt| = %.2g), but that grows: the bead may be "
                "leaving an unstable state; run longer",
                speed);
+        tell_no_errors(result);
         return DECIDED;
     }
     if (speed < at_rest) {

@@ -115,6 +115,12 @@ static int is_sound_series(const fst_mark_series *s)
     return s->count >= 0 && s->count <= FST_MARKS && s->stride >= 1 && s->offered >= 0;
 }
 
+static int are_sound(const fst_swings *s)
+{
+    return is_sound_series(&s->marks) && s->seen >= 0 && s->seen <= FST_SWINGS_PAST && s->maxima >= 0 &&
+           s->maxima <= FST_SWINGS_PAST;
+}
+
 static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
 {
     const int count =
@@ -125,7 +131,7 @@ static int is_sound(const image *i, uint64_t expected, int numbers, size_t size)
            (i->place.station == FST_STATION_ALONE) ==
                (numbers == 0 && i->place.station != FST_STATION_PARKED) &&
            is_sound_series(&i->window.returns.marks) && is_sound_series(&i->window.periods) &&
-           fst_settling_is_sound(&i->settling);
+           are_sound(&i->window.swings) && fst_settling_is_sound(&i->settling);
 }
 
 /* The coefficients of a run that begins, with the mode of its contact in the image, which is kept in the law's

@@ -33,9 +33,6 @@ static const double WORTHWHILE = 0.5;
  * integrator's noise, docs/regimes.md), but no more than MOST_AT_REST: a faster bead may as well leave a place
  * slowly.  At the window's end it may be so many times as much: noise has peaks. */
 static const double AT_REST = 100.0, DEFAULT_RTOL = 1e-10, MOST_AT_REST = 1e-5, STILL_AT_REST = 100.0;
-/* An error bar that ends where a geometric series of the window's means does is missed by a hair each second
- * time. */
-static const double MARGIN = 2.0;
 static const double GROWS = 1e-6; /* rate at which a deviation from rest grows */
 /* Under dry friction that rate is not known, so that the bead must have been faster than at rest, by FAR, or
  * faster than QUICK and by MORE, to be known to come to rest there. */
@@ -262,11 +259,11 @@ void fst_settling_widen_errors(const fst_watched_run *run, fst_run_result *resul
     const double way = as == FST_SETTLED_REST ? speed_of_late(run) / result->omega : run->settling.way;
     if (as == FST_SETTLED_NOT)
         return;
-    result->mean_r_error = fmax(MARGIN * result->mean_r_error, way);
-    result->mean_nz_error = fmax(MARGIN * result->mean_nz_error, way);
+    result->mean_r_error = fmax(result->mean_r_error, way);
+    result->mean_nz_error = fmax(result->mean_nz_error, way);
     if (as == FST_SETTLED_REST && fst_n_is_free(run)) /* n goes on turning, more slowly than the window shows */
         result->mean_nz_error = fmax(result->mean_nz_error, 1.0 - fabs(result->mean_nz));
-    result->mean_alpha_dot_error = fmax(MARGIN * result->mean_alpha_dot_error, way * result->omega);
+    result->mean_alpha_dot_error = fmax(result->mean_alpha_dot_error, way * result->omega);
 }
 
 int fst_settling_seeks_extremes(const fst_watched_run *run)
