@@ -385,7 +385,7 @@ static void values_of_another_choice(void **state)
          "with magnet.shape lines: choose grid"},
         {"magnet.shape", "grid", "magnet.file", "map.csv", NULL},
         {"magnet.shape", "parts", "magnet.file", "map.csv", NULL},
-        {"bead.material", "paramagnetic", "model.kappa", "1.8", "bead.material paramagnetic: choose hard"},
+        {"bead.material", "paramagnetic", "model.kappa", "1.8", NULL},
         {"bead.material", "mixed", "model.kappa", "1.8", NULL},
         {"friction.law", "coulomb", "friction.stribeck_speed", "0.01", "give friction.mu_static too"},
         {"friction.law", "viscous", "friction.stribeck_speed", "0.01", NULL},

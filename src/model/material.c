@@ -183,7 +183,8 @@ static fst_status check_shape(const fst_params *params, fst_error *error)
                     key);
 }
 
-/* Strengths that the bead's material does not have. */
+/* Strengths that the bead's material does not have.  model.kappa of a paramagnetic bead waits: beads are
+ * compared by changing bead.material alone. */
 static fst_status check_material(const fst_params *params, fst_error *error)
 {
     if (params->bead_a != 0.0 && missing_material(params, "bead.a"))
@@ -197,12 +198,6 @@ static fst_status check_material(const fst_params *params, fst_error *error)
             "bead.b = %g has an effect on a bead of bead.material mixed only: choose that, or leave "
             "bead.b out",
             params->bead_b);
-    if (params->model_kappa != fst_default_params().model_kappa && missing_material(params, "model.kappa"))
-        return fst_fail(
-            error, FST_BAD_INPUT, "model.kappa",
-            "model.kappa = %g has no effect on a bead of bead.material paramagnetic: choose hard or "
-            "mixed, or leave model.kappa out",
-            params->model_kappa);
     return FST_OK;
 }
 
