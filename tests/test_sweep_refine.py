@@ -288,7 +288,7 @@ class Terminal(RefineCase):
         for percent, left, unit, computed, about, total, rate in lines:
             part = int(computed) / int(total)
             self.assertAlmostEqual(float(percent), 100 * part, delta=0.06)
-            self.assertEqual(about, "now about " if part < most else "about ")
+            self.assertIn(about, ("now about ",) if part < most else ("about ", "now about "))  # not all parts are shown
             self.assertGreaterEqual(int(computed), known)
             if left and unit == "s" and float(rate) > 0:
                 self.assertAlmostEqual(int(left), (int(total) - int(computed)) / float(rate), delta=1 + 0.01 * int(left))
