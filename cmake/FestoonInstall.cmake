@@ -13,8 +13,8 @@ file(RELATIVE_PATH pkgconfig_to_prefix
 string(REGEX REPLACE "/$" "" pkgconfig_to_prefix "${pkgconfig_to_prefix}")
 
 set(exported_libraries festoon_library)
-install(FILES include/festoon/festoon.h include/festoon/orbits.h include/festoon/field_maps.h include/festoon/params.def include/festoon/run.def
-    include/festoon/physics.def "${festoon_own_def}"
+install(FILES include/festoon/festoon.h include/festoon/orbits.h include/festoon/rows.h include/festoon/field_maps.h
+    include/festoon/params.def include/festoon/run.def include/festoon/physics.def "${festoon_own_def}"
     DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/festoon")
 configure_file(cmake/festoon.pc.in festoon.pc @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/festoon.pc" DESTINATION "${pkgconfig_dir}")

@@ -256,8 +256,11 @@ class Scenes(Case):
 
     def test_set_replaces_every_key(self):
         field = os.path.join(SOURCE_DIR, "examples", "magnets", "measured-map.csv")
-        needs = {"bead.remanence": ["magnet.b0=10mT"], "magnet.shape": [f"magnet.file={field}"]}
-        texts = {"magnet.file": field, "magnet.checksum": "0123456789abcdef"}
+        mapped = [f"magnet.file={field}", "magnet.shape=grid"]
+        needs = {"bead.remanence": ["magnet.b0=10mT"], "magnet.shape": mapped[:1], "magnet.file": mapped[1:],
+                 "magnet.checksum": mapped}
+        scene = self.json("check", *(word for text in mapped for word in ("--set", text)))["scene"]
+        texts = {"magnet.file": field, "magnet.checksum": scene["magnet.checksum"]}
         for row in json.loads(self.good("schema", "--json")):
             if row["parts"]:  # tests/test_parts_keys.c
                 continue

@@ -7,9 +7,10 @@ import csv
 import io
 import json
 import os
+import sqlite3
 import unittest
 
-from sweep_tools import Case, SHORT
+from sweep_tools import Case, SHORT, change
 
 KEYS = ["regime", "symmetry", "mean_r", "mean_alpha_dot", "rms_slip", "mean_b", "festoons", "rhs_calls"]
 
@@ -66,6 +67,25 @@ class ExportKeys(Case):
         with open(self.path("t.csv"), encoding="utf-8") as file:
             self.assertEqual(file.readline(), "drive.frequency [Hz],regime,mean_r [mm],std_r [mm],mean_alpha_dot [1/s]\n")
             self.assertEqual(len(file.readlines()), 4)
+
+    def test_points_without_a_row(self):
+        """Each point has a line, also where the sweep has not come to it: first, between others, and last."""
+        path, known = self.sweep("drive.frequency=9Hz:16Hz:8")
+        change(path, "DELETE FROM rows WHERE point IN (0, 3, 4, 6, 7)")
+        _, rows = self.table(path, "--csv", "--key", "mean_r")
+        self.assertEqual([row[0] for row in rows], [str(at) for at in range(9, 17)])
+        self.assertEqual([row[1] != "" for row in rows], [point not in (0, 3, 4, 6, 7) for point in range(8)])
+        self.assertEqual([float(rows[i][1]) for i in (1, 2, 5)], [known[i]["mean_r"] for i in (1, 2, 5)])
+
+    def test_damaged_rows(self):
+        """A row whose checksum is wrong is not left out in silence."""
+        path, _ = self.sweep("drive.frequency=9Hz:12Hz:4")
+        base = sqlite3.connect(path)
+        base.execute("UPDATE rows SET mean_r = mean_r + 1 WHERE point = 2")
+        base.commit()
+        base.close()
+        self.assertIn("point 2", self.refused("export", path, "--csv", "--key", "mean_r", "-o", self.path("t.csv")))
+        self.assertFalse(os.path.exists(self.path("t.csv")))
 
     def test_bad_words(self):
         path, _ = self.sweep("drive.frequency=9Hz,10Hz")

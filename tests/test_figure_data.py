@@ -84,6 +84,19 @@ def test_a_path_begins_after_the_discard():
     close(float(title.group(2)), 10.7, 1e-3)
 
 
+def test_a_run_that_has_settled_is_shown_settled():
+    """It ended before its discard; shown is its end, not how it began."""
+    with tempfile.TemporaryDirectory() as folder:
+        festoon(folder, "run", "--set", "run.until=settled", "-o", "t.csv")
+        festoon(folder, "plot", "t.csv", "-o", "f.svg")
+        blocks, columns = read_blocks(os.path.join(folder, "f.dat")), read_csv(os.path.join(folder, "t.csv"))
+    end = columns["drive_turns"][-1]
+    assert end < 40
+    first = next(i for i, turns in enumerate(columns["drive_turns"]) if turns >= math.floor(end - 5.5) - 1e-9)
+    close(blocks["path"][0][0], LENGTH * columns["x"][first], 1e-3)
+    close(blocks["path"][0][1], LENGTH * columns["y"][first], 1e-3)
+
+
 def test_between_samples_the_path_goes_on():
     """Every sample of the range lies on the path."""
     with tempfile.TemporaryDirectory() as folder:

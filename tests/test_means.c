@@ -242,6 +242,19 @@ static void test_extremes_begin_with_the_window(void **unused)
     }
 }
 
+/* Within less than a whole drive period there are no means, and the reason names the keys that would help. */
+static void test_no_whole_period(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.405, FST_DYNAMICS_RIGID);
+    p.run_periods = 1.5;
+    p.run_discard = 1.0;
+    const fst_run_result result = run_of(&p);
+    assert_int_equal(result.regime, FST_REGIME_UNDECIDED);
+    assert_true(isnan(result.mean_r) && isnan(result.mean_r_error));
+    assert_non_null(strstr(result.reason, "1.5 drive periods and 1 of them"));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -253,6 +266,7 @@ int main(void)
         cmocka_unit_test(test_the_rate_of_dry_friction),
         cmocka_unit_test(test_powers_on_a_ramp),
         cmocka_unit_test(test_extremes_begin_with_the_window),
+        cmocka_unit_test(test_no_whole_period),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

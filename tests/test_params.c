@@ -368,6 +368,47 @@ static void values_without_effect(void **state)
     }
 }
 
+/* Nor what belongs to another magnet or contact; under another law of friction it waits. */
+static void values_of_another_choice(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *choice, *chosen, *key, *value, *sentence; /* NULL: it has an effect, or waits */
+    } cases[] = {
+        {"magnet.shape", "grid", "magnet.lines", "7", "with magnet.shape grid: choose lines"},
+        {"magnet.shape", "grid", "magnet.width", "30 mm", "with magnet.shape grid: choose lines"},
+        {"magnet.shape", "grid", "model.lambda", "0.4", "with magnet.shape grid: choose lines"},
+        {"magnet.shape", "lines", "magnet.lines", "7", NULL},
+        {"magnet.lines", "1", "magnet.width", "30 mm", NULL},
+        {"magnet.shape", "lines", "magnet.file", "map.csv", "with magnet.shape lines: choose grid"},
+        {"magnet.shape", "lines", "magnet.checksum", "0123456789abcdef",
+         "with magnet.shape lines: choose grid"},
+        {"magnet.shape", "grid", "magnet.file", "map.csv", NULL},
+        {"magnet.shape", "parts", "magnet.file", "map.csv", NULL},
+        {"bead.material", "paramagnetic", "model.kappa", "1.8", NULL},
+        {"bead.material", "mixed", "model.kappa", "1.8", NULL},
+        {"friction.law", "coulomb", "friction.stribeck_speed", "0.01", "give friction.mu_static too"},
+        {"friction.law", "viscous", "friction.stribeck_speed", "0.01", NULL},
+        {"friction.mu_static", "0.3", "friction.stribeck_speed", "0.01", NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
+        fst_params params = fst_default_params();
+        fst_error error = {FST_OK, "", ""};
+        if (strcmp(cases[i].choice, "friction.mu_static") == 0)
+            params.friction_law = FST_FRICTION_COULOMB;
+        assert_int_equal(fst_params_set(&params, cases[i].choice, cases[i].chosen, &error), FST_OK);
+        assert_int_equal(fst_params_check_effects(&params, &error), FST_OK);
+        assert_int_equal(fst_params_set(&params, cases[i].key, cases[i].value, &error), FST_OK);
+        const fst_status status = fst_params_check_effects(&params, &error);
+        if (status != (cases[i].sentence ? FST_BAD_INPUT : FST_OK))
+            fail_msg("%s beside %s: %s", cases[i].key, cases[i].chosen, error.sentence);
+        if (!cases[i].sentence)
+            continue;
+        assert_string_equal(error.where, cases[i].key);
+        CHECK_CONTAINS(error.sentence, cases[i].sentence);
+    }
+}
+
 /* A number says why a text is no value; the sentence lists the units once, whatever the fault. */
 static void faults_of_values(void **state)
 {
@@ -407,6 +448,7 @@ int main(void)
         cmocka_unit_test(kappa_has_two_makers),
         cmocka_unit_test(structs_are_validated),
         cmocka_unit_test(values_without_effect),
+        cmocka_unit_test(values_of_another_choice),
         cmocka_unit_test(faults_of_values),
         cmocka_unit_test(statuses_have_texts),
         cmocka_unit_test(nearest_names),

@@ -180,6 +180,40 @@ static void test_straight_through(void **unused)
     fst_model_free(model);
 }
 
+/* Under dry friction, where steps are in a time of their own: the squares of n's components add up to 1, so
+ * their integrals to the time, of which those of n_r^2 and n_alpha^2 are resolved on the axis and that of n_z^2
+ * is not. */
+static void test_dry(void **unused)
+{
+    (void)unused;
+    fst_params p = bead_at(0.3, FST_DYNAMICS_RIGID);
+    p.friction_law = FST_FRICTION_COULOMB;
+    p.friction_mu = 0.3;
+    fst_model *model = model_of(&p);
+    double start[FST_STATE_SIZE];
+    start_of(&p, model, start);
+    const double shift[2] = {start[FST_X] + 0.2, start[FST_Y] - 1e-4};
+    for (int i = 0; i < 2; ++i)
+        start[FST_X + i] -= shift[i];
+    start[FST_VX] = 0.3;
+    start[FST_VY] = 0.0;
+    fst_flow *flow = flow_of(model, 1e-11, start);
+    fst_quadrature q;
+    double got[FST_Q_COUNT], angle;
+    int passages = 0;
+    fst_quadrature_begin(&q, flow);
+    while (flow->t.high < 2.0) {
+        assert_int_equal(fst_flow_step(flow, 2.0, NULL), FST_OK);
+        fst_quadrature_step(&q, flow, 0);
+        passages += q.passages != 0;
+    }
+    fst_quadrature_at(&q, flow, 1.0, got, &angle);
+    assert_true(passages > 0);
+    CHECK_CLOSE(got[FST_Q_N_RR] + got[FST_Q_N_ALPHAALPHA] + got[FST_Q_N_ZZ], 2.0, 1e-10);
+    fst_flow_free(flow);
+    fst_model_free(model);
+}
+
 /* ------------------------------------------------------------------ runs */
 
 /* Orbits that pass the axis and e_r closely at every return, and at some. */
@@ -214,9 +248,10 @@ static double result_of(const fst_run_result *result, const char *name)
 
 static void check_turning_means(int i, const fst_run_result *a, const fst_run_result *b)
 {
-    static const char *const names[] = {"mean_r",        "eq21_centrifugal",      "eq21_magnetic",
-                                        "eq21_friction", "eq21_magnetic_printed", "eq21_spin",
-                                        "eq23_magnetic", "mean_v_alpha",          "tilt_deg"};
+    static const char *const names[] = {"mean_r",        "std_r",         "eq21_centrifugal",
+                                        "eq21_magnetic", "eq21_friction", "eq21_magnetic_printed",
+                                        "eq21_spin",     "eq23_magnetic", "mean_v_alpha",
+                                        "tilt_deg"};
     for (size_t k = 0; k < sizeof names / sizeof *names; ++k) {
         const double x = result_of(a, names[k]), y = result_of(b, names[k]);
         const double scale = fmax(fabs(y), 0.01); /* of the forces, of which the mean may be the small rest */
@@ -266,8 +301,8 @@ static void test_lanes(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_axis), cmocka_unit_test(test_pole),  cmocka_unit_test(test_straight_through),
-        cmocka_unit_test(test_runs), cmocka_unit_test(test_lanes),
+        cmocka_unit_test(test_axis), cmocka_unit_test(test_pole), cmocka_unit_test(test_straight_through),
+        cmocka_unit_test(test_dry),  cmocka_unit_test(test_runs), cmocka_unit_test(test_lanes),
     };
     return cmocka_run_group_tests_name("passages", tests, NULL, NULL);
 }

@@ -90,6 +90,24 @@ class Rows(Case):
                   "--carry", "up", "--portable", "-o", self.path("up.db"))
         self.assertEqual(self.rows("up.db"), up)
 
+    def test_what_has_settled_is_carried(self):
+        """Runs that end early because they have settled are gone on from, also after an interruption."""
+        words = ["sweep", "--over", "drive.frequency=7.29,8,9,10", "--set", "model.kappa=1.035", "--set",
+                 "run.until=settled", "--carry", "up"]
+        for form in ("--portable", "--json"):
+            self.good(*words, form, "-o", self.path("a.db"))
+            whole = self.rows("a.db")
+            rows = json.loads(self.good("export", self.path("a.db"), "--json"))
+            self.assertEqual([row["carried"] for row in rows], [0, 1, 1, 1])
+            self.assertTrue(all(row["settled_at"] < row["periods"] < 400 for row in rows))
+            base = sqlite3.connect(self.path("a.db"))
+            base.execute("DELETE FROM rows WHERE point >= 2")
+            base.commit()
+            base.close()
+            self.good(*words, form, "-o", self.path("a.db"))
+            self.assertEqual(self.rows("a.db"), whole)
+            os.remove(self.path("a.db"))
+
     def test_nothing_is_carried_from_a_bead_that_left_the_plate(self):
         """After an ejection or a lift-off a chain begins anew at the scene's own start, also if it is resumed after
         an interruption."""

@@ -38,7 +38,8 @@ NEEDS = {"bead.a": ["bead.material=paramagnetic"], "bead.b": ["bead.material=mix
          "bead.remanence": ["magnet.b0=10mT"],
          "magnet.shape": ["magnet.shape=parts", "magnet.parts[0].kind=dipole", "magnet.parts[0].moment[0]=2"],
          "contact.radius": [DRY, "contact.patch=hertz"],
-         "contact.modulus": [DRY, "contact.patch=hertz"], "impact.restitution": [DRY]}
+         "contact.modulus": [DRY, "contact.patch=hertz"],
+         "contact.patch": [DRY, "contact.patch=hertz", "contact.radius=0.1mm"], "impact.restitution": [DRY]}
 # Parameters that no row shows: the tesla scale, masses if kappa is given, an edge that is not reached, and how a
 # bead bounces that does not leave the plate.
 INVISIBLE = {"bead.moment", "magnet.b0", "bead.mass", "bead.density", "plate.radius", "impact.restitution"}
@@ -123,7 +124,15 @@ class Keys(Over):
         self.says("no effect", "bead.a=1,2")
         self.says("no effect", "bead.b=1,2", sets=["bead.material=paramagnetic"])
         self.says("choose hertz or pade", "contact.radius=0.1mm,0.2mm", sets=[DRY])
-        self.says("choose coulomb", "impact.restitution=0.5,0.6")
+        for key in ("impact.restitution", "friction.mu_static", "friction.stribeck_speed", "friction.contact_rate"):
+            self.says("choose coulomb", f"{key}=0.5,0.6")
+        self.says("choose coulomb or rolling", "friction.rolling_resistance=1e-3,1e-2")
+        self.says("choose coulomb", "contact.patch=point,hertz", sets=["contact.radius=1mm"])
+        self.says("choose one greater than friction.mu", "friction.stribeck_speed=0.01,0.02", sets=[DRY])
+        self.says("choose at least 2", "magnet.width=30mm,40mm", sets=["magnet.lines=1"])
+        self.says("choose hard or mixed", "model.kappa=1,2", sets=["bead.material=paramagnetic", "bead.a=1"])
+        # Static friction that is varied counts as given, though the scene has none.
+        self.table("friction.mu_static=0.2,0.4", sets=[DRY, "friction.stribeck_speed=0.01"])
         rows = self.table("bead.material=hard,paramagnetic", "bead.a=1,2")
         self.assertEqual([row["final_state"] for row in rows].count(rows[0]["final_state"]), 2)  # hard: both end alike
         self.assertNotEqual(rows[2]["final_state"], rows[3]["final_state"])

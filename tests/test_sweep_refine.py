@@ -10,8 +10,11 @@ import io
 import itertools
 import json
 import os
+import re
+import resource
 import signal
 import sqlite3
+import subprocess
 import unittest
 
 import events
@@ -163,6 +166,25 @@ class Points(RefineCase):
         self.check("a.db", grid, told, words)
         self.assertLess(told["computed"], 60)
 
+    def test_a_change_in_the_last_cell(self):
+        """The last cell is narrower, and its last corner the last point that is computed: only that one is off the plate."""
+        words = [*CHEAP, "--set", "plate.radius=6cm", *over("start.r=0.3:2.65:22")]
+        grid = Grid((22,), 3, dict(zip(places((22,)), self.values(words, "regime").values())))
+        told = self.sweep("a.db", words, "--refine", "3", "--threads", "1", "--lanes", "1")
+        self.check("a.db", grid, told, words)
+        self.assertIn((20,), grid.points)
+
+    def test_a_range_of_two_points(self):
+        """Beside a long one; both of its points are coarse."""
+        counts = (33, 2)
+        words = [*CHEAP, *over("drive.frequency=3Hz:40Hz:33", "model.kappa=0.3:2:2")]
+        values = self.values(words, "regime").values()
+        self.assertGreater(len(set(values)), 1)
+        grid = Grid(counts, 2, dict(zip(places(counts), values)))
+        told = self.sweep("a.db", words, "--refine", "2")
+        self.check("a.db", grid, told, words)
+        self.assertLess(len(grid.points), 66)
+
     def test_three_ranges_and_a_list(self):
         """Each value of the list is refined by itself."""
         words = [*CHEAP, "--set", "plate.radius=3cm",
@@ -235,12 +257,133 @@ class OneOutcome(RefineCase):
         told = self.sweep("straight.db", MAP)
         self.assertEqual((told["computed"], told["rows"]), (told["points"], told["points"]))
         self.assertEqual(self.lines("straight.db"), self.whole(MAP))
+        told = self.good("export", "--key", "regime", "--csv", self.path("straight.db"))
+        self.assertEqual(told.count("\n"), 33 * 22 + 1)
 
     def test_a_damaged_line(self):
         change(self.path("straight.db"), "UPDATE festoon SET value = replace(value, '3', '2') WHERE key = 'refine'")
         for words in (("sweep", *MAP, "--refine", "3", "-o"), ("plot",), ("export", "--key", "regime", "--csv")):
             words = (*words, self.path("straight.db")) + (("-o", self.path("x.svg")) if words == ("plot",) else ())
             self.assertIn("damaged", self.refused(*words))
+
+    def test_the_line_of_another_sweep(self):
+        other = ["--over", "start.r=0.3:2.9:9", *CHEAP]
+        self.sweep("other.db", other, "--refine", "2")
+        change(self.path("straight.db"), f"ATTACH '{self.path('other.db')}' AS other", "UPDATE festoon SET value = (SELECT "
+               "value FROM other.festoon WHERE key = 'refine') WHERE key = 'refine'")
+        self.assertIn("damaged", self.refused("export", "--key", "regime", "--csv", self.path("straight.db")))
+
+
+class Terminal(RefineCase):
+    """The line of progress while the set of points grows, and Ctrl-C there."""
+
+    LINE = (r"([0-9.]+) %(?:  ([0-9]+) (s|min) left)?  ([0-9]+) of ((?:now )?about )?([0-9]+) points, "
+            r"([0-9.e+-]+) a second")
+
+    def check_lines(self, text):
+        """Each line agrees with itself; how many points there will be is said to be an estimate, and where the part
+        that is done falls the line says that there are more points now. Returns how many lines there were."""
+        lines = re.findall(self.LINE, text)
+        most = known = 0
+        for percent, left, unit, computed, about, total, rate in lines:
+            part = int(computed) / int(total)
+            self.assertAlmostEqual(float(percent), 100 * part, delta=0.06)
+            self.assertIn(about, ("now about ",) if part < most else ("about ", "now about "))  # not all parts are shown
+            self.assertGreaterEqual(int(computed), known)
+            if left and unit == "s" and float(rate) > 0:
+                self.assertAlmostEqual(int(left), (int(total) - int(computed)) / float(rate), delta=1 + 0.01 * int(left))
+            most, known = max(most, part), int(computed)
+        return len(lines)
+
+    def test_the_line_and_ctrl_c(self):
+        found = []
+
+        def words(periods):
+            return ["sweep", *MAP, "--set", f"run.periods={periods}", "--refine", "2", "--threads", "1", "-o"]
+
+        def blow(periods):
+            found[:] = events.on_a_terminal([FESTOON, *words(periods), self.path(f"{periods}.db")],
+                                            lambda text: text.count(" a second") >= 2, as_key=True)
+            return found[0] == 130
+        periods = events.struck(blow, 30)
+        status, out, text = found
+        self.assertEqual((status, out), (130, b""))
+        self.assertGreaterEqual(self.check_lines(text), 2)
+        told = re.search(r"interrupted with ([0-9]+) of about ([0-9]+) points done; the same command goes on", text)
+        path = self.path(f"{periods}.db")
+        self.assertEqual(int(told[1]), events.rows(path))
+        self.assertLess(int(told[1]), int(told[2]))
+        status, out, text = events.on_a_terminal([FESTOON, *words(periods), path], lambda text: False)
+        self.assertEqual(status, 0, text)
+        self.check_lines(text)
+        self.good(*words(periods), self.path("straight.db"))
+        self.assertEqual(self.rows(f"{periods}.db"), self.rows("straight.db"))
+
+
+class Adversity(RefineCase):
+    WORDS = ["sweep", *CHEAP, *over("drive.frequency=3Hz:40Hz:65", "model.kappa=0.3:2:5"), "--refine", "1", "-o"]
+    STRAIGHT = []
+
+    def test_other_results_or_another_scene(self):
+        """Such a file is refused and stays as it is, its line `refine` too."""
+        words = [*CHEAP, *over("model.kappa=1:2:9"), "--refine", "1"]
+        self.sweep("a.db", words)
+        for other in (["--set", "bead.radius=3mm"], ["--over", "start.r=1:2:5"], ["--seed", "3"]):
+            self.assertIn("was made with", self.refused("sweep", *words, *other, "-o", self.path("a.db")))
+        change(self.path("a.db"), "UPDATE festoon SET value = value - 1 WHERE key = 'results_version'")
+        for options in ([], ["--refine-by", "mean_r:0.1"]):
+            message = self.refused("sweep", *words, *options, "-o", self.path("a.db"))
+            self.assertRegex(message, "results_version")
+
+    def check_goes_on(self, path, spoilt):
+        """`spoilt(size)` runs the sweep where its file cannot grow beyond so many kilobytes."""
+        kept = []
+        for size in (90, 180):
+            status, out, err = spoilt(size)
+            self.assertEqual((status, out), (1, ""), err)
+            self.assertRegex(err, "the disk is full.*make room|files may have [0-9]+ bytes at most here.*ulimit -f")
+            kept.append(self.good("export", path, "--csv").count("\n") - 1)
+        self.assertEqual(kept, sorted(kept))
+        self.assertGreater(kept[-1], kept[0])
+        if not self.STRAIGHT:
+            self.good(*self.WORDS, self.path("whole.db"))
+            self.STRAIGHT.append(self.rows("whole.db"))
+
+    def test_a_limit_of_file_sizes(self):
+        path = self.path("a.db")
+
+        def spoilt(size):
+            return festoon(*self.WORDS, path, preexec_fn=lambda: resource.setrlimit(
+                resource.RLIMIT_FSIZE, (1024 * size // 2, 1024 * size // 2)))
+        self.check_goes_on(path, spoilt)
+        self.good(*self.WORDS, path)
+        self.assertEqual(self.rows("a.db"), self.STRAIGHT[0])
+
+    def test_a_full_disk(self):
+        place = self.path("small")
+        os.mkdir(place)
+        if os.getuid() != 0 or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=100k", "none", place],
+                                              stderr=subprocess.DEVNULL).returncode != 0:
+            self.skipTest("a small file system needs root")
+        self.addCleanup(subprocess.run, ["umount", place], check=True)
+        path = os.path.join(place, "a.db")
+
+        def spoilt(size):
+            subprocess.run(["mount", "-o", f"remount,size={size}k", place], check=True)
+            return festoon(*self.WORDS, path)
+        self.check_goes_on(path, spoilt)
+        subprocess.run(["mount", "-o", "remount,size=64m", place], check=True)
+        self.good(*self.WORDS, path)
+        self.assertEqual(self.good("export", path, "--csv"), self.STRAIGHT[0])
+
+    def test_a_number_that_no_run_has(self):
+        """Runs on the plate have no impacts: nothing is divided, and the program says so."""
+        words = ["sweep", *CHEAP, *over("model.kappa=1:2:17"), "--refine", "2", "--json", "-o", self.path("a.db")]
+        status, out, err = festoon(*words, "--refine-by", "impacts_per_return:0.1")
+        self.assertEqual((status, json.loads(out)["computed"]), (0, 5))
+        self.assertIn("impacts_per_return has no value in any of the 5 rows, so nothing was refined", err)
+        status, out, err = festoon(*words)
+        self.assertEqual((status, err), (0, ""))
 
 
 class Refusals(RefineCase):
@@ -249,6 +392,7 @@ class Refusals(RefineCase):
                 (["model.kappa=1:2:33"], ["--refine", "0"], "--refine"),
                 (["model.kappa=1:2:33"], ["--refine", "5"], "from 1 to 4"),
                 (["model.kappa=1:2:4"], ["--refine", "1"], "5 points"),
+                (["model.kappa=1:2:2", "start.r=1,2,3,4,5,6"], ["--refine", "1"], "5 points"),
                 (["model.kappa=1,2,3,4,5"], ["--refine", "1"], "nothing to refine"),
                 (["model.kappa=1:2:random:40"], ["--refine", "1"], "random"),
                 (["model.kappa=1:2:9", "start.r=1:2:9", "start.phi=1:2:9", "drive.frequency=1:2:9"],
@@ -257,6 +401,8 @@ class Refusals(RefineCase):
                 (["model.kappa=1:2:33"], ["--refine", "2", "--carry", "up"], "carried"),
                 (["model.kappa=1:2:33"], ["--refine-by", "regime"], "--refine N"),
                 (["model.kappa=1:2:33"], ["--refine", "2", "--refine-by", "mean_q:1"], "nearest is mean_r"),
+                (["model.kappa=1:2:33"], ["--refine", "2", "--refine-by", "reason"], "a text"),
+                (["model.kappa=1:2:33"], ["--refine", "2", "--refine-by", "model.kappa:0.1"], "a parameter"),
                 (["model.kappa=1:2:33"], ["--refine", "2", "--refine-by", "mean_r"], "by how much"),
                 (["model.kappa=1:2:33"], ["--refine", "2", "--refine-by", "regime:1"], "no step"),
                 (["model.kappa=1:2:33"], ["--refine", "2", "--refine-by", "mean_r:0"], "positive")):
@@ -283,19 +429,44 @@ class Figures(RefineCase):
         script, blocks = self.boxes("a.db")
         self.assertIn(f"{len(grid.points)} runs", script.replace("\\n", " "))
         self.assertIn("pale", script)
-        names = ["undecided", "locked", "librating", "counter-rotating", "corotating", "chaotic", "ejected", "lifted"]
         computed = {point: values[point] for point in grid.points if values[point]}  # failed runs have no cell
         for kind, expected in (("cells", computed), ("filled", grid.filled())):
-            found = {}
-            for name, boxes in blocks.items():
-                if not name.startswith(kind + "-"):
-                    continue
-                for x, y, low, high, *_ in boxes:
-                    row, first = round((y - 0.3) / 2.6 * 32), round((x - 0.2) / 1.8 * 21)
-                    for i in range(first, round((high - 0.2) / 1.8 * 21 + 0.45)):
-                        self.assertNotIn((row, i), found)
-                        found[row, i] = names[int(name.split("-")[1])]
-            self.assertEqual(found, expected)
+            self.assertEqual(self.regimes(blocks, kind), expected)
+
+    def regimes(self, blocks, kind):
+        """The regimes in whose colours points of the map are painted."""
+        names = ["undecided", "locked", "librating", "counter-rotating", "corotating", "chaotic", "ejected", "lifted"]
+        found = {}
+        for name, boxes in blocks.items():
+            if not name.startswith(kind + "-"):
+                continue
+            for x, y, low, high, *_ in boxes:
+                row, first = round((y - 0.3) / 2.6 * 32), round((x - 0.2) / 1.8 * 21)
+                for i in range(first, round((high - 0.2) / 1.8 * 21 + 0.45)):
+                    self.assertNotIn((row, i), found)
+                    found[row, i] = names[int(name.split("-")[1])]
+        return found
+
+    def test_regimes_between_points_that_a_number_chose(self):
+        """Where the corners of a cell are of two regimes nothing is painted between them."""
+        counts = (33, 22)
+        radii = {point: None if value is None else float(value)
+                 for point, value in zip(places(counts), self.values(MAP, "mean_r").values())}
+        grid = Grid(counts, 3, radii, 100.0)
+        grid.values = dict(zip(places(counts), self.values(MAP, "regime").values()))
+        self.sweep("a.db", MAP, "--refine", "3", "--refine-by", "mean_r:100")
+        _, blocks = self.boxes("a.db")
+        self.assertEqual(self.regimes(blocks, "filled"), grid.filled())
+
+    def test_a_linear_number_is_interpolated_exactly(self):
+        """The drive's frequency is itself such a number; the last cells are narrower along both axes."""
+        words = [*CHEAP, *over("drive.frequency=10:12:9", "model.kappa=1:1.2:11")]
+        told = self.sweep("a.db", words, "--refine", "2", "--refine-by", "mean_r:9")
+        self.assertEqual(told["computed"], 3 * 4)
+        _, blocks = self.boxes("a.db", "--key", "frequency_hz", "--units", "lab")
+        self.assertEqual(len(blocks["cells"]), 9 * 11)
+        for _, y, *_, value in blocks["cells"]:
+            self.assertAlmostEqual(value, y, 4)
 
     def test_numbers_are_interpolated(self):
         self.sweep("a.db", MAP, "--refine", "3")

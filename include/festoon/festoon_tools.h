@@ -308,8 +308,10 @@ typedef enum { FST_CARRY_NO, FST_CARRY_UP, FST_CARRY_DOWN } fst_carry;
 typedef struct fst_sweep_counts {
     int64_t points, there; /* points of the grid, and how many of them have a row */
     /* Points that this call wants to have rows, as far as it is known; how many of them have one; and about how
-     * many it will be in the end.  Without refining these are `points`, `there` and `points`. */
-    int64_t wanted, computed, expected;
+     * many it will be in the end.  Without refining these are `points`, `there` and `points`.  A refined sweep
+     * tells too in how many rows the key by which it is refined has no value: in all of them means that nothing
+     * was divided. */
+    int64_t wanted, computed, expected, undefined;
     int64_t added, failed; /* rows added by this call, and how many of these are runs that failed */
     double seconds;        /* since the beginning of the call */
     double processor_seconds, journal_seconds; /* processor time of this process, and how much of it the thread

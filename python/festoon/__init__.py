@@ -21,6 +21,7 @@ from ._errors import (
 )
 from ._native import lib as _lib
 from ._native import text_of as _text_of
+from ._quantities import UNSET
 from .bead import Bead, Groups, MaterialWarning
 from .files import export, paper, read, schema
 from .films import track
@@ -60,6 +61,7 @@ __all__ = [
     "Sweep",
     "Track",
     "Trajectory",
+    "UNSET",
     "Unavailable",
     "components",
     "export",

@@ -1,6 +1,7 @@
 """The library behind the module: errors as exceptions, calls that obey Ctrl-C, arrays over C memory."""
 
 import os
+import threading
 from typing import TYPE_CHECKING, Any, Callable, Iterator, List, Optional, Tuple, Type
 
 import numpy as np
@@ -84,6 +85,9 @@ class Watch:
 
     def __init__(self, progress: Progress, partial: Callable[[], Any] = lambda: None, title: str = "") -> None:
         self.raised: Optional[BaseException] = None
+        #: Of a call apart: what it told last, and whether it is to end.
+        self._told: Optional[Tuple[float, str]] = None
+        self._apart = self._given_up = False
         self._partial = partial
         self._bar = bar_for(progress, title)
         self._handle = ffi.new_handle(self)
@@ -93,7 +97,12 @@ class Watch:
         )
 
     def tell(self, fraction: float, what: str) -> None:
-        self._bar.tell(fraction, what)
+        if not self._apart:
+            self._bar.tell(fraction, what)
+        elif self._given_up:
+            raise Interrupted()
+        else:
+            self._told = fraction, what
 
     def call(self, function: Callable[..., int], *arguments: Any) -> None:
         error = new_error()
@@ -101,6 +110,37 @@ class Watch:
         if status == lib.FST_INTERRUPTED and self.raised is not None:
             raise self.raised
         if status != lib.FST_OK:
+            raise error_of(error)
+
+    def call_apart(self, function: Callable[..., int], *arguments: Any, keeping: Any = ()) -> None:
+        """A call that asks too seldom whether to go on, done in a thread of its own.
+
+        Ctrl-C leaves that thread to itself: what it still works on is its own, or stays as it is, and it keeps
+        `keeping` and the arguments alive.  An object of the user's that the call changes must be a copy.
+        """
+        if threading.current_thread() is not threading.main_thread():  # Python has no Ctrl-C here
+            self.call(function, *arguments)
+            return
+        error, status, ended = new_error(), [lib.FST_NO_MEMORY], threading.Event()
+
+        def work(*kept: Any) -> None:
+            try:
+                status[0] = function(*arguments, error)
+            finally:
+                ended.set()
+
+        self._apart = True
+        try:
+            threading.Thread(target=work, args=(self, arguments, keeping), name="festoon-apart", daemon=True).start()
+            while not ended.wait(0.03):
+                told, self._told = self._told, None
+                if told is not None:
+                    self._bar.tell(*told)
+        except BaseException:
+            self._given_up = True
+            raise
+        self._apart = False
+        if status[0] != lib.FST_OK:
             raise error_of(error)
 
     def __enter__(self) -> "Watch":

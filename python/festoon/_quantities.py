@@ -5,9 +5,23 @@ from typing import Any, Dict, SupportsFloat, Tuple, Union
 from ._errors import BadInput
 from ._native import call, ffi, lib, text_of
 
+
+class Unset:
+    """What UNSET is."""
+
+    def __reduce__(self) -> str:
+        return "UNSET"
+
+    def __repr__(self) -> str:
+        return "UNSET"
+
+
+#: As a keyword of `Bead` or `Bead.replace`: the parameter becomes what it is where nothing was said of it.
+UNSET = Unset()
+
 #: A number in SI (scaled where the parameter is), a text with a unit ("10.7 Hz"), or the name of a choice.
-#: None: not given.
-Value = Union[None, float, int, str]
+#: None: the parameter stays as it is; UNSET: as if it had never been given.
+Value = Union[None, float, int, str, Unset]
 
 UNITS = {
     "given": lib.FST_SHOWN_AS_GIVEN,

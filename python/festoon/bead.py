@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, Mapping, 
 import numpy as np
 
 from ._errors import BadInput, FestoonError
-from ._native import call, ffi, lib, path_bytes, rows_of, take_text, text_of
+from ._native import Watch, call, ffi, lib, path_bytes, rows_of, take_text, text_of
 from ._progress import Progress
-from ._quantities import Value, value_text
+from ._quantities import UNSET, Value, value_text
 from ._tables import PARAMETERS, SHORT, Parameters
 
 if TYPE_CHECKING:
@@ -86,6 +86,12 @@ class Groups:
     def __iter__(self) -> Iterator[Tuple[str, Any]]:
         return iter(self._values.items())
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Groups) and repr(self) == repr(other)
+
+    def __hash__(self) -> int:
+        return hash(repr(self))
+
     def __repr__(self) -> str:
         return "Groups(" + ", ".join(f"{name}={value!r}" for name, value in self) + ")"
 
@@ -117,6 +123,8 @@ class Bead(Parameters):
                 data = scene.encode()
                 call(lib.fst_scene_parse, data, len(data), b"scene", self._params)
             elif scene is not None:
+                if not isinstance(scene, (str, bytes, os.PathLike)):
+                    raise TypeError(f"{scene!r} is no scene: parameters are keywords, as in Bead(frequency=10.7)")
                 call(lib.fst_scene_read, path_bytes(scene), self._params)
             self._set(keywords)
 
@@ -124,8 +132,11 @@ class Bead(Parameters):
         given = {key_of(keyword): value for keyword, value in keywords.items() if value is not None}
         if len(given) < sum(value is not None for value in keywords.values()):
             raise BadInput("Bead", "a parameter is given twice, by its short keyword and by its long one")
-        if "magnet.parts" in given:
-            given.setdefault("magnet.shape", "parts")
+        self._unset([key for key, value in given.items() if value is UNSET])
+        given = {key: value for key, value in given.items() if value is not UNSET}
+        for key, shape in (("magnet.parts", "parts"), ("magnet.file", "grid")):
+            if key in given:
+                given.setdefault("magnet.shape", shape)
         for key, value in given.items():
             other = lib.fst_param_other_form(key.encode())
             if other and text_of(other) in given:
@@ -138,11 +149,32 @@ class Bead(Parameters):
             self._params.magnet_map = ffi.NULL
         self._make()
 
+    def _unset(self, keys: Iterable[str]) -> None:
+        """Take parameters back to what they are where nothing was said of them."""
+        default = lib.fst_default_params()
+        for key in keys:
+            if key == "magnet.parts":
+                self._params.magnet_part_count = 0
+                continue
+            if key not in PARAMETERS:
+                call(lib.fst_params_set, self._params, key.encode(), b"")  # the sentence names the nearest key
+                raise BadInput(key, "a part's numbers are given together, as magnet__parts")
+            field = key.replace(".", "_")
+            if PARAMETERS[key][0] == "str" and not PARAMETERS[key][1]:
+                setattr(self._params, field, b"")
+            else:
+                setattr(self._params, field, getattr(default, field))
+            if key == "model.kappa":
+                self._params.model_kappa_given = 0
+            if key in ("magnet.file", "magnet.checksum"):
+                self._params.magnet_checksum, self._params.magnet_map = b"", ffi.NULL
+
     def _make(self) -> None:
         """Make the model; a map of the field is read once, and shared by the beads that follow from this one."""
         if not self._params.magnet_map:
             field_map = ffi.new("fst_field_map **")
-            call(lib.fst_params_read_map, self._params, ffi.NULL, field_map)
+            with Watch(None) as watch:
+                watch.call(lib.fst_params_read_map, self._params, watch.told, field_map)
             self._map = ffi.gc(field_map[0], lib.fst_field_map_free) if field_map[0] else None
         model = ffi.new("fst_model **")
         call(lib.fst_model_new, self._params, model)
@@ -207,8 +239,20 @@ class Bead(Parameters):
         """The same of a file that was read; where its map was not found, what needs it says so."""
         if field_map is not None or params.magnet_file[0] == b"\0":
             return cls._of(params, field_map)
+        return cls._unmade(params)
+
+    @classmethod
+    def _unmade(cls, params: Any) -> "Bead":
+        """A bead of which nothing is asked yet: without a model, and without the map of its magnet."""
         made = cls.__new__(cls)
         made._params = ffi.new("fst_params *", params)
+        return made
+
+    @classmethod
+    def _unmade_of(cls, scene: str) -> "Bead":
+        made = cls._unmade(lib.fst_default_params())
+        data = scene.encode()
+        call(lib.fst_scene_parse, data, len(data), b"scene", made._params)
         return made
 
     @classmethod
@@ -231,10 +275,11 @@ class Bead(Parameters):
     if not TYPE_CHECKING:
 
         def replace(self, **keywords: Any) -> "Bead":
-            """The same bead with other values.
+            """The same bead with other values; `UNSET` is for a parameter that is to be as if it had never been given.
 
-            >>> Bead().replace(kappa=1.2).kappa
-            1.2
+            >>> scaled = Bead(frequency=8, gamma=300).replace(omega=0.2)
+            >>> scaled.replace(omega=UNSET, gamma=UNSET) == Bead()
+            True
             """
             made = type(self).__new__(type(self))
             made._params, made._map = ffi.new("fst_params *", self._params[0]), self._map
@@ -325,11 +370,20 @@ class Bead(Parameters):
     def __hash__(self) -> int:
         return hash(self._identity())
 
-    def __reduce__(self) -> Tuple[Any, ...]:
+    def _portable_scene(self) -> str:
         """Another process may work in another folder, where a path to a map leads nowhere."""
         file = ffi.string(self._params.magnet_file)
-        scene = self._scene_with(_fitting(os.path.abspath(file))) if file else self.scene()
-        return type(self), (scene + "\n",)
+        return (self._scene_with(_fitting(os.path.abspath(file))) if file else self.scene()) + "\n"
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        again = type(self) if self._made is not None else type(self)._unmade_of
+        return again, (self._portable_scene(),)
+
+    def __copy__(self) -> "Bead":
+        return self
+
+    def __deepcopy__(self, memo: Any) -> "Bead":
+        return self
 
     def __repr__(self) -> str:
         words = []

@@ -120,5 +120,11 @@ class Flow:
         """Evaluations of the equations of motion."""
         return int(lib.fst_flow_get(self._flow).rhs_calls)
 
+    def __reduce__(self) -> Any:
+        raise TypeError(
+            "a Flow cannot be copied or pickled, for it stands within a step: keep its bead and its state, and go on "
+            "with another one, bead.flow(state)"
+        )
+
     def __repr__(self) -> str:
         return f"Flow(t={self.t:.9g}, drive_turns={self.drive_turns:.6g}, stop={self.stop!r})"

@@ -3,7 +3,7 @@
 import json
 import math
 import os
-from typing import Any, Dict, Iterable, List, Optional, Union
+from typing import Any, Dict, Iterable, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
@@ -20,12 +20,35 @@ from ._native import (
     take_text,
     text_of,
 )
+from ._pickled import Told, image_of, same, struct_of
 from ._progress import Progress
 from ._quantities import quantity
 from ._tables import MEASURED, MeasuredNumbers
 from .bead import Bead, key_of
 
 Path = Union[str, "os.PathLike[str]"]
+
+
+#: The arrays of a track, and the types of their numbers in C.
+COLUMNS = {"frame": "int64_t", "t": "double", "x": "double", "y": "double", "flag": "unsigned char"}
+
+
+def _struct_of(columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool) -> Any:
+    """A track of the library over arrays of numpy, which live as long as it."""
+    made = ffi.new("fst_track *")
+    for name, kind in COLUMNS.items():
+        setattr(made, name, ffi.from_buffer(f"{kind}[]", columns[name]))
+    made.rows = made.capacity = len(columns["frame"])
+    made.length_unit, made.fps, made.steady = length_unit.encode(), fps, steady
+    return ffi.gc(made, lambda _, kept=(made, columns): None)
+
+
+def _track_again(
+    columns: Mapping[str, Any], length_unit: str, fps: float, steady: bool, understood: str, report: Any
+) -> "Track":
+    made = Track(_struct_of(columns, length_unit, fps, steady), understood)
+    made.report = report
+    return made
 
 
 class Track:
@@ -77,6 +100,35 @@ class Track:
     def __len__(self) -> int:
         return int(self._track.rows)
 
+    def _columns(self) -> Dict[str, Any]:
+        return {name: getattr(self, name).copy() for name in COLUMNS}
+
+    def _copy(self) -> Tuple[Any, Dict[str, Any]]:
+        """The track once more, for a call that may reject rows of it and be interrupted, and its arrays."""
+        columns = self._columns()
+        return _struct_of(columns, self.length_unit, self.fps, bool(self._track.steady)), columns
+
+    def _take(self, copy: Any, columns: Mapping[str, Any]) -> None:
+        """What a call has changed of a copy; the arrays of this track stay where they are."""
+        for name in ("t", "flag"):
+            getattr(self, name)[:] = columns[name]
+        self._track.fps, self._track.steady = copy.fps, copy.steady
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        facts = (self.length_unit, self.fps, bool(self._track.steady), self.understood, self.report)
+        return _track_again, (self._columns(), *facts)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Track):
+            return NotImplemented
+        facts = [(t.length_unit, t.understood, t.report, len(t)) for t in (self, other)]
+        return facts[0] == facts[1] and all(
+            np.array_equal(getattr(self, name), getattr(other, name), equal_nan=name in ("t", "x", "y"))
+            for name in COLUMNS
+        )
+
+    __hash__ = None  # type: ignore[assignment]  # measuring a track may reject rows of it
+
     def save(self, path: Path) -> None:
         """Write the track as festoon's CSV."""
         call(lib.fst_track_write, path_bytes(path), self._track)
@@ -90,7 +142,7 @@ def read_track(
     *,
     format: Optional[str] = None,
     name: Optional[str] = None,
-    fps: Optional[float] = None,
+    fps: Union[None, float, str] = None,
     scale: Union[None, float, str] = None,
 ) -> Track:
     """Read the track of a bead in any of the formats of `festoon measure`; `scale` is the length of one unit."""
@@ -101,16 +153,17 @@ def read_track(
             kept.append(ffi.new("char[]", text.encode()))
             setattr(options, field, kept[-1])
     if fps is not None:
-        options.fps = fps
+        options.fps = quantity(fps, lib.FST_UNIT_FREQUENCY, "fps")
     if scale is not None:
         options.scale = quantity(scale, lib.FST_UNIT_LENGTH, "scale")
     track = ffi.gc(ffi.new("fst_track *"), lib.fst_track_free)
     understood = ffi.new("char **")
-    call(lib.fst_track_read, path_bytes(path), options, track, understood)
+    with Watch(None) as watch:
+        watch.call_apart(lib.fst_track_read, path_bytes(path), options, track, understood, keeping=kept)
     return Track(track, take_text(understood[0]) if understood[0] else "")
 
 
-class Measurement(MeasuredNumbers):
+class Measurement(Told, MeasuredNumbers):
     """What was measured of a track; lengths in `length_unit`, NaN where a number is unknown."""
 
     def __init__(self, track: Track, found: Any) -> None:
@@ -124,6 +177,15 @@ class Measurement(MeasuredNumbers):
 
     def _number(self, name: str) -> float:
         return float(getattr(self._found, name))
+
+    def _facts(self) -> Any:
+        return [self.to_dict(), self.centre, self.track]
+
+    def __hash__(self) -> int:
+        return hash(repr(self.to_dict()))
+
+    def __reduce__(self) -> Any:
+        return _measurement_again, (self.track, image_of(self._found))
 
     def to_dict(self) -> Dict[str, Any]:
         """What `festoon measure --json` prints."""
@@ -160,6 +222,10 @@ class Measurement(MeasuredNumbers):
         return "\n".join([*lines, *(f"  warning: {text}" for text in self.warnings)])
 
 
+def _measurement_again(track: Track, image: Any) -> Measurement:
+    return Measurement(track, struct_of(image))
+
+
 def measure(
     track: Union[Track, Path],
     *,
@@ -183,9 +249,11 @@ def measure(
     if exposure is not None:
         options.exposure = _seconds(exposure)
     found = ffi.new("fst_measurement *")
+    rows, columns = track._copy()
     with Watch(progress, title="measure") as watch:
         options.progress = watch.told
-        watch.call(lib.fst_measure_track, track._track, options, found)
+        watch.call_apart(lib.fst_measure_track, rows, options, found)
+    track._take(rows, columns)
     return Measurement(track, found)
 
 
@@ -235,12 +303,18 @@ class FitParameter:
         self.interval = (float(parameter.interval[0]), float(parameter.interval[1]))
         self.bootstrap_error = float(parameter.bootstrap_error)
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, FitParameter) and same(self.__dict__, other.__dict__)
+
+    def __hash__(self) -> int:
+        return hash((self.key, self.value))
+
     def __repr__(self) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
         return f"{self.key} = {self.value:.6g} +- {self.error:.2g}{unit}"
 
 
-class Fit:
+class Fit(Told):
     """Parameters that follow from measured points, and how well they are known."""
 
     def __init__(self, fit: Any, points: Any, begun: Bead) -> None:
@@ -258,6 +332,10 @@ class Fit:
         self.error_scale = float(fit.error_scale)
         self.weakest = text_of(fit.weakest)
         self.remarks = text_of(fit.remarks)
+
+    def __reduce__(self) -> Any:
+        points = None if self._points is None else image_of(self._points)
+        return _fit_again, (image_of(self._fit), points, self._begun)
 
     def __getitem__(self, keyword: str) -> FitParameter:
         for parameter in self.parameters:
@@ -286,6 +364,12 @@ class Fit:
         lines = [f"Fit: chi^2 {self.chi2:.6g}, {self.dof} degrees of freedom"]
         lines += [f"  {parameter!r}" for parameter in self.parameters]
         return "\n".join([*lines, *(f"  {line}" for line in self.remarks.splitlines())])
+
+
+def _fit_again(image: Any, points: Any, begun: Bead) -> Fit:
+    found = struct_of(image)
+    found.params.magnet_map = begun._map or ffi.NULL
+    return Fit(found, None if points is None else struct_of(points), begun)
 
 
 def fit(
@@ -324,17 +408,23 @@ def fit(
         options.exposure = _seconds(exposure)
     found = ffi.gc(ffi.new("fst_fit *"), lib.fst_fit_free)
     table: Any = None
+    rows: Any = None
+    columns: Dict[str, Any] = {}
+    kept = (free_words, kept_free, given_words, kept_given, bead)
     if points is not None:
         table = ffi.gc(ffi.new("fst_points *"), lib.fst_points_free)
         call(lib.fst_points_read, path_bytes(points), table)
     else:
         track = track if isinstance(track, Track) else read_track(track)  # type: ignore[arg-type]
+        rows, columns = track._copy()
     with Watch(progress, title="fit") as watch:
         options.progress = watch.told
         if table is not None:
-            watch.call(lib.fst_fit_points, bead._params, table, options, found)
+            watch.call_apart(lib.fst_fit_points, bead._params, table, options, found, keeping=kept)
         else:
-            watch.call(lib.fst_fit_track, bead._params, track._track, options, found)  # type: ignore[union-attr]
+            watch.call_apart(lib.fst_fit_track, bead._params, rows, options, found, keeping=kept)
+    if isinstance(track, Track):
+        track._take(rows, columns)
     return Fit(found, table, bead)
 
 

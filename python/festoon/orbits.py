@@ -20,6 +20,7 @@ from ._native import (
     take_text,
     text_of,
 )
+from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
 from ._quantities import quantity
 from .bead import Bead, key_of, keyword_of
@@ -64,7 +65,7 @@ class Orbit(Run):
         self.others = []
 
     def __reduce__(self) -> Any:
-        return _orbit_again, (self.bead, bytes(ffi.buffer(self._orbit)), self.others)
+        return _orbit_again, (self.bead, image_of(self._orbit), self.others)
 
     @property
     def symmetry(self) -> Optional[str]:
@@ -125,13 +126,9 @@ class Orbit(Run):
         return f"Orbit: {stable}, {self.symmetry}, period {self.period:.9g}, <r> {self.mean_r:.9g}"
 
 
-def _orbit_again(bead: Bead, data: bytes, others: List[Orbit]) -> Orbit:
+def _orbit_again(bead: Bead, image: Any, others: List[Orbit]) -> Orbit:
     """An orbit from another process, which must have the same build."""
-    found = ffi.new("fst_orbit *")
-    if len(data) != ffi.sizeof("fst_orbit"):
-        raise BadInput("Orbit", "it was pickled by another version of festoon")
-    ffi.memmove(found, data, len(data))
-    made = Orbit(bead, found)
+    made = Orbit(bead, struct_of(image))
     made.others = others
     return made
 
@@ -167,11 +164,33 @@ def orbit(bead: Bead, festoons: Optional[float], progress: Progress) -> Orbit:
 # ---------------------------------------------------------------------------------------- locked states
 
 
-class Locked:
+class _Single:
+    """A struct of a list, which keeps the list alive; pickled, it is alone."""
+
+    _struct: Any
+
+    def __reduce__(self) -> Any:
+        return _single_again, (type(self), image_of(self._struct))
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return bool(image_of(self._struct) == image_of(other._struct))  # type: ignore[attr-defined]
+
+    def __hash__(self) -> int:
+        return hash(image_of(self._struct)[1])
+
+
+def _single_again(kind: Any, image: Any) -> Any:
+    return kind(struct_of(image), None)
+
+
+class Locked(_Single):
     """A state in which the bead goes round with the magnet."""
 
     def __init__(self, state: Any, owner: Any) -> None:
-        self._state, self._owner = state, owner
+        self._struct = self._state = state
+        self._owner = owner
 
     @property
     def r(self) -> float:
@@ -223,11 +242,11 @@ class Locked:
         return f"Locked: r {self.r:.6g}, Phi {self.phi_deg:.6g} deg, {stable}"
 
 
-class RollingLock:
+class RollingLock(_Single):
     """An end of a family of locked states that roll without slipping."""
 
     def __init__(self, lock: Any, owner: Any) -> None:
-        self._lock, self._owner = lock, owner
+        self._struct, self._owner = lock, owner
         self.r = float(lock.r)
         self.phi_deg = float(lock.bead_angle_deg)
         #: |f|/(mu_s N)
@@ -240,7 +259,7 @@ class RollingLock:
         return f"RollingLock: r {self.r:.6g}, Phi {self.phi_deg:.6g} deg, {self.end}"
 
 
-class LockedStates(Sequence[Locked]):
+class LockedStates(Told, Sequence[Locked]):
     """Every locked state at one drive, stable ones first."""
 
     def __init__(self, bead: Bead, states: Any) -> None:
@@ -253,6 +272,9 @@ class LockedStates(Sequence[Locked]):
         self.starts = int(states.starts)
         self.index_sum = int(states.index_sum)
         self.truncated = bool(states.truncated)
+
+    def __reduce__(self) -> Any:
+        return _states_again, (self.bead, image_of(self._list))
 
     def __len__(self) -> int:
         return int(self._list.count)
@@ -281,6 +303,10 @@ class LockedStates(Sequence[Locked]):
         return "\n".join(repr(state) for state in self) or "no locked states"
 
 
+def _states_again(bead: Bead, image: Any) -> LockedStates:
+    return LockedStates(bead, struct_of(image))
+
+
 def locked(bead: Bead, progress: Progress) -> LockedStates:
     """See Bead.locked()."""
     found = ffi.new("fst_locked_list *")
@@ -292,11 +318,12 @@ def locked(bead: Bead, progress: Progress) -> LockedStates:
 # ---------------------------------------------------------------------------------------- branches
 
 
-class Special:
+class Special(_Single):
     """A special point of a branch: fold, pitchfork, period-doubling, hopf, ..."""
 
     def __init__(self, special: Any, parameter: str, owner: Any) -> None:
-        self._special, self._owner = special, owner
+        self._struct = self._special = special
+        self._owner = owner
         self.type = SPECIALS[special.type]
         self.parameter = parameter
         self.value = float(special.value)
@@ -312,8 +339,15 @@ class Special:
         """X Y vX vY nX nY nZ WX WY WZ."""
         return np.array(list(self._special.at.state))
 
+    def __reduce__(self) -> Any:
+        return _special_again, (image_of(self._special), self.parameter)
+
     def __repr__(self) -> str:
         return f"Special: {self.type} at {self.parameter} = {self.value:.9g}, branch {self.branch}"
+
+
+def _special_again(image: Any, parameter: str) -> Special:
+    return Special(struct_of(image), parameter, None)
 
 
 class BranchEnd:
@@ -327,11 +361,17 @@ class BranchEnd:
         self.family = int(end.family) if end.family >= 0 else None
         self.image = int(end.image) if end.image >= 0 else None
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, BranchEnd) and self.__dict__ == other.__dict__
+
+    def __hash__(self) -> int:
+        return hash((self.branch, self.type, self.value))
+
     def __repr__(self) -> str:
         return f"BranchEnd: branch {self.branch} at {self.value:.9g}, {self.type}: {self.reason}"
 
 
-class Branch:
+class Branch(Told):
     """Families of orbits or of locked states over a parameter.
 
     `points` is an array over the library's memory, its fields those of fst_branch_point: value, omega, mean_r,
@@ -362,6 +402,9 @@ class Branch:
 
     def __dir__(self) -> List[str]:
         return [*super().__dir__(), *self.points.dtype.names]
+
+    def __reduce__(self) -> Any:
+        return _branch_again, (image_of(self._branch), self.bead)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -410,6 +453,10 @@ class Branch:
         head = f"Branch: {self.kind} over {self.key}, {len(self)} points on {self.count} branches"
         head += "" if self.complete else " (interrupted)"
         return "\n".join([head, *(f"  {special!r}" for special in self.specials)])
+
+
+def _branch_again(image: Any, bead: Optional[Bead]) -> Branch:
+    return Branch(struct_of(image), bead)
 
 
 def _range(key: str, value: Any) -> Tuple[float, float]:
@@ -467,7 +514,7 @@ def read_branch(path: Path) -> Branch:
 # ---------------------------------------------------------------------------------------- Lyapunov exponents
 
 
-class Lyapunov:
+class Lyapunov(Told):
     """The spectrum of Lyapunov exponents, falling, in gamma."""
 
     def __init__(self, bead: Bead, found: Any) -> None:
@@ -492,9 +539,16 @@ class Lyapunov:
         text: Dict[str, Any] = json.loads(take_text(lib.fst_lyapunov_json(self.bead._params, self._found)))
         return text
 
+    def __reduce__(self) -> Any:
+        return _lyapunov_again, (self.bead, image_of(self._found))
+
     def __repr__(self) -> str:
         pairs = ", ".join(f"{x:.4g}+-{e:.2g}" for x, e in zip(self.exponents, self.errors))
         return f"Lyapunov: {pairs}" + ("" if self.converged else " (not converged)")
+
+
+def _lyapunov_again(bead: Bead, image: Any) -> Lyapunov:
+    return Lyapunov(bead, struct_of(image))
 
 
 def lyapunov(bead: Bead, progress: Progress) -> Lyapunov:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ._errors import BadInput
 from ._native import Watch, call, dtype_of, ffi, freed_array, lib, options_of, path_bytes, take_text, text_of
+from ._pickled import Told, image_of, struct_of
 from ._progress import Progress
 from ._quantities import Scales, quantity
 from ._tables import RESULTS, RunNumbers
@@ -22,7 +23,7 @@ class RunIn(RunNumbers):
     """The numbers of a run in other units."""
 
     def __init__(self, run: "Run", units: str) -> None:
-        self._run = run
+        self._run, self._units = run, units
         self._scales = Scales(run.bead._params, units)
 
     def _number(self, name: str) -> float:
@@ -31,6 +32,15 @@ class RunIn(RunNumbers):
     def unit(self, name: str) -> str:
         """The unit of a number here."""
         return self._scales.factor(RESULTS[name][0])[1]
+
+    def __reduce__(self) -> Any:
+        return RunIn, (self._run, self._units)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, RunIn) and self._units == other._units and self._run == other._run
+
+    def __hash__(self) -> int:
+        return hash((self._run, self._units))
 
     def __repr__(self) -> str:
         return _listing(self, {name: self.unit(name) for name in RESULTS})
@@ -45,7 +55,7 @@ def _listing(numbers: RunNumbers, units: Dict[str, str]) -> str:
     return "\n".join(lines)
 
 
-class Run(RunNumbers):
+class Run(Told, RunNumbers):
     """The result of a run.  Numbers are scaled (l, 1/gamma, B0); `si` and `lab` have them in other units."""
 
     #: The bead that ran.
@@ -70,7 +80,11 @@ class Run(RunNumbers):
         return float(getattr(self._result, name))
 
     def __reduce__(self) -> Any:
-        return _again, (self.bead, bytes(ffi.buffer(self._result)), self.trajectory, self.ramp, self.complete)
+        return _again, (self.bead, image_of(self._result), self.trajectory, self.ramp, self.complete)
+
+    def _facts(self) -> Any:
+        samples = None if self.trajectory is None else self.trajectory.tobytes()
+        return [self.to_dict(), self.complete, samples]
 
     @property
     def regime(self) -> str:
@@ -146,13 +160,9 @@ class Run(RunNumbers):
         return _cards.run_card(self)
 
 
-def _again(bead: Bead, data: bytes, trajectory: Any, ramp: Any, complete: bool) -> Run:
+def _again(bead: Bead, image: Any, trajectory: Any, ramp: Any, complete: bool) -> Run:
     """A run from another process, which must have the same build."""
-    result = ffi.new("fst_run_result *")
-    if len(data) != ffi.sizeof("fst_run_result"):
-        raise BadInput("Run", "it was pickled by another version of festoon")
-    ffi.memmove(result, data, len(data))
-    return Run(bead, result, trajectory, ramp, complete)
+    return Run(bead, struct_of(image), trajectory, ramp, complete)
 
 
 def _ramp_ends(bead: Bead, ramp: Any, options: Any) -> None:

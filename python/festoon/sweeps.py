@@ -9,7 +9,7 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 import numpy as np
 
-from ._errors import ERRORS, FestoonError, Interrupted, OutOfMemory
+from ._errors import ERRORS, BadInput, FestoonError, Interrupted, OutOfMemory
 from ._native import (
     Watch,
     call,
@@ -61,11 +61,9 @@ class SweepIn(SweepNumbers):
     """The numbers of a sweep in other units."""
 
     def __init__(self, sweep: "Sweep", units: str) -> None:
-        self._sweep = sweep
+        self._sweep, self._units = sweep, units
         for axis in sweep.axes:
             if axis.key in ("magnet.half_length", "friction.gamma", "bead.mass"):
-                from ._errors import BadInput
-
                 raise BadInput("sweep", f"{axis.key} is varied, and with it the unit of the scaled numbers")
         self._scales = Scales(lib.fst_grid_base(sweep._grid), units)
 
@@ -75,6 +73,15 @@ class SweepIn(SweepNumbers):
     def unit(self, name: str) -> str:
         """The unit of a number here."""
         return self._scales.factor(RESULTS[name][0])[1]
+
+    def __reduce__(self) -> Any:
+        return SweepIn, (self._sweep, self._units)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, SweepIn) and self._units == other._units and self._sweep == other._sweep
+
+    def __hash__(self) -> int:
+        return hash((self._sweep, self._units))
 
 
 class Sweep(SweepNumbers):
@@ -87,6 +94,8 @@ class Sweep(SweepNumbers):
         self._rows, self._grid, self._owner, self._map = rows, grid, owner, field_map
         #: Of a refined sweep: by point the regime of runs around it that agree, where none was made; else NaN.
         self._between: Any = None
+        #: Of random axes; None: not known, for it was read from a file.
+        self._seed: Optional[int] = None
         self.axes = [Axis(grid, i) for i in range(lib.fst_grid_axis_count(grid))]
         #: The name and the length of each dimension.
         self.dims: Tuple[str, ...] = ()
@@ -121,6 +130,13 @@ class Sweep(SweepNumbers):
             if axis.keyword == keyword or axis.key == key_of(keyword):
                 return axis.at(self._points)
         raise KeyError(f"{keyword} is not varied: {', '.join(axis.keyword for axis in self.axes)}")
+
+    def __getattr__(self, name: str) -> Any:
+        """The values of a varied parameter: ``s.kappa`` is ``s.parameter("kappa")``."""
+        axes = self.__dict__.get("axes", ())
+        if any(axis.keyword == name for axis in axes):
+            return self.parameter(name)
+        raise AttributeError(f"a Sweep over {', '.join(axis.keyword for axis in axes)} has no {name}")
 
     def _bead(self, point: int) -> Bead:
         params = ffi.new("fst_params *")
@@ -159,6 +175,8 @@ class Sweep(SweepNumbers):
 
     def _run(self, point: int) -> Run:
         row = self._rows[point]
+        if not row["done"] and self.refined:
+            raise BadInput("sweep", "this point was not computed, because the sweep was refined: see `computed`")
         if not row["done"]:
             raise Interrupted()
         if row["status"] != lib.FST_OK:
@@ -226,6 +244,11 @@ class Sweep(SweepNumbers):
         return self._status() != NOT_RUN
 
     @property
+    def refined(self) -> bool:
+        """Whether the sweep was refined: where it is not `computed`, no run was wanted."""
+        return self._between is not None
+
+    @property
     def complete(self) -> bool:
         """Whether every point was run."""
         return not bool(np.any(self._status() == NOT_RUN))
@@ -258,6 +281,44 @@ class Sweep(SweepNumbers):
     def lab(self) -> SweepIn:
         """The numbers in the units of a laboratory."""
         return SweepIn(self, "lab")
+
+    # ------------------------------------------------------------------ pickles, and equal ones
+
+    def _axis_texts(self) -> List[str]:
+        return [text_of(lib.fst_grid_axis_text(self._grid, i)) for i in range(len(self.axes))]
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        if self._seed is None and any(axis.random for axis in self.axes):
+            raise TypeError("a sweep over random axes that was read from a file cannot be pickled: pass its path on")
+        base = Bead._unmade(lib.fst_grid_base(self._grid)[0])
+        grid = base._portable_scene(), self._axis_texts(), self._seed or 0
+        rows = self._rows.copy()
+        rows["error"] = 0
+        errors = {}
+        for i in np.flatnonzero(self._rows["error"]):
+            error = ffi.cast("fst_error *", int(self._rows["error"][i]))
+            errors[int(i)] = ffi.string(error.where), ffi.string(error.sentence)
+        return _sweep_again, (grid, rows, errors, self._points, self.dims, self._between)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Sweep):
+            return NotImplemented
+        alike = [
+            (s.dims, s.shape, s._axis_texts(), Bead._unmade(lib.fst_grid_base(s._grid)[0])) for s in (self, other)
+        ]
+        if alike[0] != alike[1] or not np.array_equal(self._points, other._points):
+            return False
+        if list(map(str, self.errors.ravel())) != list(map(str, other.errors.ravel())):
+            return False
+        if not all(np.array_equal(axis.values, its.values) for axis, its in zip(self.axes, other.axes)):
+            return False
+        words = ("computed", "regime", "reason")
+        if not all(np.array_equal(getattr(self, name), getattr(other, name)) for name in words):
+            return False
+        return all(np.array_equal(self._array(name), other._array(name), equal_nan=True) for name in RESULTS)
+
+    def __hash__(self) -> int:
+        return hash((self.dims, self.shape, *self._axis_texts()))
 
     # ------------------------------------------------------------------ for other libraries
 
@@ -307,7 +368,7 @@ class Sweep(SweepNumbers):
         if np.any(status > 0):
             words.append(f"{int(np.sum(status > 0))} failed")
         if not self.complete:
-            words.append(f"{int(np.sum(status == NOT_RUN))} not run")
+            words.append(f"{int(np.sum(status == NOT_RUN))} {'left out (refined)' if self.refined else 'not run'}")
         regimes, counts = np.unique(self.regime[self.done], return_counts=True)
         words += [f"{count} {regime}" for regime, count in zip(regimes, counts)]
         return ", ".join(words)
@@ -320,6 +381,8 @@ def axis_text(keyword: str, values: Any) -> str:
     """An axis as the library reads it: KEY=A,B,C; a text is taken as it is ("8:20:13", "8 Hz:20 Hz:5:log")."""
     if isinstance(values, str):
         return f"{key_of(keyword)}={values}"
+    if hasattr(values, "__next__"):
+        values = list(values)
     words = [value_text(value, key_of(keyword)) for value in np.atleast_1d(np.asarray(values, object)).ravel()]
     return f"{key_of(keyword)}={','.join(words)}"
 
@@ -341,6 +404,28 @@ def _sweep_of(batch: Any, grid: Any, field_map: Any = None) -> Sweep:
         for name in RESULTS:
             rows["result"][name][lacking] = np.nan
     return Sweep(rows, grid, owner, field_map)
+
+
+def _sweep_again(
+    given: Tuple[str, List[str], int], rows: Any, errors: Mapping[int, Any], points: Any, dims: Any, between: Any
+) -> Sweep:
+    """A sweep from another process, which must have the same build."""
+    scene, axes, seed = given
+    if rows.dtype != dtype_of("pyf_row"):
+        raise BadInput("Sweep", "it was pickled by another version of festoon")
+    grid = _new_grid(Bead._unmade_of(scene), axes, seed)
+    batch = ffi.gc(lib.pyf_batch_new(grid, lib.FST_ARITHMETIC_PORTABLE, 0), lib.pyf_batch_free)
+    if not batch:
+        raise OutOfMemory("sweep", "no memory for the rows")
+    made = Sweep(owned_array(lib.pyf_batch_rows(batch), len(rows), rows.dtype, (batch, grid)), grid, (batch, grid))
+    made._rows[:] = rows
+    for i, (where, sentence) in errors.items():
+        status = made._rows["status"][i]
+        if not lib.pyf_row_fail(lib.pyf_batch_rows(batch) + i, where, sentence):
+            raise OutOfMemory("sweep", "no memory for a row")
+        made._rows["status"][i] = status
+    made._points, made.dims, made._between, made._seed = points, dims, between, seed
+    return made
 
 
 def _work(batch: Any, threads: List[threading.Thread], count: int, failures: List[BaseException]) -> None:
@@ -418,8 +503,6 @@ def _into_file(
     words, _kept = strings(axes)
     options.axes, options.axis_count, options.seed = words, len(axes), seed
     if carry not in CARRY:
-        from ._errors import BadInput
-
         raise BadInput("fst_sweep_options.carry", f'unknown direction "{carry}": up or down')
     options.carry, options.threads, options.lanes = CARRY[carry], threads, lanes
     levels, by, step = refining
@@ -431,7 +514,22 @@ def _into_file(
     with Watch(progress, lambda: read_sweep(path), "sweep") as watch:
         options.progress = watch.told
         watch.call(lib.fst_sweep, bead._params, path_bytes(path), options, counts)
+    if 0 < counts.undefined == counts.computed:
+        warnings.warn(f"{by or 'regime'} has no value in any run, so nothing was refined", stacklevel=3)
     return read_sweep(path)
+
+
+def _refining(levels: int, by: Optional[str], step: float) -> Tuple[int, Optional[str], float]:
+    """What was asked for, where the step may also stand behind the key: "mean_r:0.05"."""
+    key, colon, text = (by or "").partition(":")
+    if not colon:
+        return levels, by, step
+    if step != 0.0:
+        raise BadInput("refine_step", f'the step stands in refine_by="{by}" already: give it once')
+    try:
+        return levels, key, float(text)
+    except ValueError:
+        raise BadInput("refine_by", f'"{text}" in "{by}" must be a number, without a unit') from None
 
 
 def sweep(
@@ -465,10 +563,13 @@ def sweep(
     seed
         Of random axes.
     refine
-        N: compute every 2**N-th value of each axis "LO:HI:COUNT" first, then those between, N times, where the
-        regime differs between neighbours.  Numbers are NaN at points that were not `computed`.
+        N: compute every 2**N-th value of each axis that is a text "LO:HI:COUNT" first, then those between, N times,
+        where the regime differs between neighbours.  The sweep has the shape of the whole grid all the same;
+        `computed` says where there are runs.  At the other points numbers are NaN and the regime is "".  Arrays
+        and lists have no order: what each of their values gives is refined by itself.
     refine_by, refine_step
-        Refine where this number differs by more than the step, instead.
+        Refine where this key differs instead: "symmetry", or a number by more than the step (in scaled units),
+        which may also stand behind the key: "mean_r:0.05".
 
     A run that fails is a row of NaN with an error, not an exception.  Ctrl-C raises `Interrupted`, whose
     `partial` is the sweep with the rows that were done.
@@ -479,16 +580,20 @@ def sweep(
     """
     bead = (bead or Bead())._asked()
     texts = [axis_text(keyword, values) for keyword, values in axes.items()]
+    if threads is not None and threads < 0:
+        raise BadInput("threads", f"{threads} is no number of threads: 1 or more, or 0 for all processors")
     count = threads or len(os.sched_getaffinity(0))
     grid = _new_grid(bead, texts, seed)
-    refining = (refine, refine_by, refine_step)
+    refining = _refining(refine, refine_by, refine_step)
     if file is not None:
         return _into_file(bead, texts, file, seed, carry, count, lanes, portable, refining, progress)
-    if carry is not None or refine != 0:
+    if carry is not None or refining != (0, None, 0.0):
         with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
             path = os.path.join(folder, "sweep.db")
             return _into_file(bead, texts, path, seed, carry, count, lanes, portable, refining, progress)
-    return _in_memory(grid, bead._map, count, lanes, portable, progress)
+    made = _in_memory(grid, bead._map, count, lanes, portable, progress)
+    made._seed = seed
+    return made
 
 
 # ---------------------------------------------------------------------------------------- reading one
@@ -538,13 +643,16 @@ def read_sweep(path: Path) -> Sweep:
     found = ffi.new("fst_grid **")
     call(lib.fst_sweep_read_grid, path_bytes(path), found)
     grid = ffi.gc(found[0], lib.fst_grid_free)
-    with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
+    # After Ctrl-C the thread that still writes there may be quicker than the end of the folder.
+    with tempfile.TemporaryDirectory(prefix="festoon-", ignore_cleanup_errors=True) as folder:
         out = os.path.join(folder, "rows.json")
-        error = new_error()
-        if lib.fst_sweep_export(path_bytes(path), lib.FST_EXPORT_JSON, out.encode(), ffi.NULL, error) != lib.FST_OK:
+        try:
+            with Watch(None) as watch:
+                watch.call_apart(lib.fst_sweep_export, path_bytes(path), lib.FST_EXPORT_JSON, out.encode(), ffi.NULL)
+        except FestoonError as error:
             if not os.path.exists(out):
-                raise error_of(error)
-            warnings.warn(text_of(error.sentence), stacklevel=2)
+                raise
+            warnings.warn(error.sentence, stacklevel=2)
         with open(out, encoding="utf-8") as file:
             given = json.load(file)
     batch = ffi.gc(lib.pyf_batch_new(grid, lib.FST_ARITHMETIC_PORTABLE, 0), lib.pyf_batch_free)

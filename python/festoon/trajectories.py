@@ -5,7 +5,7 @@ from typing import Any, Optional, Tuple, Union
 
 import numpy as np
 
-from ._native import ffi, lib, path_bytes
+from ._native import Watch, ffi, lib, path_bytes
 from ._progress import Progress
 from ._quantities import Scales
 from ._tables import COLUMNS, Columns
@@ -22,7 +22,7 @@ class TrajectoryIn(Columns):
     """The columns of a trajectory in other units, computed as they are asked for."""
 
     def __init__(self, trajectory: "Trajectory", units: str) -> None:
-        self._trajectory = trajectory
+        self._trajectory, self._units = trajectory, units
         self._scales = Scales(trajectory.bead._params, units)
 
     def _column(self, name: str) -> Any:
@@ -30,6 +30,9 @@ class TrajectoryIn(Columns):
 
     def __getitem__(self, name: str) -> Any:
         return self._column(name)
+
+    def __reduce__(self) -> Any:
+        return TrajectoryIn, (self._trajectory, self._units)
 
     def unit(self, name: str) -> str:
         """The unit of a column here."""
@@ -131,11 +134,9 @@ def _again(rows: Any, bead: Bead, complete: bool) -> Trajectory:
 
 def read(path: Path) -> Trajectory:
     """Read a trajectory from .h5 or .csv."""
-    from ._native import call
-
-    table = ffi.new("fst_table *")
-    call(lib.fst_trajectory_read, path_bytes(path), table)
-    table = ffi.gc(table, lib.fst_table_free)
+    table = ffi.gc(ffi.new("fst_table *"), lib.fst_table_free)
+    with Watch(None) as watch:
+        watch.call_apart(lib.fst_trajectory_read, path_bytes(path), table)
     rows = np.empty(table.rows, DTYPE)
     for i, name in enumerate(COLUMNS):
         if table.rows:

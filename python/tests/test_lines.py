@@ -251,8 +251,32 @@ def test_a_refined_sweep(bead):
     known = np.isfinite(between)
     assert not (known & part.computed).any() and known.mean() > 0.3
     assert (names[between[known].astype(int)] != whole.regime[known]).sum() <= 15
-    with pytest.raises(fs.BadInput, match="by how much"):
-        fs.sweep(bead, **axes, refine=3, refine_by="mean_r")
+    assert part.refined and not whole.refined and f"{(~part.computed).sum()} left out (refined)" in repr(part)
+    assert set(part.regime[~part.computed]) == {""} and part[part.computed].complete
+    with pytest.raises(fs.BadInput, match="was not computed, because the sweep was refined"):
+        part[tuple(np.argwhere(~part.computed)[0])]
+
+
+def test_how_a_sweep_is_refined(bead):
+    bead = bead.replace(run__periods=4, run__discard=2)
+    axes = {"kappa": "0.3:2:17", "frequency": ["9 Hz", "12 Hz"]}
+    one = fs.sweep(bead, **axes, refine=2, refine_by="mean_r", refine_step=0.01)
+    other = fs.sweep(bead, **axes, refine=2, refine_by="mean_r:0.01")
+    assert np.array_equal(one.mean_r, other.mean_r, equal_nan=True) and one.computed.sum() > 10
+    with pytest.warns(UserWarning, match="impacts_per_return has no value in any run, so nothing was refined"):
+        assert fs.sweep(bead, **axes, refine=2, refine_by="impacts_per_return:1").computed.sum() == 10
+    for wrong, words in (
+        ({"refine_by": "mean_r"}, "by how much"),
+        ({"refine_by": "mean_r:x"}, '"x" in "mean_r:x" must be a number'),
+        ({"refine_by": "mean_r:0.1", "refine_step": 0.1}, "give it once"),
+        ({"refine_by": "reason"}, "reason is a text"),
+        ({"refine": 0, "refine_by": "mean_r:0.1"}, "belongs to a refined sweep"),
+        ({"refine": 4}, "from 1 to 3"),
+        ({"kappa": np.linspace(0.3, 2, 17)}, "nothing to refine"),
+        ({"carry": "up"}, "carried sweep cannot be refined"),
+    ):
+        with pytest.raises(fs.BadInput, match=words):
+            fs.sweep(bead, **{**axes, "refine": 2, **wrong})
 
 
 def test_progress_is_told(bead):

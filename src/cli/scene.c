@@ -1,4 +1,5 @@
 /* scene.c - the scene of a command: a file or standard input, and what --set changes in it. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,6 +58,18 @@ static fst_status read_map(const arguments *given, fst_params *params, fst_error
     return status;
 }
 
+/* Refuse what has no effect; static friction that a sweep varies counts as given. */
+static fst_status check_effects(const arguments *given, const fst_params *params, fst_error *error)
+{
+    static const char varied[] = "friction.mu_static=";
+    fst_params asked = *params;
+    for (int i = 0; i < given->option_count; ++i)
+        if (strcmp(given->options[i].row->name, "over") == 0 && isnan(asked.friction_mu_static) &&
+            strncmp(given->options[i].value, varied, strlen(varied)) == 0)
+            asked.friction_mu_static = asked.friction_mu;
+    return fst_params_check_effects(&asked, error);
+}
+
 fst_status read_scene(const arguments *given, const char *path, fst_params *params, fst_error *error)
 {
     *params = fst_default_params();
@@ -74,7 +87,7 @@ fst_status read_scene(const arguments *given, const char *path, fst_params *para
             return status;
     }
     params->run_discard = fst_run_discard(params); /* what is printed is what is done */
-    const fst_status status = fst_params_check_effects(params, error);
+    const fst_status status = check_effects(given, params, error);
     if (status != FST_OK) {
         (void)snprintf(error->where, sizeof error->where, "%s", path ? path : "");
         return status;

@@ -118,6 +118,8 @@ static fst_status read_sweep(const arguments *given, const char **axes, char key
 /* What the progress line shows while the sweep is at work. */
 typedef struct display {
     progress_line line;
+    int refined;              /* how many points there will be is an estimate until the end */
+    double told;              /* the greatest part that was shown as done */
     fst_sweep_counts counts;  /* the library keeps them up to date */
     fst_params contradiction; /* a point whose bead cannot be made of any material */
     int to_warn;
@@ -155,12 +157,15 @@ static fst_status show(void *user, double fraction, const char *part, fst_error 
     warn_once(all, p->rank);
     if (p->rank != 0)
         return interrupted() ? fail(error, FST_INTERRUPTED, "", "interrupted") : FST_OK;
-    /* The fraction counts all rows, but the time left follows from the speed of this call. */
+    /* How many points a refined sweep will have is an estimate to the end: the part that is done falls when
+     * more turn out to be wanted, and the line says so.  The time left follows from the speed of this call. */
     const double rate = p->seconds > 0 ? (double)p->added / p->seconds : 0.0;
-    const char *about = p->expected > p->wanted ? "about " : "";
+    const double part_done = all->refined ? (double)p->computed / (double)p->expected : fraction;
+    const char *about = !all->refined ? "" : part_done < all->told ? "now about " : "about ";
+    all->told = fmax(all->told, part_done);
     (void)snprintf(what, sizeof what, "%lld of %s%lld points, %.3g a second", (long long)p->computed, about,
                    (long long)p->expected, rate);
-    return progress_show_left(&all->line, fraction,
+    return progress_show_left(&all->line, part_done,
                               rate > 0 ? (double)(p->expected - p->computed) / rate : INFINITY, what, error);
 }
 
@@ -201,6 +206,15 @@ static void tell_of_repair(const char *path, const fst_sweep_counts *counts)
                   path, (long long)counts->lost, path);
 }
 
+/* Say why a sweep that was to be refined was not, though all went well. */
+static void tell_of_undefined(const char *path, const char *key, const fst_sweep_counts *counts)
+{
+    char name[SHOWN_SIZE];
+    if (counts->undefined > 0 && counts->undefined == counts->computed)
+        (void)fprintf(stderr, "festoon: %s: %s has no value in any of the %lld rows, so nothing was refined\n",
+                      shown(path, name), key ? key : "regime", (long long)counts->undefined);
+}
+
 static fst_status perform(const arguments *given, FILE *out, fst_error *error)
 {
     fst_params params;
@@ -214,7 +228,7 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
         status = read_sweep(given, axes, key, &sweep, error);
     if (status != FST_OK)
         return status;
-    display shown = {.to_warn = 0};
+    display shown = {.refined = sweep.refine > 0};
     look_for_contradiction(&shown, &params, &sweep);
     progress_begin(&shown.line);
     const fst_progress progress = {&shown, show};
@@ -236,9 +250,11 @@ static fst_status perform(const arguments *given, FILE *out, fst_error *error)
                     "interrupted with %lld of %s%lld points done; the same command goes on",
                     (long long)shown.counts.computed, sweep.refine ? "about " : "",
                     (long long)shown.counts.expected);
-    if (status == FST_OK)
-        print_sweep(out, path, &shown.counts, sweep.refine > 0, option_value(given, "json") != NULL);
-    return status;
+    if (status != FST_OK)
+        return status;
+    tell_of_undefined(path, sweep.refine_by, &shown.counts);
+    print_sweep(out, path, &shown.counts, sweep.refine > 0, option_value(given, "json") != NULL);
+    return FST_OK;
 }
 
 const command sweep_command = {

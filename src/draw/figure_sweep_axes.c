@@ -88,8 +88,9 @@ void fst_sweep_about(const fst_sweep_table *table, char *about, size_t size)
         (void)snprintf(about + strlen(about), size - strlen(about), "%s, ",
                        fst_dynamics_name((fst_dynamics)base->model_dynamics));
     const int64_t points = fst_grid_points(grid);
-    (void)snprintf(about + strlen(about), size - strlen(about), "%lld runs of %g turns of the magnet",
-                   (long long)(table->refine ? table->rows : points), base->run_periods);
+    (void)snprintf(about + strlen(about), size - strlen(about), "%lld runs of %s%g turns of the magnet",
+                   (long long)(table->refine ? table->rows : points),
+                   base->run_until == FST_UNTIL_SETTLED ? "at most " : "", base->run_periods);
     if (table->refine)
         (void)snprintf(about + strlen(about), size - strlen(about), " at %.3g %% of %lld points",
                        100.0 * (double)table->rows / (double)points, (long long)points);

@@ -78,6 +78,18 @@ double fst_view_between(double x0, double v0, double x1, double v1, double h, do
            part * part * ((1.0 + 2.0 * rest) * x1 - rest * h * v1);
 }
 
+/* The drive period from which on a trajectory is shown unless the options say: the end of the discard.  A run
+ * that ended once it had settled is shown from a whole period on that lies at least 5.5 before its end, when
+ * the motion was known; one that ended before its discard, from its beginning. */
+static double usual_from(const fst_table *table, const double *drive)
+{
+    const fst_params *p = &table->params;
+    const double end = table->rows > 0 ? drive[table->rows - 1] : 0.0;
+    if (p->run_until == FST_UNTIL_SETTLED && table->complete && end + 1.0 < p->run_periods)
+        return fmax(floor(end - 5.5), 0.0);
+    return end > p->run_discard ? p->run_discard : 0.0;
+}
+
 /* Find the rows that are shown; where the options leave the end open, `turns` of the bead or `periods` of the
  * drive end the view. */
 static fst_status choose_rows(fst_view *view, const fst_figure_options *options, double turns, double periods,
@@ -88,10 +100,7 @@ static fst_status choose_rows(fst_view *view, const fst_figure_options *options,
     if (status != FST_OK)
         return status;
     size_t rows = view->table->rows, first = 0;
-    double from = options->from;
-    if (isnan(from)) /* a run that ended before its discard is shown from its beginning */
-        from =
-            rows > 0 && drive[rows - 1] > view->table->params.run_discard ? view->table->params.run_discard : 0;
+    const double from = isnan(options->from) ? usual_from(view->table, drive) : options->from;
     while (first < rows && drive[first] < from - 1e-9)
         ++first;
     size_t last = first;

@@ -60,7 +60,7 @@ static void fill_end(const fst_watched_run *run, int steady, fst_run_result *res
     double whole, rest;
     fst_flow_drive_turns(flow, t, &whole, &rest);
     result->end_time = t.high;
-    result->settled_at = run->settling.settled_at;
+    result->settled_at = run->end.happened ? NAN : run->settling.settled_at;
     const int all_done = steady && t.high == run->window.span.until && isnan(run->settling.settled_at);
     result->periods = all_done ? run->params->run_periods : whole + rest;
     result->omega = fst_flow_omega(flow, t);

@@ -75,10 +75,12 @@ char *fst_sweep_state_sql(void)
     FILE *out = open_memstream(&text, &size);
     if (!out)
         return NULL;
-    (void)fputs("SELECT status = 'done' AND regime NOT IN ('ejected', 'lifted')", out);
+    (void)fputs("SELECT status = 'done' AND regime NOT IN ('ejected', 'lifted')"
+                " AND (periods >= ?2 OR settled_at IS NOT NULL)",
+                out);
     for (int i = 0; i < FST_STATE_SIZE; ++i)
         (void)fprintf(out, ", final_%s", fst_state_names[i]);
-    (void)fputs(" FROM rows WHERE point = ?", out);
+    (void)fputs(" FROM rows WHERE point = ?1", out);
     return fclose(out) == 0 ? text : (free(text), NULL);
 }
 
@@ -261,7 +263,16 @@ int fst_sweep_row_is_sound(sqlite3_stmt *row, const fst_grid *grid, uint64_t see
 
 fst_status fst_sweep_check_key(const char *key, const char *where, fst_error *error)
 {
+    static const char *const texts[] = {"status", "reason", "dynamics", "controller"};
     char names[4096] = "regime|symmetry|rhs_calls", nearest[48];
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; ++i)
+        if (strcmp(key, texts[i]) == 0)
+            return fst_fail(error, FST_BAD_INPUT, where,
+                            "%s is a text: give regime, symmetry or a number of the runs, as mean_r", key);
+    if (fst_param_find(key) >= 0)
+        return fst_fail(
+            error, FST_BAD_INPUT, where,
+            "%s is a parameter, no result: give regime, symmetry or a number of the runs, as mean_r", key);
     for (int i = 0; i < fst_result_count(); ++i) {
         const size_t used = strlen(names);
         (void)snprintf(names + used, sizeof names - used, "|%s", fst_result_at(i)->name);

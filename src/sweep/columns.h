@@ -13,7 +13,8 @@ int fst_sweep_column_count(const fst_grid *grid);
 
 /* Texts of SQL, which the caller frees (NULL: no memory): the definitions of the columns; the statement that
  * inserts a row; the statement that reads rows from a point on, with the checksum last; and the statement that
- * reads of a point whether its end state may be carried on, and that state. */
+ * reads of a point, ?1, that runs for ?2 drive periods, whether its end state may be carried on, and that
+ * state. */
 char *fst_sweep_columns_sql(const fst_grid *grid);
 char *fst_sweep_insert_sql(const fst_grid *grid);
 char *fst_sweep_select_sql(void);

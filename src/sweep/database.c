@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -33,6 +34,20 @@ static fst_status fail_open(sqlite3 *database, const char *path, const char *det
     return fst_fail(
         error, FST_IO, path,
         "no permission to write this database or beside it (%s); every row committed so far is safe", detail);
+}
+
+/* SQLite does not say why a write failed, but a limit of the size of files is known to us. */
+static fst_status fail_otherwise(sqlite3 *database, const char *path, const char *detail, fst_error *error)
+{
+    struct rlimit limit;
+    if (sqlite3_extended_errcode(database) == SQLITE_IOERR_WRITE && getrlimit(RLIMIT_FSIZE, &limit) == 0 &&
+        limit.rlim_cur != RLIM_INFINITY)
+        return fst_fail(
+            error, FST_IO, path,
+            "the database failed: %s; every row committed so far is safe; files may have %llu bytes at most "
+            "here: raise this limit (ulimit -f) and give the same command again",
+            detail, (unsigned long long)limit.rlim_cur);
+    return fst_fail(error, FST_IO, path, "the database failed: %s; every row committed so far is safe", detail);
 }
 
 fst_status fst_database_fail(sqlite3 *database, const char *path, fst_error *error)
@@ -63,8 +78,7 @@ fst_status fst_database_fail(sqlite3 *database, const char *path, fst_error *err
     case SQLITE_NOMEM:
         return fst_fail(error, FST_NO_MEMORY, path, "out of memory");
     default:
-        return fst_fail(error, FST_IO, path, "the database failed: %s; every row committed so far is safe",
-                        detail);
+        return fail_otherwise(database, path, detail, error);
     }
 }
 

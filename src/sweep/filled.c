@@ -50,8 +50,9 @@ static void fill_cell(void *user, const fst_refined_cell *c)
     const filling *f = user;
     int64_t at[FST_REFINED_AXES] = {0}, point = c->corners[0];
     for (int a = 0; a < c->axes;) {
-        if (!f->table->computed[point])
-            f->values[point] = value_between(f, c, at);
+        const double value = f->table->computed[point] ? NAN : value_between(f, c, at);
+        if (!isnan(value)) /* on an edge the cell on its other side may know the value alone */
+            f->values[point] = value;
         for (a = 0; a < c->axes && at[a] == c->lengths[a]; ++a) { /* the next place, as a counter counts */
             point -= at[a] * c->strides[a];
             at[a] = 0;

@@ -467,7 +467,10 @@ fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *poi
 fst_status fst_journal_end_state(fst_journal *journal, int64_t point, int *there, int *usable,
                                  double state[FST_STATE_SIZE], fst_error *error)
 {
+    fst_params params = fst_default_params();
+    (void)fst_grid_params(journal->grid, point, &params, NULL); /* where this fails, the row did */
     (void)sqlite3_bind_int64(journal->state, 1, point);
+    (void)sqlite3_bind_double(journal->state, 2, params.run_periods);
     const int code = sqlite3_step(journal->state);
     *there = code == SQLITE_ROW;
     *usable = 0;

@@ -74,8 +74,8 @@ fst_status fst_journal_count(fst_journal *journal, int64_t *rows, fst_error *err
 fst_status fst_journal_missing(fst_journal *journal, int64_t *next, int64_t *points, int room, int *found,
                                fst_error *error);
 
-/* The end state of a point, and whether a run may start from it (the bead is still on the plate). *there is 0
- * where the point has no row. */
+/* The end state of a point, and whether a run may start from it (it went on to its end, or settled). *there is
+ * 0 where the point has no row. */
 fst_status fst_journal_end_state(fst_journal *journal, int64_t point, int *there, int *usable,
                                  double state[FST_STATE_SIZE], fst_error *error);
 

@@ -58,7 +58,7 @@ struct fst_refinement {
     size_t queue_size, queue_end, queue_next;
     cell *stack; /* active cells whose neighbours were not seen to yet */
     size_t stack_size, stack_count;
-    int64_t known, wanted_by_level[MOST_LEVELS + 1];
+    int64_t known, undefined, wanted_by_level[MOST_LEVELS + 1], known_by_level[MOST_LEVELS + 1];
     int failed; /* no memory */
 };
 
@@ -67,6 +67,18 @@ struct fst_refinement {
 static int64_t width(const fst_refinement *r, int level)
 {
     return INT64_C(1) << (r->levels - level);
+}
+
+/* The level with which a point comes to the grid. */
+static int level_of(const fst_refinement *r, int64_t point)
+{
+    int level = 0;
+    for (int a = 0; a < r->axis_count; ++a) {
+        const int64_t count = r->axes[a].count, index = point / r->axes[a].stride % count;
+        while (index != count - 1 && (index & (width(r, level) - 1)) != 0)
+            ++level;
+    }
+    return level;
 }
 
 static int64_t least_point(const fst_refinement *r, const cell *c)
@@ -131,7 +143,7 @@ static int differs(const fst_refinement *r, const cell *c)
 
 /* ------------------------------------------------------------------ growing */
 
-static void want(fst_refinement *r, int64_t point, int level)
+static void want(fst_refinement *r, int64_t point)
 {
     if (fst_point_find(&r->set, point) || r->failed)
         return;
@@ -148,7 +160,7 @@ static void want(fst_refinement *r, int64_t point, int level)
     if (r->failed)
         return;
     r->queue[r->queue_end++] = point;
-    r->wanted_by_level[level] += 1;
+    r->wanted_by_level[level_of(r, point)] += 1;
 }
 
 /* Make a cell active if the values of its corners differ. */
@@ -195,7 +207,7 @@ static void divide(fst_refinement *r, const cell *c)
             inside = inside && part.at[a] < r->axes[a].count - 1;
         }
         for (int k = 0; inside && k < 1 << r->axis_count; ++k)
-            want(r, corner(r, &part, k), part.level);
+            want(r, corner(r, &part, k));
         if (inside)
             look_at(r, &part);
     }
@@ -261,6 +273,8 @@ fst_status fst_refinement_note(fst_refinement *r, int64_t point, double value, f
     entry->value = value;
     entry->divided |= KNOWN;
     r->known += 1;
+    r->undefined += isnan(value) != 0;
+    r->known_by_level[level_of(r, point)] += 1;
     for (int level = 0; level <= r->levels; ++level)
         for (int side = 0; side < 1 << r->axis_count; ++side) {
             cell c;
@@ -285,24 +299,30 @@ int fst_refinement_next(fst_refinement *r, int64_t *point)
     return 1;
 }
 
-/* A boundary has 2^(d-1) times as many points on the next level, with d refined axes.  The deepest level with
- * points is only begun; the one before it is known. */
+/* How many points there will be.  A boundary has 2^(d-1) times as many points on the next level, with d refined
+ * axes: this is the first guess.  The values that are known tell how many points of the next level each point
+ * brings, and so how many the others of its level will bring.  Near one end of the grid boundaries may be
+ * denser than near the other, so the first guess has the weight of a whole level. */
+static double expect(const fst_refinement *r)
+{
+    const double guess = ldexp(1.0, r->axis_count - 1);
+    double before = (double)r->wanted_by_level[0], sum = before;
+    for (int level = 1; level <= r->levels; ++level) {
+        const double wanted = (double)r->wanted_by_level[level], known = (double)r->known_by_level[level - 1];
+        const double brought = before > 0.0 ? (wanted + before * guess) / (known + before) : 0.0;
+        before = wanted + brought * (before - known);
+        sum += before;
+    }
+    return sum;
+}
+
 fst_refinement_counts fst_refinement_count(const fst_refinement *r)
 {
-    double expected = 0.0, at_level = 0.0;
-    int deepest = r->levels;
-    while (deepest > 1 && r->wanted_by_level[deepest] == 0)
-        --deepest;
-    for (int level = 0; level <= r->levels; ++level) {
-        const double wanted = (double)r->wanted_by_level[level];
-        at_level = level < deepest ? wanted : fmax(wanted, ldexp(at_level, r->axis_count - 1));
-        expected += at_level;
-    }
     const double most = (double)r->points;
     const int64_t wanted = (int64_t)r->set.count;
-    return (fst_refinement_counts){
-        wanted, r->known,
-        wanted == r->known && !fst_refinement_has_next(r) ? wanted : (int64_t)fmin(expected, most)};
+    const int is_over = wanted == r->known && !fst_refinement_has_next(r);
+    return (fst_refinement_counts){wanted, r->known, is_over ? wanted : (int64_t)fmin(expect(r), most),
+                                   r->undefined};
 }
 
 /* ------------------------------------------------------------------ the cells at the end */
@@ -415,7 +435,7 @@ static void want_coarse(fst_refinement *r)
             break;
         }
         if (skip == 0)
-            want(r, point, 0);
+            want(r, point);
         point += skip > 0 ? skip : 1;
     }
 }

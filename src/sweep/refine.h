@@ -26,9 +26,9 @@ int fst_refinement_has_next(const fst_refinement *refinement);
 fst_status fst_refinement_note(fst_refinement *refinement, int64_t point, double value, fst_error *error);
 
 /* Points that are wanted so far, how many of them have values, and about how many there will be in the end.  It
- * is over when the first two are equal. */
+ * is over when the first two are equal.  `undefined`: how many of the values are NAN. */
 typedef struct fst_refinement_counts {
-    int64_t wanted, known, expected;
+    int64_t wanted, known, expected, undefined;
 } fst_refinement_counts;
 fst_refinement_counts fst_refinement_count(const fst_refinement *refinement);
 

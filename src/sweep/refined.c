@@ -25,6 +25,10 @@ fst_status fst_refining_of(const fst_sweep_options *o, fst_refining *refining, f
 {
     const char *key = o->refine_by ? o->refine_by : "regime";
     *refining = (fst_refining){.levels = o->refine, .step = o->refine_step};
+    if (o->refine == 0 && (o->refine_by || o->refine_step != 0))
+        return fst_fail(
+            error, FST_BAD_INPUT, "fst_sweep_options.refine_by",
+            "a key or a step belongs to a refined sweep, but `refine` is 0: give it a number of levels");
     if (o->refine == 0)
         return FST_OK;
     if (o->carry != FST_CARRY_NO)

@@ -93,10 +93,11 @@ static void count_points(sweep *s)
     fst_sweep_counts *c = s->counts;
     const fst_refinement_counts refined = s->refinement
                                               ? fst_refinement_count(s->refinement)
-                                              : (fst_refinement_counts){c->points, c->there, c->points};
+                                              : (fst_refinement_counts){c->points, c->there, c->points, 0};
     c->wanted = refined.wanted;
     c->computed = refined.known;
     c->expected = refined.expected;
+    c->undefined = refined.undefined;
 }
 
 /* ------------------------------------------------------------------ tasks */

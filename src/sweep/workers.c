@@ -9,6 +9,7 @@
  */
 #include "sweep/workers.h"
 
+#include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
@@ -98,7 +99,8 @@ static int row_done(void *user, fst_row_job *row, fst_status status, const fst_r
         return 0;
     row->point = fst_chain_point(w->identity, chain, place);
     row->has_start = status == FST_OK && result->regime != FST_REGIME_EJECTED &&
-                     result->regime != FST_REGIME_LIFTED && result->periods >= row->params.run_periods;
+                     result->regime != FST_REGIME_LIFTED &&
+                     (result->periods >= row->params.run_periods || !isnan(result->settled_at));
     memcpy(row->start, result->final_state, sizeof row->start);
     (void)fst_grid_params(w->identity->grid, row->point, &row->params, NULL);
     return 1;

@@ -201,7 +201,8 @@ static fst_status follow_scene(const fst_params *compare, const fst_measurement 
     params.run_samples = params.run_samples < 128 ? 128 : params.run_samples;
     options.sink = (fst_run_sink){&s, keep_sample, NULL};
     options.progress = progress;
-    options.sample_from = fst_run_discard(&params);
+    if (params.run_until != FST_UNTIL_SETTLED) /* which may end before its discard */
+        options.sample_from = fst_run_discard(&params);
     if (status == FST_OK)
         status = fst_run(&params, &options, &run, error);
     if (status == FST_OK && run.regime != FST_REGIME_COUNTER_ROTATING && run.regime != FST_REGIME_COROTATING)

@@ -23,6 +23,7 @@
 
 #include "base/constants.h"
 #include "base/error.h"
+#include "base/watch.h"
 #include "track/fit.h"
 #include "track/fit_errors.h"
 #include "track/fit_path.h"
@@ -39,8 +40,10 @@ static const double unit_of[NUISANCES] = {1e-3, 1e-3, 1e-3, 1.0, 0.1, 1e-3, 1e-2
 typedef struct track_fit {
     fit_space space;
     const fst_minpack *minpack;
-    const fst_progress *progress;
-    int frames, used; /* all; those of the present window */
+    const fst_progress *outer; /* the caller's; NULL: nobody is told */
+    fst_progress progress;     /* ours, told by all parts of the search */
+    double rounds;             /* over all frames so far */
+    int frames, used;          /* all; those of the present window */
     double *t;
     double complex *z;
     double *weight; /* 0: left out */
@@ -56,6 +59,28 @@ typedef struct track_fit {
     fst_status status;
     fst_error *error;
 } track_fit;
+
+/* ------------------------------------------------------------------ progress */
+
+enum { FRAMES_UNASKED = 128 }; /* frames between two questions: some milliseconds */
+
+/* Where the parts of the work end: measuring the track, fitting the three numbers of the film. */
+static const double MEASURED = 0.05, ROUGHLY_FITTED = 0.3;
+
+/* How many rounds the search takes is not known: what is told approaches 1. */
+static fst_status tell_rounds(void *user, double fraction, const char *what, fst_error *error)
+{
+    const track_fit *f = user;
+    (void)fraction;
+    (void)what;
+    const double done = f->rounds / (f->rounds + 30.0);
+    return fst_tell(f->outer, ROUGHLY_FITTED + (1.0 - ROUGHLY_FITTED) * done, "search", error);
+}
+
+static fst_status ask_at(const track_fit *f, int frame, fst_error *error)
+{
+    return frame % FRAMES_UNASKED == 0 ? fst_tell(&f->progress, 0.0, NULL, error) : FST_OK;
+}
 
 /* ------------------------------------------------------------------ the model's places */
 
@@ -83,9 +108,9 @@ static fst_status find_path(track_fit *f, const double *v, fit_path *path, fst_e
     params.drive_frequency = drive;
     params.drive_omega = NAN;
     if (f->orbit.means.period > 0.0)
-        status = fst_orbit_near(&params, &f->orbit, 1e-11, f->progress, &orbit, error);
+        status = fst_orbit_near(&params, &f->orbit, 1e-11, &f->progress, &orbit, error);
     if (status != FST_OK && status != FST_INTERRUPTED)
-        status = fst_orbit_find(&params, f->progress, &orbit, error);
+        status = fst_orbit_find(&params, &f->progress, &orbit, error);
     if (status == FST_OK)
         status = fit_path_make(&params, &orbit, path, error);
     if (status != FST_OK)
@@ -119,11 +144,14 @@ static int residual_count(const track_fit *f)
 static fst_status residuals(track_fit *f, const double *v, double *r, fst_error *error)
 {
     fit_path path;
-    const fst_status status = find_path(f, v, &path, error);
+    fst_status status = find_path(f, v, &path, error);
+    f->rounds += 1.0;
     if (status != FST_OK)
         return status;
     const double complex tilt = nuisance(f, v, TILT_X) + nuisance(f, v, TILT_Y) * I;
     for (int i = 0; i < f->used; ++i) {
+        if ((status = ask_at(f, i, error)) != FST_OK)
+            return status;
         const double complex miss = (place(f, &path, v, i) - on_plate(tilt, f->z[i])) * (f->weight[i] / NOISE);
         r[2 * i] = creal(miss);
         r[2 * i + 1] = cimag(miss);
@@ -209,11 +237,11 @@ static fst_status find_phases(track_fit *f, fst_error *error)
     const double v[FIT_MOST + NUISANCES] = {0.0};
     fit_path path;
     double least = INFINITY;
-    const fst_status status = find_path(f, v, &path, error);
+    fst_status status = find_path(f, v, &path, error);
     for (int k = 0; k < PHASES && status == FST_OK; ++k) {
         double complex mean_z = 0, mean_w = 0, product = 0;
         double square = 0;
-        for (int i = 0; i < f->used; ++i) {
+        for (int i = 0; i < f->used && status == FST_OK; ++i) {
             const double complex seen = on_plate(f->tilt, f->z[i]), z = f->sense > 0 ? seen : conj(seen);
             const double complex w =
                 fit_path_at(&path, f->drive, 0.0, (double)k / PHASES, f->exposure[0], f->t[i]);
@@ -221,6 +249,7 @@ static fst_status find_phases(track_fit *f, fst_error *error)
             mean_w += w / f->used;
             product += z * conj(w);
             square += creal(z * conj(z)) + creal(w * conj(w));
+            status = ask_at(f, i, error);
         }
         product -= f->used * mean_z * conj(mean_w);
         square -= f->used * creal(mean_z * conj(mean_z) + mean_w * conj(mean_w));
@@ -370,9 +399,10 @@ static fst_status estimate(track_fit *f, const double *v, fit_estimate *e, doubl
         sum += r[2 * i] * r[2 * i] + r[2 * i + 1] * r[2 * i + 1];
     }
     const double variance = sum / fmax(2.0 * kept - n, 1.0);
+    const double scatter = status == FST_OK ? sqrt(variance * redness(f, r)) : NAN;
     for (int i = 0; i < 2 * f->used && status == FST_OK; ++i)
         for (int k = 0; k < n; ++k)
-            jacobian[i + m * k] /= sqrt(variance * redness(f, r));
+            jacobian[i + m * k] /= scatter;
     if (status == FST_OK && !fit_covariance(jacobian, m, n, &covariance))
         status = fst_fail(
             error, FST_BAD_INPUT, "fst_fit",
@@ -437,6 +467,9 @@ static fst_status begin(track_fit *f, const fst_params *params, const fst_measur
     (void)snprintf(one, sizeof one, "1 %s", track->length_unit);
     (void)fst_parse_value(one, FST_UNIT_LENGTH, &unit, NULL);
     const fst_points points = as_points(seen, drive, unit, &row);
+    fst_part part = {options->progress, MEASURED, ROUGHLY_FITTED, NULL};
+    const fst_progress progress = {&part, fst_part_tell};
+    roughly.progress = &progress;
     roughly.curve_points = roughly.rivals = roughly.bootstrap = 0;
     fst_status status = fst_fit_points(params, &points, &roughly, &rough, error);
     if (status == FST_OK)
@@ -452,7 +485,8 @@ static fst_status begin(track_fit *f, const fst_params *params, const fst_measur
         const int held = (k == EXPOSURE && !(f->exposure[1] > 0.0)) || (k >= TILT_X && f->tilt == 0.0);
         f->slot[k] = held ? -1 : f->nuisances++;
     }
-    f->progress = options->progress;
+    f->outer = options->progress;
+    f->progress = (fst_progress){f, tell_rounds};
     status = fit_space_begin(&f->space, &start, options, error);
     if (status == FST_OK && f->space.count + f->nuisances > FIT_MOST)
         status = fst_fail(error, FST_BAD_INPUT, "fst_fit_options.free", "there are more than %d parameters",
@@ -473,7 +507,10 @@ fst_status fst_fit_track(const fst_params *params, fst_track *track, const fst_f
     memset(&e, 0, sizeof e);
     memset(fit, 0, sizeof *fit);
     fit->params = *params;
+    fst_part part = {options->progress, 0.0, MEASURED, "measure"};
+    const fst_progress progress = {&part, fst_part_tell};
     how.drive = options->drive;
+    how.progress = &progress;
     fst_status status = fit_remark(fit, error, "%s", "");
     if (status == FST_OK)
         status = fst_minpack_load(&f.minpack, error);
