@@ -120,8 +120,17 @@ def listens(process):
     return bool(int(caught, 16) >> (signal.SIGINT - 1) & 1)
 
 
+def is_over(number):
+    """Whether a process has ended, also where nobody has asked for its status yet (a zombie)."""
+    try:
+        with open(f"/proc/{number}/stat", encoding="ascii") as file:
+            return file.read().rpartition(")")[2].split()[0] == "Z"
+    except OSError:
+        return True
+
+
 def children_of(process):
-    """The process numbers of a program's children, as mpirun's ranks; none once they have ended. process.had_children
+    """The process numbers of a program's children that are at work, as mpirun's ranks. process.had_children
     says whether there ever were any (Linux tells in /proc)."""
     try:
         with open(f"/proc/{process.pid}/task/{process.pid}/children", encoding="ascii") as file:
@@ -129,11 +138,12 @@ def children_of(process):
     except OSError:
         return []
     process.had_children = getattr(process, "had_children", False) or bool(found)
-    return found
+    return [number for number in found if not is_over(number)]
 
 
 def lost_its_children(process):
-    """Whether a program had children and has none any more: an mpirun whose ranks were killed sometimes hangs then."""
+    """Whether a program had children and none is at work any more: an mpirun whose ranks were killed sometimes hangs
+    then, before or after it has asked how they ended."""
     return not children_of(process) and getattr(process, "had_children", False)
 
 

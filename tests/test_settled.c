@@ -239,7 +239,7 @@ static void go_on(fst_watched_run *run, double periods)
         assert_int_equal(fst_watched_run_go_on(run, 1, &over, NULL), FST_OK);
 }
 
-/* The error bars of means are twice those of the window, and take in the way that is left; at rest that is the
+/* The error bars of means are those of the window, and take in the way that is left; at rest that is the
  * swing about the place, and where n turns freely all that <n_z> may become. */
 static void test_error_bars(void **unused)
 {
@@ -263,9 +263,9 @@ static void test_error_bars(void **unused)
             fst_run_result r = {.omega = omega, .mean_nz = -0.75};
             r.mean_r_error = r.mean_nz_error = r.mean_alpha_dot_error = bar;
             fst_settling_widen_errors(&run, &r);
-            CHECK_CLOSE(r.mean_r_error, fmax(2.0 * bar, way), 1e-15);
-            CHECK_CLOSE(r.mean_nz_error, fmax(fmax(2.0 * bar, way), scene == 2 ? 0.25 : 0.0), 1e-15);
-            CHECK_CLOSE(r.mean_alpha_dot_error, fmax(2.0 * bar, way * omega), 1e-15);
+            CHECK_CLOSE(r.mean_r_error, fmax(bar, way), 1e-15);
+            CHECK_CLOSE(r.mean_nz_error, fmax(fmax(bar, way), scene == 2 ? 0.25 : 0.0), 1e-15);
+            CHECK_CLOSE(r.mean_alpha_dot_error, fmax(bar, way * omega), 1e-15);
         }
         fst_watched_run_free(&run);
     }
