@@ -238,9 +238,9 @@ static void test_one_way(void **unused)
     (void)unused;
     made_up m = TURNING;
     m.alpha_dot_error = 0.01;
-    EITHER_SIDE(m, alpha_dot, -0.049, FST_REGIME_UNDECIDED, "neither way", -0.051, FST_REGIME_COUNTER_ROTATING,
-                "does not close");
-    EITHER_SIDE(m, alpha_dot, 0.049, FST_REGIME_UNDECIDED, "neither way", 0.051, FST_REGIME_COROTATING,
+    EITHER_SIDE(m, alpha_dot, -0.0245, FST_REGIME_UNDECIDED, "neither way", -0.0255,
+                FST_REGIME_COUNTER_ROTATING, "does not close");
+    EITHER_SIDE(m, alpha_dot, 0.0245, FST_REGIME_UNDECIDED, "neither way", 0.0255, FST_REGIME_COROTATING,
                 "does not close");
 }
 

@@ -52,7 +52,7 @@ static const double QUIET = 2.0;          /* the same: below e^2 of growth a mot
 /* The same without friction: neighbours on tori part like a power of time, by e^2.4 for the first. */
 static const double QUIET_WITHOUT_FRICTION = 4.0;
 static const double SIGNIFICANT = 3.0; /* exponent over the part of its error that is chance */
-static const double ONE_WAY = 2.5; /* |<alpha'>| over its error: below, the bead circles neither way */
+static const double ONE_WAY = 2.5;     /* |<alpha'>| over its error: below, the bead circles neither way */
 enum {
     LEAST_PERIODS = 4,                   /* whole drive periods without which nothing is decided */
     LEAST_OPEN_CROSSINGS = 64,           /* the same, where the orbit does not close */
