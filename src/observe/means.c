@@ -139,8 +139,7 @@ static unseen unseen_of(const fst_window *w, const fst_mark_series *series, cons
         farthest = fmax(farthest, SHIFT * fst_state_distance(series->kept[i].state, last->state));
     cut.r = fmin(cut.r, farthest / blocks);
     cut.nz = fmin(cut.nz, farthest / blocks);
-    cut.alpha_dot =
-        fst_window_is_bounded(w) ? fmin(cut.alpha_dot, omega * farthest / blocks) : omega * farthest / blocks;
+    cut.alpha_dot = fmin(cut.alpha_dot, omega * farthest / blocks);
     return cut;
 }
 
