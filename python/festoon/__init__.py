@@ -29,7 +29,8 @@ from .flows import Flow
 from .measuring import Fit, Measurement, Track, fit, measure, read_track, save_points
 from .orbits import Branch, Locked, LockedStates, Lyapunov, Orbit
 from .runs import Run
-from .sweeps import Sweep, sweep
+from .sweeping import sweep
+from .sweeps import Sweep
 from .trajectories import Trajectory
 
 __version__ = _text_of(_lib.fst_version())

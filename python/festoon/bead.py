@@ -470,7 +470,7 @@ class Bead(Parameters):
 
     def sweep(self, **keywords: Any) -> "Sweep":
         """Runs over a grid of parameters: :func:`festoon.sweep` with this bead."""
-        from .sweeps import sweep
+        from .sweeping import sweep
 
         return sweep(self, **keywords)
 

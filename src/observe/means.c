@@ -13,7 +13,7 @@
  *     unseen       what all blocks may lack alike, because they end within a swing: unseen_of()
  *     tolerance    what the integration may have lost
  *
- * The error is the largest of the five: a limit that the mean of a motion without end is to keep, and 1.96
+ * The error is the largest of the five: a limit that the mean of a motion without end is to keep, and two
  * standard errors where chance alone moves the blocks.  Whether a drift means that a motion has not settled is
  * not decided here, but in study/drift.c.
  */

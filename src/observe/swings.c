@@ -7,9 +7,10 @@
  *     r          ^  .  ^  .  ^  .  ^  .  ^  .  ^  .  ^       2.1 periods of the drive are a cycle: all blocks
  *                |   cycle   |   cycle   |   cycle   |       cut off nearly the same, and agree on a wrong mean
  *
- * r has maxima in each cycle, one or several.  Eight of them are compared with the next: the first that is
- * about as close as the closest tells how many a cycle has.  From then on maxima are counted; those that end a
- * whole cycle are marks, and only those are located that the series keeps.
+ * r has maxima in each cycle, one or several, and the state at a maximum comes back a cycle later.  So the
+ * state at a maximum is compared with those at the eight maxima before it: the latest of these that is nearly
+ * as close as the closest lies a cycle back.  From then on maxima are counted.  The last one of each cycle is a
+ * mark.  Only the marks that the series keeps are located, because that takes time.
  *
  * The motion need not repeat itself: where marks have different states, the errors of the means say so
  * (means.c).

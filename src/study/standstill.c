@@ -52,7 +52,8 @@ static void scale(matrix a, double factor)
             a[i][j] *= factor;
 }
 
-/* The projector to deviations across n, or to those that leave it alone. */
+/* The projector that takes out of a deviation what lies along n, because n keeps its length, or, where n turns
+ * freely, all of its change of n, because nothing holds n. */
 static void across(const double *n, int is_free, matrix p)
 {
     const double n2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];

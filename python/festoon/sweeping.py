@@ -1,0 +1,196 @@
+"""Runs over a grid of parameters, on all processors."""
+
+import os
+import tempfile
+import threading
+import warnings
+from typing import Any, List, Optional, Tuple
+
+import numpy as np
+
+from ._errors import BadInput, Interrupted, OutOfMemory
+from ._native import Watch, error_of, ffi, lib, new_error, options_of, path_bytes, strings
+from ._progress import Progress, bar_for
+from ._quantities import value_text
+from .bead import Bead, key_of
+from .sweeps import Path, Sweep, grid_of, read_sweep, sweep_of
+
+CARRY = {None: lib.FST_CARRY_NO, "up": lib.FST_CARRY_UP, "down": lib.FST_CARRY_DOWN}
+
+
+def axis_text(keyword: str, values: Any) -> str:
+    """An axis as the library reads it: KEY=A,B,C; a text is taken as it is ("8:20:13", "8 Hz:20 Hz:5:log")."""
+    if isinstance(values, str):
+        return f"{key_of(keyword)}={values}"
+    if hasattr(values, "__next__"):
+        values = list(values)
+    words = [value_text(value, key_of(keyword)) for value in np.atleast_1d(np.asarray(values, object)).ravel()]
+    return f"{key_of(keyword)}={','.join(words)}"
+
+
+def _work(batch: Any, threads: List[threading.Thread], count: int, failures: List[BaseException]) -> None:
+    """Let so many threads do the batch; they are in `threads` before they begin, so that none is left behind."""
+
+    def work() -> None:
+        error = new_error()
+        status = lib.pyf_batch_work(batch, error)
+        if status not in (lib.FST_OK, lib.FST_INTERRUPTED):
+            failures.append(error_of(error))
+            lib.pyf_batch_stop(batch)
+
+    for i in range(count):
+        threads.append(threading.Thread(target=work, name=f"festoon-{i}", daemon=True))
+        threads[-1].start()
+
+
+def _join(threads: List[threading.Thread]) -> None:
+    """Wait for threads that have been told to stop; a second Ctrl-C does not leave them behind."""
+    for thread in threads:
+        while thread.is_alive():
+            try:
+                thread.join()
+            except KeyboardInterrupt:
+                pass
+
+
+def _in_memory(
+    grid: Any, field_map: Any, threads: int, lanes: int, portable: bool, progress: Progress
+) -> Sweep:
+    arithmetic = lib.FST_ARITHMETIC_PORTABLE if portable else lib.fst_best_arithmetic()
+    made = lib.pyf_batch_new(grid, arithmetic, lanes)
+    if not made:
+        raise OutOfMemory("sweep", f"no memory for {lib.fst_grid_points(grid)} rows")
+    batch = ffi.gc(made, lib.pyf_batch_free)
+    points = int(lib.fst_grid_points(grid))
+    failures: List[BaseException] = []
+    workers: List[threading.Thread] = []
+    bar = bar_for(progress, "sweep")
+    whole = False
+    try:
+        _work(batch, workers, max(1, min(threads, points)), failures)
+        for worker in workers:
+            while worker.is_alive():
+                worker.join(0.05)
+                done = int(lib.pyf_batch_done(batch))
+                bar.tell(done / points, f"{done} of {points} runs")
+        whole = True
+    except KeyboardInterrupt:
+        lib.pyf_batch_stop(batch)
+        _join(workers)
+        raise Interrupted(sweep_of(batch, grid, field_map)) from None
+    finally:
+        bar.end(whole)
+        lib.pyf_batch_stop(batch)
+        _join(workers)
+    if failures:
+        raise failures[0]
+    return sweep_of(batch, grid, field_map)
+
+
+def _into_file(
+    bead: Bead,
+    axes: List[str],
+    path: Path,
+    seed: int,
+    carry: Optional[str],
+    threads: int,
+    lanes: int,
+    portable: bool,
+    refining: Tuple[int, Optional[str], float],
+    progress: Progress,
+) -> Sweep:
+    options = options_of(lib.fst_default_sweep_options())
+    words, _kept = strings(axes)
+    options.axes, options.axis_count, options.seed = words, len(axes), seed
+    if carry not in CARRY:
+        raise BadInput("fst_sweep_options.carry", f'unknown direction "{carry}": up or down')
+    options.carry, options.threads, options.lanes = CARRY[carry], threads, lanes
+    levels, by, step = refining
+    key = ffi.new("char[]", by.encode()) if by else ffi.NULL
+    options.refine, options.refine_by, options.refine_step = levels, key, step
+    if portable:
+        options.arithmetic = lib.FST_ARITHMETIC_PORTABLE
+    counts = ffi.new("fst_sweep_counts *")
+    with Watch(progress, lambda: read_sweep(path), "sweep") as watch:
+        options.progress = watch.told
+        watch.call(lib.fst_sweep, bead._params, path_bytes(path), options, counts)
+    if 0 < counts.undefined == counts.computed:
+        warnings.warn(f"{by or 'regime'} has no value in any run, so nothing was refined", stacklevel=3)
+    return read_sweep(path)
+
+
+def _refining(levels: int, by: Optional[str], step: float) -> Tuple[int, Optional[str], float]:
+    """What was asked for, where the step may also stand behind the key: "mean_r:0.05"."""
+    key, colon, text = (by or "").partition(":")
+    if not colon:
+        return levels, by, step
+    if step != 0.0:
+        raise BadInput("refine_step", f'the step stands in refine_by="{by}" already: give it once')
+    try:
+        return levels, key, float(text)
+    except ValueError:
+        raise BadInput("refine_by", f'"{text}" in "{by}" must be a number, without a unit') from None
+
+
+def sweep(
+    bead: Optional[Bead] = None,
+    *,
+    file: Optional[Path] = None,
+    carry: Optional[str] = None,
+    threads: Optional[int] = None,
+    lanes: int = 0,
+    portable: bool = False,
+    seed: int = 0,
+    refine: int = 0,
+    refine_by: Optional[str] = None,
+    refine_step: float = 0.0,
+    progress: Progress = None,
+    **axes: Any,
+) -> Sweep:
+    """Run a bead over a grid of parameters: a :class:`Sweep`, on all processors that this process may use.
+
+    Parameters
+    ----------
+    axes
+        Parameters as keywords, each with an array, a list (of numbers, texts with units, or names of choices) or
+        a text as the program takes it ("8:20:13", "1:100:20:log", "0.9:1.1:random:50").  Axes multiply.
+    file
+        A database: rows are kept in it, and the same call goes on where an interrupted one ended.
+    carry
+        "up" or "down": each run starts from the end of its neighbour along the first axis.
+    portable
+        Arithmetic that gives the bits of Bead.run() on every machine; slower.
+    seed
+        Of random axes.
+    refine
+        N: compute every 2**N-th value of each axis that is a text "LO:HI:COUNT" first, then those between, N times,
+        where the regime differs between neighbours.  The sweep has the shape of the whole grid all the same;
+        `computed` says where there are runs.  At the other points numbers are NaN and the regime is "".  Arrays
+        and lists have no order: what each of their values gives is refined by itself.
+    refine_by, refine_step
+        Refine where this key differs instead: "symmetry", or a number by more than the step (in scaled units),
+        which may also stand behind the key: "mean_r:0.05".
+
+    A run that fails is a row of NaN with an error, not an exception.  Ctrl-C raises `Interrupted`, whose
+    `partial` is the sweep with the rows that were done.
+
+    >>> s = sweep(Bead(run__periods=40), kappa=[1.2, 1.5])
+    >>> s.shape, [str(regime) for regime in s.regime]
+    ((2,), ['counter-rotating', 'counter-rotating'])
+    """
+    bead = (bead or Bead())._asked()
+    texts = [axis_text(keyword, values) for keyword, values in axes.items()]
+    if threads is not None and threads < 0:
+        raise BadInput("threads", f"{threads} is no number of threads: 1 or more, or 0 for all processors")
+    count = threads or len(os.sched_getaffinity(0))
+    grid = grid_of(bead, texts, seed)
+    refining = _refining(refine, refine_by, refine_step)
+    if file is not None:
+        return _into_file(bead, texts, file, seed, carry, count, lanes, portable, refining, progress)
+    if carry is not None or refining != (0, None, 0.0):
+        with tempfile.TemporaryDirectory(prefix="festoon-") as folder:
+            path = os.path.join(folder, "sweep.db")
+            return _into_file(bead, texts, path, seed, carry, count, lanes, portable, refining, progress)
+    made = _in_memory(grid, bead._map, count, lanes, portable, progress)
+    made._seed = seed
+    return made
