@@ -242,6 +242,24 @@ static void test_extremes_begin_with_the_window(void **unused)
     }
 }
 
+/* However much an open orbit's states differ, its <alpha'> cannot lack more than half a turn of Phi over the
+ * window's time; where they differ little, it lacks less. */
+static void test_errors_of_open_turning(void **unused)
+{
+    (void)unused;
+    static const double apart[] = {0.01, 10.0};
+    for (int far = 0; far < 2; ++far) {
+        by_hand *b = begin();
+        b->run.window.least_bead_angle = 0.0;
+        b->run.window.greatest_bead_angle = 100.0;
+        for (int i = 0; i <= BLOCKS; ++i)
+            b->marks.kept[i].state[FST_X] = i % 2 ? apart[far] : 0.0;
+        const double half_turn = FST_PI / (SPAN * BLOCKS);
+        const double expected = far ? half_turn : 0.31 * 2.0 * apart[far] / BLOCKS;
+        CHECK_CLOSE(conclude(b).mean_alpha_dot_error, expected, 1e-9 * expected);
+    }
+}
+
 /* Within less than a whole drive period there are no means, and the reason names the keys that would help. */
 static void test_no_whole_period(void **unused)
 {
@@ -266,6 +284,7 @@ int main(void)
         cmocka_unit_test(test_the_rate_of_dry_friction),
         cmocka_unit_test(test_powers_on_a_ramp),
         cmocka_unit_test(test_extremes_begin_with_the_window),
+        cmocka_unit_test(test_errors_of_open_turning),
         cmocka_unit_test(test_no_whole_period),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
